@@ -1,0 +1,47 @@
+#include <seiche/backend/backends.hpp>
+#include <seiche/backend/dense.hpp>
+#include <seiche/backend/modal.hpp>
+#include <seiche/core/error.hpp>
+
+#include <fftw3.h>
+
+#include <array>
+
+namespace seiche {
+namespace {
+
+constexpr std::array list = {
+    BackendEntry{"dense", "full matrices in physical coordinates: the reference, and the fastest for a few unknowns",
+                 dense_system},
+    BackendEntry{"modal", "Fourier or sine coefficients, one small block per mode: exact and fast on grids", modal_system},
+};
+
+}  // namespace
+
+std::span<const BackendEntry> backends() { return list; }
+
+std::vector<std::string> backend_names() {
+  std::vector<std::string> names;
+  for (const BackendEntry& entry : list) names.emplace_back(entry.name);
+  return names;
+}
+
+const BackendEntry& find_backend(std::string_view name) {
+  for (const BackendEntry& entry : list)
+    if (entry.name == name) return entry;
+  std::vector<std::string> allowed = backend_names();
+  allowed.emplace_back("auto");
+  throw unknown_name("backend", name, allowed);
+}
+
+const BackendEntry& automatic_backend(const Problem& problem) {
+  constexpr Index dense_up_to = 12;  // unknowns; docs/performance.md has the measurement
+  return find_backend(problem.size() <= dense_up_to ? "dense" : "modal");
+}
+
+std::map<std::string, std::string> backend_library_versions() {
+  return {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"fftw", fftw_version}};
+}
+
+}  // namespace seiche

@@ -1,0 +1,31 @@
+// The list of backends.
+#pragma once
+
+#include <seiche/core/system.hpp>
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seiche {
+
+struct BackendEntry {
+  std::string_view name;
+  std::string_view summary;
+  System (*system)(const Problem& problem, const BackendOptions& options);
+};
+
+std::span<const BackendEntry> backends();
+std::vector<std::string> backend_names();
+const BackendEntry& find_backend(std::string_view name);  // throws Error with the nearest name
+
+// What `auto` stands for: a stored table of sizes, never a timing.
+const BackendEntry& automatic_backend(const Problem& problem);
+
+// Name and version of each library the backends stand on.
+std::map<std::string, std::string> backend_library_versions();
+
+}  // namespace seiche

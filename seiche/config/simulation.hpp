@@ -1,0 +1,48 @@
+// A problem, a backend and a method put together: the way in for C++ programs and for every command.
+#pragma once
+
+#include <seiche/backend/backends.hpp>
+#include <seiche/method/methods.hpp>
+
+#include <memory>
+#include <string>
+
+namespace seiche {
+
+struct SimulationOptions {
+  std::string method = "seisav";
+  std::string backend = "auto";
+  MethodOptions method_options = {};
+  BackendOptions backend_options = {};
+};
+
+// Throws Error where the method does not apply to the problem, with the reason.
+class Simulation {
+ public:
+  explicit Simulation(const Problem& problem, const SimulationOptions& options = {});
+
+  // Back to z₀ at t = 0. Throws Error where the method cannot start there (C too small for a given C).
+  void restart();
+  StepReport step(double h) { return stepper_->step(state_, h); }
+
+  const State& state() const { return state_; }
+  State& state() { return state_; }
+  Vector physical() const { return system_.space->physical(state_.z); }
+  EnergyReading energy() const { return stepper_->energy(state_); }
+
+  const Problem& problem() const { return problem_; }  // as integrated: with D in S for `whole` methods
+  const System& system() const { return system_; }
+  Stepper& stepper() { return *stepper_; }
+  const MethodEntry& method() const { return method_; }
+  const std::string& backend() const { return backend_name_; }
+
+ private:
+  const MethodEntry& method_;
+  Problem problem_;
+  std::string backend_name_;
+  System system_;
+  std::unique_ptr<Stepper> stepper_;
+  State state_;
+};
+
+}  // namespace seiche

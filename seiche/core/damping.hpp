@@ -1,0 +1,18 @@
+// The linear damping D(t) and its flow.
+#pragma once
+
+#include <seiche/core/vector.hpp>
+
+namespace seiche {
+
+class Damping {
+ public:
+  virtual ~Damping() = default;
+  virtual bool is_zero() const = 0;
+  virtual bool touches_potential() const = 0;  // does it move a component that V depends on?
+  // z ← Ψ(t, t+h) z = exp(−∫ₜᵗ⁺ʰ D) z. The length h is passed instead of the end so that equal steps reuse one matrix.
+  virtual void flow(double t, double h, Vector& z) const = 0;
+  virtual void apply(double t, const Vector& z, Vector& out) const = 0;  // D(t) z
+};
+
+}  // namespace seiche

@@ -1,0 +1,87 @@
+#include <seiche/core/error.hpp>
+#include <seiche/core/law.hpp>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+
+namespace seiche {
+namespace {
+
+constexpr double round_off = 1e-13;  // relative to the size of the symbol
+
+struct Extreme {
+  double smallest;
+  double largest;
+  double size;
+  bool is_nonnegative() const { return smallest >= -round_off * size; }
+  bool is_nonpositive() const { return largest <= round_off * size; }
+};
+
+// Extreme eigenvalues over all modes of the Hermitian part of a symbol.
+template <class Symbol>
+Extreme hermitian_extremes(const Grid& grid, const Symbol& symbol) {
+  Extreme extreme{0, 0, 0};
+  const Modes range = modes(grid);
+  for (Index k = range.first; k < range.first + range.count; ++k) {
+    const Eigen::MatrixXcd a = symbol(k, range.period);
+    const Eigen::MatrixXcd hermitian = 0.5 * (a + a.adjoint());
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(hermitian, Eigen::EigenvaluesOnly).eigenvalues();
+    extreme.smallest = std::min(extreme.smallest, values.minCoeff());
+    extreme.largest = std::max(extreme.largest, values.maxCoeff());
+    extreme.size = std::max(extreme.size, a.cwiseAbs().maxCoeff());
+  }
+  return extreme;
+}
+
+Eigen::MatrixXcd rate_projection(const Problem& problem) {
+  Eigen::MatrixXcd p = Eigen::MatrixXcd::Zero(problem.field_count(), problem.field_count());
+  for (Index i = 0; i < problem.field_count(); ++i) p(i, i) = problem.damping.rate_fields[static_cast<std::size_t>(i)];
+  return p;
+}
+
+}  // namespace
+
+LawPromise promise_energy_law(const Problem& problem, double t_end) {
+  const auto m = [&](Index k, Index period) { return problem.M.symbol(k, period); };
+  const Extreme metric = hermitian_extremes(problem.grid, m);
+  if (!metric.is_nonnegative()) {
+    return {false, fmt::format("M is not positive semidefinite (eigenvalue {:.3g})", metric.smallest)};
+  }
+  const Extreme structure =
+      hermitian_extremes(problem.grid, [&](Index k, Index period) { return problem.S.symbol(k, period); });
+  if (!structure.is_nonpositive()) {
+    return {false, fmt::format("sym(S) is not negative semidefinite (eigenvalue {:.3g})", structure.largest)};
+  }
+  const LinearDamping& damping = problem.damping;
+  if (damping.is_zero()) return {true, "sym(S) ⪯ 0 and no damping flow"};
+
+  if (damping.rate) {
+    const double t_bad = damping.rate->first_negative_time(t_end);
+    if (t_bad >= 0) return {false, fmt::format("the rate {} is negative at t = {:.6g}", damping.rate->text(), t_bad)};
+  }
+  const Extreme constant = hermitian_extremes(problem.grid, [&](Index k, Index period) -> Eigen::MatrixXcd {
+    return problem.M.symbol(k, period) * problem.damping.constant.symbol(k, period);
+  });
+  const Extreme varying = damping.rate ? hermitian_extremes(problem.grid,
+                                                            [&](Index k, Index period) -> Eigen::MatrixXcd {
+                                                              return problem.M.symbol(k, period) *
+                                                                     rate_projection(problem);
+                                                            })
+                                       : Extreme{0, 0, 0};
+  if (!constant.is_nonnegative() || !varying.is_nonnegative()) {
+    return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
+  }
+  if (!problem.potential || !damping.moves(problem.potential_field)) {
+    return {true, "sym(MD) ⪰ 0 and V does not depend on the damped fields"};
+  }
+  // Damping moves what V depends on: sym(MD) ⪰ 0 is not enough. D = γI lets V fall where u·∇V(u) ≥ 0.
+  const bool scalar = damping.constant.is_zero() &&
+                      std::all_of(damping.rate_fields.begin(), damping.rate_fields.end(), [](bool b) { return b; });
+  if (scalar && problem.potential->grows_outward()) return {true, "D = γI and u·∇V(u) ≥ 0 for every u"};
+  return {false, "the damping moves the field that V depends on, and V can rise when it shrinks: the "
+                 "energy-compatible damping condition is not guaranteed"};
+}
+
+}  // namespace seiche

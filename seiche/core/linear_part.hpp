@@ -1,0 +1,21 @@
+// S and M in the coordinates of State::z.
+#pragma once
+
+#include <seiche/core/propagator.hpp>
+#include <seiche/core/vector.hpp>
+
+#include <memory>
+
+namespace seiche {
+
+class LinearPart {
+ public:
+  virtual ~LinearPart() = default;
+  virtual void apply_S(const Vector& z, Vector& out) const = 0;
+  virtual void apply_M(const Vector& z, Vector& out) const = 0;
+  virtual double quadratic_energy(const Vector& z) const = 0;     // ½zᵀMz
+  virtual double quadratic_magnitude(const Vector& z) const = 0;  // ½|z|ᵀ|M||z|, the scale of its round-off
+  virtual std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const = 0;
+};
+
+}  // namespace seiche

@@ -1,0 +1,28 @@
+// What watches a run. The library is silent; observers record and print.
+#pragma once
+
+#include <seiche/core/run_report.hpp>
+#include <seiche/core/state.hpp>
+#include <seiche/core/stepper.hpp>
+
+#include <cstdint>
+
+namespace seiche {
+
+// Due at step 0, at every `every_steps`-th step (never in between if 0) and at the last one.
+struct Schedule {
+  std::int64_t every_steps = 1;
+  bool is_due(std::int64_t n, bool last) const { return n == 0 || last || (every_steps > 0 && n % every_steps == 0); }
+};
+
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual bool is_due(const State& state, bool last) const = 0;
+  // `energy` was read at this state. Called for the initial state, after due steps, and for the last good state.
+  virtual void observe(const State& state, const EnergyReading& energy) = 0;
+  // Once, however the run ended: make what was recorded whole on disk.
+  virtual void finish(const RunReport& report) = 0;
+};
+
+}  // namespace seiche

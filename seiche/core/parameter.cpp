@@ -1,0 +1,24 @@
+#include <seiche/core/error.hpp>
+#include <seiche/core/parameter.hpp>
+
+#include <cmath>
+
+namespace seiche {
+
+void ParameterValues::set(const std::string& name, ParameterValue value) { values_[name] = std::move(value); }
+
+const ParameterValue& ParameterValues::at(const std::string& name) const {
+  const auto found = values_.find(name);
+  if (found == values_.end()) throw Error("parameter '{}' was not declared by the problem", name);
+  return found->second;
+}
+
+std::string out_of_bounds(const Parameter& p, double value) {
+  if (!std::isfinite(value)) return fmt::format("{} = {} must be a finite number", p.name, value);
+  const bool low = p.minimum_excluded ? value <= p.minimum : value < p.minimum;
+  if (low) return fmt::format("{} = {} must be {} {}", p.name, value, p.minimum_excluded ? ">" : "≥", p.minimum);
+  if (value > p.maximum) return fmt::format("{} = {} must be ≤ {}", p.name, value, p.maximum);
+  return "";
+}
+
+}  // namespace seiche

@@ -1,0 +1,51 @@
+// What a problem may be told: named values with defaults, bounds and a meaning, so that case files, error
+// messages and `seiche new` all read one list.
+#pragma once
+
+#include <seiche/core/rate.hpp>
+
+#include <limits>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace seiche {
+
+enum class ParameterKind { real, integer, rate, choice };  // rate: a number, or a formula in t
+
+struct Parameter {
+  std::string name;
+  ParameterKind kind = ParameterKind::real;
+  std::string default_value;
+  std::string meaning;
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  bool minimum_excluded = false;
+  std::vector<std::string> choices = {};
+};
+
+using ParameterValue = std::variant<double, long, RatePointer, std::string>;
+
+// Checked values, one for every Parameter of a problem. get<T> throws Error on a name the problem did not declare.
+class ParameterValues {
+ public:
+  void set(const std::string& name, ParameterValue value);
+  template <class T>
+  const T& get(const std::string& name) const {
+    return std::get<T>(at(name));
+  }
+  double real(const std::string& name) const { return get<double>(name); }
+  long integer(const std::string& name) const { return get<long>(name); }
+  const RatePointer& rate(const std::string& name) const { return get<RatePointer>(name); }
+  const std::string& choice(const std::string& name) const { return get<std::string>(name); }
+
+ private:
+  const ParameterValue& at(const std::string& name) const;
+  std::map<std::string, ParameterValue> values_;
+};
+
+// One sentence where `value` is outside the bounds of `parameter`, else "".
+std::string out_of_bounds(const Parameter& parameter, double value);
+
+}  // namespace seiche

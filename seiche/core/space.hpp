@@ -1,0 +1,22 @@
+// ℝⁿ with its coordinates: the only place that knows what the numbers in State::z are.
+#pragma once
+
+#include <seiche/core/vector.hpp>
+
+namespace seiche {
+
+// Coordinates are orthonormal: the Euclidean product of two states is that of their physical values.
+class Space {
+ public:
+  virtual ~Space() = default;
+  virtual Index size() const = 0;           // of State::z; may hold slots that are always zero
+  virtual Index physical_size() const = 0;  // fields × unknowns
+  virtual void to_physical(const Vector& z, Vector& values) const = 0;
+  virtual void from_physical(const Vector& values, Vector& z) const = 0;
+
+  double dot(const Vector& a, const Vector& b) const { return a.dot(b); }
+  Vector physical(const Vector& z) const;
+  double norm_inf(const Vector& z) const;  // of the physical values
+};
+
+}  // namespace seiche

@@ -1,0 +1,40 @@
+// A method: one row of the method table.
+#pragma once
+
+#include <seiche/core/state.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace seiche {
+
+struct StepReport {
+  enum class Status { solved, failed };
+  Status status = Status::solved;
+  int scalar_iterations = 0;  // Newton or fixed-point sweeps
+  int fallbacks = 0;          // times a solver left its first choice
+  int unresolved = 0;         // scalar equations whose root was not found (plain Newton only)
+  std::string message = {};   // set on failure: what, with the numbers
+
+  bool solved() const { return status == Status::solved; }
+  StepReport& operator+=(const StepReport& other);
+};
+
+struct EnergyReading {
+  double H = 0.0;                 // ½zᵀMz + V(z)
+  double modified = 0.0;          // ½zᵀMz + r² − C; equal to H where the method has none
+  double round_off = 0.0;         // of H
+  double modified_round_off = 0.0;
+};
+
+// Contract: a step that reports success obeys the method's energy law; a step that fails leaves the state as it was.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  virtual void begin(State& state) = 0;                    // fills what the method keeps beside z and t
+  virtual StepReport step(State& state, double h) = 0;     // from t to t + h; allocates nothing for an h seen before
+  virtual EnergyReading energy(const State& state) const = 0;
+  virtual bool has_modified_energy() const = 0;
+};
+
+}  // namespace seiche

@@ -1,0 +1,27 @@
+#include <seiche/method/closure.hpp>
+
+namespace seiche {
+
+EnergyReading Closure::energy(const State& s) const {
+  EnergyReading reading;
+  reading.H = reading.modified = system_.energy(s.z);
+  reading.round_off = reading.modified_round_off = system_.energy_round_off(s.z);
+  return reading;
+}
+
+ExplicitStep::ExplicitStep(Index size) {
+  for (Vector* v : {&z_mid, &g, &dz, &q, &delta, &z_plus, &gradient_}) v->setZero(size);
+}
+
+double ExplicitStep::prepare(const Potential& potential, const Propagator& propagator, const Vector& z) {
+  potential.gradient(z, gradient_);
+  propagator.predict(z, gradient_, z_mid);
+  const double v_mid = potential.value_and_gradient(z_mid, g);
+  propagator.increment(z, dz);
+  propagator.force(g, q);
+  delta = dz + q;
+  z_plus = z + delta;
+  return v_mid;
+}
+
+}  // namespace seiche

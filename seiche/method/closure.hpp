@@ -1,0 +1,49 @@
+// A closure chooses the force f of the Hamiltonian substep z⁺ = Ez + Ff, and with it the energy that the substep keeps.
+#pragma once
+
+#include <seiche/core/propagator.hpp>
+#include <seiche/core/state.hpp>
+#include <seiche/core/stepper.hpp>
+#include <seiche/core/system.hpp>
+
+namespace seiche {
+
+class Closure {
+ public:
+  explicit Closure(const System& system) : system_(system) {}
+  virtual ~Closure() = default;
+
+  virtual void begin(State&) {}
+  // A damping half-flow, z ← Ψ(t, t+h)z, with what the closure carries beside z.
+  virtual void damp(State& s, double t, double h) { system_.damping->flow(t, h, s.z); }
+  // The Hamiltonian substep of length h within the step that starts at t. On failure s is left in any state.
+  virtual StepReport advance(State& s, Propagators& propagators, double t, double h) = 0;
+  virtual EnergyReading energy(const State& s) const;
+  virtual bool has_modified_energy() const { return false; }
+
+ protected:
+  const System& system() const { return system_; }
+  const Potential& potential() const { return *system_.potential; }
+
+ private:
+  const System& system_;
+};
+
+// The explicit step z₁ = Ez + F∇V(ẑ) that every closure starts from, and its parts.
+struct ExplicitStep {
+  explicit ExplicitStep(Index size);
+  // Fills everything below from z; returns V(ẑ).
+  double prepare(const Potential& potential, const Propagator& propagator, const Vector& z);
+
+  Vector z_mid;  // ẑ
+  Vector g;      // ĝ = ∇V(ẑ)
+  Vector dz;     // FMz = (E − I)z
+  Vector q;      // Fĝ
+  Vector delta;  // δ₁ = dz + q
+  Vector z_plus; // z₁ = z + δ₁
+
+ private:
+  Vector gradient_;
+};
+
+}  // namespace seiche

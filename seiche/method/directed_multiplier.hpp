@@ -1,0 +1,32 @@
+// Directed multiplier: f = ∇V(ẑ) + λd with d = z₁ − z, where V(z⁺) − V(z) = fᵀ(z⁺ − z) fixes λ. The equation stays well
+// conditioned at turning points of V, where that of the Lagrange multiplier does not.
+#pragma once
+
+#include <seiche/method/closure.hpp>
+#include <seiche/method/multiplier.hpp>
+
+#include <memory>
+
+namespace seiche {
+
+class DirectedMultiplier {
+ public:
+  explicit DirectedMultiplier(const System& system);
+
+  // z ← z⁺ by substeps of at least h / 2^depth: where λ is not found near 0 the substep is halved.
+  StepReport advance(Vector& z, Propagators& propagators, double h, int depth = max_depth);
+  // The same, with `start` already prepared from z for h.
+  StepReport finish(Vector& z, const ExplicitStep& start, Propagators& propagators, double h, int depth = max_depth);
+
+  static constexpr int max_depth = 8;
+
+ private:
+  const System& system_;
+  ExplicitStep start_;
+  MultiplierEquation equation_;
+  Vector q_;
+};
+
+std::unique_ptr<Closure> make_dm_closure(const System& system);
+
+}  // namespace seiche

@@ -1,0 +1,108 @@
+#include <seiche/core/error.hpp>
+#include <seiche/method/directed_multiplier.hpp>
+#include <seiche/method/lm.hpp>
+
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+class LmClosure final : public Closure {
+ public:
+  LmClosure(const System& system, const MethodOptions& options)
+      : Closure(system),
+        solver_(options.scalar_solver),
+        frozen_(options.auxiliary == AuxiliaryMode::frozen && system.damping->touches_potential()),
+        start_(system.space->size()),
+        equation_(*system.potential, system.space->size()),
+        directed_(system) {
+    if (frozen_)
+      for (Vector* v : {&before_damping_, &end_, &direction_}) v->setZero(system.space->size());
+  }
+
+  void damp(State& s, double t, double h) override {
+    if (frozen_) before_damping_ = s.z;
+    Closure::damp(s, t, h);
+  }
+  StepReport advance(State& s, Propagators& propagators, double t, double h) override;
+
+ private:
+  void set_equation(const Vector& z, double t, double h);
+  StepReport solve_robustly(Vector& z, Propagators& propagators, double h);
+  StepReport solve_by_newton(Vector& z, double t);
+
+  ScalarSolver solver_;
+  bool frozen_;
+  ExplicitStep start_;
+  MultiplierEquation equation_;
+  DirectedMultiplier directed_;
+  Vector before_damping_, end_, direction_;  // frozen: zⁿ, Ψ₂z₁, Ψ₂q
+};
+
+//   z⁺ = Ez + ηFĝ,   V(z⁺) − V(z) = ηĝᵀ(z⁺ − z)                                        (3.6), (4.3), with x = η − 1
+StepReport LmClosure::advance(State& s, Propagators& propagators, double t, double h) {
+  start_.prepare(potential(), propagators.at(h), s.z);
+  set_equation(s.z, t, h);
+  return solver_ == ScalarSolver::newton ? solve_by_newton(s.z, t) : solve_robustly(s.z, propagators, h);
+}
+
+// Frozen, as printed in the paper: V(Ψ₂z⁺) − V(zⁿ) on the left, both ends outside the damping half-flows.
+void LmClosure::set_equation(const Vector& z, double t, double h) {
+  const MultiplierEquation::Line line{
+      .z = z, .z_plus = start_.z_plus, .delta = start_.delta, .q = start_.q, .g = start_.g, .e = start_.g};
+  if (!frozen_) {
+    equation_.set(line);
+    return;
+  }
+  end_ = start_.z_plus;
+  direction_ = start_.q;
+  system().damping->flow(t + h / 2, h / 2, end_);
+  system().damping->flow(t + h / 2, h / 2, direction_);
+  const MultiplierEquation::MeasuredAt measured_at{before_damping_, end_, direction_};
+  equation_.set(line, &measured_at);
+}
+
+StepReport LmClosure::solve_robustly(Vector& z, Propagators& propagators, double h) {
+  constexpr int max_iterations = 8;
+  StepReport report;
+  MultiplierEquation::Root root;
+  const MultiplierEquation::Value at_one = equation_.at(0);
+  bool accepted = std::abs(at_one.F) <= 4 * epsilon * at_one.scale;  // equilibria: a raw Newton divides 0 by 0
+  if (!accepted && std::abs(equation_.cosine()) >= 0.1) {
+    root = equation_.newton(max_iterations, MultiplierEquation::Stop::residual_or_update);
+    report.scalar_iterations = root.iterations;
+    accepted = root.converged && std::abs(root.x) <= 0.5;
+  }
+  if (accepted) {
+    z = start_.z_plus + root.x * start_.q;
+    return report;
+  }
+  ++report.fallbacks;
+  report += directed_.finish(z, start_, propagators, h);
+  return report;
+}
+
+StepReport LmClosure::solve_by_newton(Vector& z, double t) {
+  constexpr int max_iterations = 50;
+  StepReport report;
+  const MultiplierEquation::Root root = equation_.newton(max_iterations, MultiplierEquation::Stop::residual_or_update);
+  report.scalar_iterations = root.iterations;
+  report.unresolved = root.converged ? 0 : 1;
+  if (!std::isfinite(root.x)) {
+    report.status = StepReport::Status::failed;
+    report.message = fmt::format("Newton's iteration for the multiplier η left the numbers at t = {:.6g}; "
+                                 "scalar_solver = \"robust\" will do",
+                                 t);
+    return report;
+  }
+  z = start_.z_plus + root.x * start_.q;
+  return report;
+}
+
+}  // namespace
+
+std::unique_ptr<Closure> make_lm_closure(const System& system, const MethodOptions& options) {
+  return std::make_unique<LmClosure>(system, options);
+}
+
+}  // namespace seiche

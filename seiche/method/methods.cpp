@@ -1,0 +1,105 @@
+#include <seiche/core/error.hpp>
+#include <seiche/method/avf.hpp>
+#include <seiche/method/compositions.hpp>
+#include <seiche/method/directed_multiplier.hpp>
+#include <seiche/method/lm.hpp>
+#include <seiche/method/methods.hpp>
+#include <seiche/method/sav.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+using enum ClosureKind;
+using enum PropagatorKind;
+using enum Composition;
+
+constexpr std::string_view paper = "Li, Li, Shang, Xu: energy-stable splitting exponential integrators";
+constexpr std::string_view here = "Seiche: the paper's closure, exponential, without splitting";
+
+// clang-format off
+constexpr std::array list = {
+    MethodEntry{"avf",    avf, cayley,      whole,  2, "H",          "Celledoni et al. (2012), J. Comput. Phys. 231"},
+    MethodEntry{"sav",    sav, cayley,      whole,  2, "H_modified", "Shen, Xu, Yang (2019), SIAM Rev. 61"},
+    MethodEntry{"lm",     lm,  cayley,      whole,  2, "H",          "Cheng, Liu, Shen (2020), CMAME 367"},
+    MethodEntry{"savf",   avf, cayley,      strang, 2, "H",          "Liu et al. (2021), dissipation-preserving splitting"},
+    MethodEntry{"ssav",   sav, cayley,      strang, 2, "H_modified", paper},
+    MethodEntry{"slm",    lm,  cayley,      strang, 2, "H",          paper},
+    MethodEntry{"eavf",   avf, exponential, whole,  2, "H",          here},
+    MethodEntry{"eisav",  sav, exponential, whole,  2, "H_modified", paper},
+    MethodEntry{"eilm",   lm,  exponential, whole,  2, "H",          paper},
+    MethodEntry{"seavf",  avf, exponential, strang, 2, "H",          "Liu et al. (2021), dissipation-preserving splitting"},
+    MethodEntry{"seisav", sav, exponential, strang, 2, "H_modified", paper},
+    MethodEntry{"seilm",  lm,  exponential, strang, 2, "H",          paper},
+    MethodEntry{"seidm",  dm,  exponential, strang, 2, "H",          "Seiche: directed multiplier, docs/design.md"},
+};
+// clang-format on
+
+std::unique_ptr<Closure> make_closure(const MethodEntry& method, const System& system, const MethodOptions& options) {
+  switch (method.closure) {
+    case avf: return make_avf_closure(system);
+    case sav: return make_sav_closure(system, options);
+    case lm: return make_lm_closure(system, options);
+    case dm: return make_dm_closure(system);
+  }
+  throw Error("method {} has no closure", method.name);
+}
+
+}  // namespace
+
+std::span<const MethodEntry> methods() { return list; }
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const MethodEntry& entry : list) names.emplace_back(entry.name);
+  return names;
+}
+
+const MethodEntry& find_method(std::string_view name) {
+  for (const MethodEntry& entry : list)
+    if (entry.name == name) return entry;
+  throw unknown_name("method", name, method_names());
+}
+
+void MethodOptions::validate(const MethodEntry& method) const {
+  if (C) {
+    if (method.closure != sav) throw Error("C belongs to the sav family; {} has no auxiliary variable", method.name);
+    if (!std::isfinite(*C)) throw Error("C = {} must be a finite number or \"auto\"", *C);
+  }
+  if (scalar_solver == ScalarSolver::newton && method.closure != lm) {
+    throw Error("scalar_solver = \"newton\" belongs to the lm family; {} solves no equation for η", method.name);
+  }
+  if (auxiliary == AuxiliaryMode::transport) return;
+  if (method.closure == avf || method.closure == dm) {
+    throw Error("auxiliary belongs to the sav and lm families; {} carries no auxiliary through the damping", method.name);
+  }
+  if (auxiliary == AuxiliaryMode::refresh && method.closure == lm) {
+    throw Error("auxiliary = \"refresh\" has no meaning for {}: V is not carried; use \"transport\" or \"frozen\"",
+                method.name);
+  }
+  if (auxiliary == AuxiliaryMode::refresh && method.composition == whole) {
+    throw Error("auxiliary = \"refresh\" acts after the damping flows, and {} has none", method.name);
+  }
+}
+
+std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system, const MethodOptions& options) {
+  options.validate(method);
+  if (method.composition == whole) {
+    if (!system.damping->is_zero()) throw Error("{} needs its damping merged into S first", method.name);
+    return make_whole(system, method.propagator, make_closure(method, system, options));
+  }
+  return make_strang(system, method.propagator, make_closure(method, system, options));
+}
+
+std::string to_string(ClosureKind closure) {
+  constexpr std::array names = {"avf", "sav", "lm", "dm"};
+  return names[static_cast<std::size_t>(closure)];
+}
+
+std::string to_string(PropagatorKind propagator) { return propagator == exponential ? "exponential" : "cayley"; }
+
+std::string to_string(Composition composition) { return composition == whole ? "whole" : "strang"; }
+
+}  // namespace seiche

@@ -1,0 +1,51 @@
+// The list of methods: closure × propagator × composition. One row is one method.
+#pragma once
+
+#include <seiche/core/stepper.hpp>
+#include <seiche/core/system.hpp>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seiche {
+
+enum class ClosureKind { avf, sav, lm, dm };
+enum class Composition { whole, strang };
+enum class AuxiliaryMode { transport, frozen, refresh };
+enum class ScalarSolver { robust, newton };
+
+struct MethodEntry {
+  std::string_view name;
+  ClosureKind closure;
+  PropagatorKind propagator;
+  Composition composition;
+  int order;
+  std::string_view law;        // the energy that never grows: "H" or "H_modified"
+  std::string_view reference;  // where the scheme comes from
+};
+
+std::span<const MethodEntry> methods();
+std::vector<std::string> method_names();
+const MethodEntry& find_method(std::string_view name);  // throws Error with the nearest name
+
+struct MethodOptions {
+  std::optional<double> C;  // sav: the shift; automatic if not given
+  AuxiliaryMode auxiliary = AuxiliaryMode::transport;
+  ScalarSolver scalar_solver = ScalarSolver::robust;
+
+  // Throws Error where an option other than its default has no meaning for the method, with the reason.
+  void validate(const MethodEntry& method) const;
+};
+
+// `system` outlives the stepper; for `whole` methods it comes from with_damping_merged(problem).
+std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system, const MethodOptions& options = {});
+
+std::string to_string(ClosureKind closure);
+std::string to_string(PropagatorKind propagator);
+std::string to_string(Composition composition);
+
+}  // namespace seiche

@@ -1,0 +1,66 @@
+// The one scalar equation of the multiplier closures (lm, dm), in a form free of cancellation.
+#pragma once
+
+#include <seiche/core/potential.hpp>
+
+#include <array>
+#include <vector>
+
+namespace seiche {
+
+// On the line z⁺(x) = z₁ + xq with force f(x) = ĝ + xe and increment δ(x) = δ₁ + xq, find x with
+//   F(x) = V(z⁺(x)) − V(z) − f(x)ᵀδ(x) = (ḡ(x) − ĝ − xe)ᵀδ(x) = 0,   ḡ(x) = ∫₀¹ ∇V(z + sδ(x)) ds.
+// Expanded about x = 0, the explicit step, so that a small F is computed as a small number. For polynomial V the
+// expansion is exact and an evaluation costs O(degree); otherwise each one costs a mean gradient and a gradient.
+class MultiplierEquation {
+ public:
+  struct Line {
+    const Vector& z;       // start
+    const Vector& z_plus;  // z₁
+    const Vector& delta;   // δ₁ = z₁ − z
+    const Vector& q;       // direction
+    const Vector& g;       // ĝ
+    const Vector& e;       // change of the force with x
+  };
+  // Where V is measured at other points than the ends of δ (frozen auxiliary: zⁿ and Ψz⁺).
+  struct MeasuredAt {
+    const Vector& start;
+    const Vector& end;        // at x = 0
+    const Vector& direction;  // change of `end` with x
+  };
+  struct Value {
+    double F;
+    double slope;
+    double scale;  // size of the terms that F is the difference of
+  };
+  struct Root {
+    double x = 0.0;
+    int iterations = 0;
+    bool converged = false;
+  };
+  enum class Stop { residual, residual_or_update };
+
+  MultiplierEquation(const Potential& potential, Index size);
+  void set(const Line& line, const MeasuredAt* measured_at = nullptr);
+
+  Value at(double x);
+  // |F| ≤ 4ε scale, or (lm) |Δx| ≤ 4ε max(1, |1 + x|).
+  Root newton(int max_iterations, Stop stop);
+
+  double cosine() const { return cosine_; }                 // cos(ĝ, δ₁) over the support of V
+  double mean_gradient_norm() const { return mean_norm_; }  // |ḡ(0)|
+  double gradient_gap() const { return gap_norm_; }         // |ḡ(0) − ĝ|
+
+ private:
+  Value at_by_quadrature(double x);
+
+  const Potential& potential_;
+  std::vector<double> coefficients_;  // of F, for polynomial V; empty otherwise
+  std::array<double, 3> scales_{};    // of 1, |x|, x²
+  double cosine_ = 0, mean_norm_ = 0, gap_norm_ = 0;
+  double ge_ = 0, ed_ = 0, eq_ = 0, gd_ = 0;  // ĝᵀq, eᵀδ₁, eᵀq, ĝᵀδ₁
+  Vector mean_, end_, gradient_;
+  Vector start_, end_0_, direction_;  // copies of the line, for general V only
+};
+
+}  // namespace seiche

@@ -1,0 +1,110 @@
+#include <seiche/core/error.hpp>
+#include <seiche/method/sav.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+class SavClosure final : public Closure {
+ public:
+  SavClosure(const System& system, const MethodOptions& options)
+      : Closure(system),
+        given_C_(options.C),
+        auxiliary_(options.auxiliary),
+        gradient_(system.space->size()),
+        z_mid_(gradient_),
+        g_(gradient_),
+        dz_(gradient_),
+        q_(gradient_) {}
+
+  void begin(State& s) override;
+  void damp(State& s, double t, double h) override;
+  StepReport advance(State& s, Propagators& propagators, double t, double h) override;
+  EnergyReading energy(const State& s) const override;
+  bool has_modified_energy() const override { return true; }
+
+ private:
+  bool keep_margin(State& s, double v_mid) const;
+
+  std::optional<double> given_C_;
+  AuxiliaryMode auxiliary_;
+  Vector gradient_, z_mid_, g_, dz_, q_;
+};
+
+// C = 2E₀ keeps V + C well away from 0 where √(V + C) would lose digits, without drowning V in C.
+void SavClosure::begin(State& s) {
+  const double v = potential().value(s.z);
+  s.energy_scale = system().linear->quadratic_energy(s.z) + std::abs(v);
+  s.shift = given_C_.value_or(s.energy_scale > 0 ? 2 * s.energy_scale : 1.0);
+  s.r_squared = v + s.shift;
+  if (!(s.r_squared > 0)) {
+    throw Error("C = {} is too small: V(z₀) + C = {:.6g} must be > 0; C = {:.6g} would do, or C = \"auto\"", s.shift,
+                s.r_squared, 2 * s.energy_scale);
+  }
+}
+
+// The damping flow must change H̃ by what it changes H: r² moves with V (transport). The paper keeps r (frozen), which
+// is consistent only where the damping does not touch V.
+void SavClosure::damp(State& s, double t, double h) {
+  const bool moves = system().damping->touches_potential();
+  const double v_before = moves && auxiliary_ == AuxiliaryMode::transport ? potential().value(s.z) : 0.0;
+  Closure::damp(s, t, h);
+  if (moves && auxiliary_ == AuxiliaryMode::transport) s.r_squared += potential().value(s.z) - v_before;
+  if (auxiliary_ == AuxiliaryMode::refresh) s.r_squared = potential().value(s.z) + s.shift;
+}
+
+// Where V + C or r² has become small against the energy, C and r² rise together: H̃ does not change.
+bool SavClosure::keep_margin(State& s, double v_mid) const {
+  if (auxiliary_ == AuxiliaryMode::frozen) return false;
+  constexpr double tiny = 1e-300;
+  const double scale = std::max({s.energy_scale, system().linear->quadratic_energy(s.z) + std::abs(v_mid), tiny});
+  const double margin = std::min(s.r_squared, v_mid + s.shift);
+  if (margin >= 0.1 * scale) return false;
+  const double rise = 2 * scale - margin;
+  s.shift += rise;
+  s.r_squared += rise;
+  return true;
+}
+
+//   z⁺ = Ez + F r̄g,   r⁺ − r = ½ gᵀ(z⁺ − z),   r̄ = ½(r⁺ + r)                                    (3.1), (4.2)
+StepReport SavClosure::advance(State& s, Propagators& propagators, double t, double h) {
+  StepReport report;
+  const Propagator& propagator = propagators.at(h);
+  potential().gradient(s.z, gradient_);
+  propagator.predict(s.z, gradient_, z_mid_);  // ẑ, from z⁻
+  const double v_mid = potential().value_and_gradient(z_mid_, g_);
+  report.fallbacks += keep_margin(s, v_mid) ? 1 : 0;
+  if (!(v_mid + s.shift > 0)) {
+    report.status = StepReport::Status::failed;
+    report.message = fmt::format("V(ẑ) + C = {:.6g} must be > 0 at t = {:.6g}; C = {:.6g} would do", v_mid + s.shift, t,
+                                 s.shift + 2 * (s.energy_scale + std::abs(v_mid)));
+    return report;
+  }
+  g_ *= 1 / std::sqrt(v_mid + s.shift);  // g = ∇V(ẑ) / √(V(ẑ) + C)
+
+  propagator.increment(s.z, dz_);  // FMz = (E − I)z
+  propagator.force(g_, q_);        // Fg
+  const double r = std::sqrt(s.r_squared);
+  const double r_mid = (r + g_.dot(dz_) / 4) / (1 - g_.dot(q_) / 4);  // denominator ≥ 1, since gᵀFg ≤ 0
+  s.z += dz_ + r_mid * q_;
+  s.r_squared = square(2 * r_mid - r);
+  return report;
+}
+
+EnergyReading SavClosure::energy(const State& s) const {
+  EnergyReading reading = Closure::energy(s);
+  const double quadratic = system().linear->quadratic_energy(s.z);
+  reading.modified = quadratic + (s.r_squared - s.shift);
+  reading.modified_round_off = 50 * epsilon * (quadratic + s.r_squared + std::abs(s.shift));
+  return reading;
+}
+
+}  // namespace
+
+std::unique_ptr<Closure> make_sav_closure(const System& system, const MethodOptions& options) {
+  return std::make_unique<SavClosure>(system, options);
+}
+
+}  // namespace seiche

@@ -1,0 +1,91 @@
+// V(u) = Σ_j W(u_{j+1} − u_j) over the bonds of a chain.
+#pragma once
+
+#include <seiche/core/grid.hpp>
+#include <seiche/core/potential.hpp>
+#include <seiche/potential/polynomial.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+
+// Periodic: N bonds between N unknowns. Dirichlet: N bonds, the first and last to an end where u = 0.
+template <PointPotential W>
+class BondPotential final : public PointwisePotential {
+ public:
+  BondPotential(W w, Boundary boundary) : w_(w), boundary_(boundary) {}
+
+  double value(std::span<const double> u) const override {
+    double sum = 0;
+    for_bonds(u, [&](std::size_t, std::size_t, double d) { sum += w_.value(d); });
+    return sum;
+  }
+
+  double magnitude(std::span<const double> u) const override {
+    double sum = 0;
+    for_bonds(u, [&](std::size_t, std::size_t, double d) { sum += std::abs(w_.value(d)); });
+    return sum;
+  }
+
+  double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {
+    double sum = 0;
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    for_bonds(u, [&](std::size_t left, std::size_t right, double d) {
+      sum += w_.value(d);
+      pull(gradient, left, right, w_.slope(d));
+    });
+    return sum;
+  }
+
+  void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override {
+    std::fill(mean.begin(), mean.end(), 0.0);
+    for_bonds(a, [&](std::size_t left, std::size_t right, double d) {
+      pull(mean, left, right, w_.mean_slope(d, at(b, right) - at(b, left)));
+    });
+  }
+
+  int degree() const override {
+    if constexpr (requires { W::degree; }) return W::degree;
+    return 0;
+  }
+
+  void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
+    std::fill(coefficients.begin(), coefficients.end(), 0.0);
+    if constexpr (requires { W::degree; }) {
+      for_bonds(p, [&](std::size_t left, std::size_t right, double d) {
+        w_.add_along(d, at(q, right) - at(q, left), coefficients.data());
+      });
+    }
+  }
+
+  bool grows_outward() const override { return w_.grows_outward(); }
+
+ private:
+  static constexpr std::size_t wall = static_cast<std::size_t>(-1);
+
+  static double at(std::span<const double> u, std::size_t j) { return j == wall ? 0.0 : u[j]; }
+
+  static void pull(std::span<double> gradient, std::size_t left, std::size_t right, double slope) {
+    if (left != wall) gradient[left] -= slope;
+    if (right != wall) gradient[right] += slope;
+  }
+
+  template <class Visit>
+  void for_bonds(std::span<const double> u, const Visit& visit) const {
+    const std::size_t n = u.size();
+    if (n == 0) return;
+    for (std::size_t j = 0; j + 1 < n; ++j) visit(j, j + 1, u[j + 1] - u[j]);
+    if (boundary_ == Boundary::periodic) {
+      visit(n - 1, 0, u[0] - u[n - 1]);
+    } else {
+      visit(wall, 0, u[0]);
+      visit(n - 1, wall, -u[n - 1]);
+    }
+  }
+
+  W w_;
+  Boundary boundary_;
+};
+
+}  // namespace seiche

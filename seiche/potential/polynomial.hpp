@@ -1,0 +1,66 @@
+// W(u) = Σ c_i uⁱ of one variable: value, slope, and the mean slope between two points without cancellation.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+
+namespace seiche {
+
+// What a potential per point (or per bond) must tell. Inlined into loops over the grid.
+template <class W>
+concept PointPotential = requires(const W w, double u) {
+  { w.value(u) } -> std::convertible_to<double>;
+  { w.slope(u) } -> std::convertible_to<double>;
+  { w.mean_slope(u, u) } -> std::convertible_to<double>;  // ∫₀¹ W'(a + s(b − a)) ds
+  { w.grows_outward() } -> std::convertible_to<bool>;     // u W'(u) ≥ 0 for all u
+};
+
+template <int Degree>
+struct Polynomial {
+  static constexpr int degree = Degree;
+  std::array<double, Degree + 1> c{};
+
+  double value(double u) const {
+    double sum = c[Degree];
+    for (std::size_t i = Degree; i-- > 0;) sum = sum * u + c[i];
+    return sum;
+  }
+
+  double slope(double u) const {
+    double sum = Degree * c[Degree];
+    for (std::size_t i = Degree; i-- > 1;) sum = sum * u + static_cast<double>(i) * c[i];
+    return sum;
+  }
+
+  // (W(b) − W(a)) / (b − a): divide by (u − a) with Horner's rule and evaluate the quotient at b.
+  double mean_slope(double a, double b) const {
+    double quotient = c[Degree];
+    double sum = quotient;
+    for (std::size_t i = Degree; i-- > 1;) {
+      quotient = c[i] + a * quotient;
+      sum = sum * b + quotient;
+    }
+    return sum;
+  }
+
+  // Coefficients of x ↦ W(p + xq), added to `out`: Taylor's shift by repeated division, then powers of q.
+  void add_along(double p, double q, double* out) const {
+    std::array<double, Degree + 1> taylor = c;
+    for (std::size_t k = 0; k < Degree; ++k)
+      for (std::size_t i = Degree; i-- > k;) taylor[i] += p * taylor[i + 1];
+    double power = 1;
+    for (std::size_t i = 0; i <= Degree; ++i) {
+      out[i] += taylor[i] * power;
+      power *= q;
+    }
+  }
+
+  bool grows_outward() const {
+    for (std::size_t i = 1; i <= Degree; ++i)
+      if (c[i] < 0 || (i % 2 == 1 && c[i] != 0)) return false;
+    return true;
+  }
+};
+
+}  // namespace seiche

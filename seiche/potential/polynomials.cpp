@@ -1,0 +1,43 @@
+#include <seiche/core/error.hpp>
+#include <seiche/potential/bond.hpp>
+#include <seiche/potential/nodal.hpp>
+#include <seiche/potential/polynomials.hpp>
+
+#include <algorithm>
+
+namespace seiche {
+namespace {
+
+using Pointer = std::shared_ptr<const PointwisePotential>;
+
+// The degree becomes a compile-time number, so that the loops over coefficients unroll.
+template <int Degree = 1, class Make>
+Pointer with_degree(const std::vector<double>& c, const Make& make) {
+  if (static_cast<int>(c.size()) > Degree + 1) {
+    if constexpr (Degree < max_polynomial_degree) return with_degree<Degree + 1>(c, make);
+    throw Error("a polynomial potential of degree {} is asked for; up to {} is allowed", c.size() - 1,
+                max_polynomial_degree);
+  }
+  Polynomial<Degree> w;
+  std::copy(c.begin(), c.end(), w.c.begin());
+  return make(w);
+}
+
+}  // namespace
+
+Pointer nodal_polynomial(const std::vector<double>& c) {
+  return with_degree(c, [](auto w) -> Pointer { return std::make_shared<NodalPotential<decltype(w)>>(w); });
+}
+
+Pointer bond_polynomial(const std::vector<double>& c, Boundary boundary) {
+  return with_degree(
+      c, [boundary](auto w) -> Pointer { return std::make_shared<BondPotential<decltype(w)>>(w, boundary); });
+}
+
+std::vector<double> monomial(double c, int d) {
+  std::vector<double> coefficients(static_cast<std::size_t>(d) + 1, 0.0);
+  coefficients.back() = c;
+  return coefficients;
+}
+
+}  // namespace seiche

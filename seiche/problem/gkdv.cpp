@@ -1,0 +1,57 @@
+#include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/gkdv.hpp>
+#include <seiche/problem/wave.hpp>
+
+#include <cmath>
+
+namespace seiche {
+
+Problem gkdv(const Gkdv& options) {
+  Problem p;
+  p.name = "gkdv";
+  p.grid = {options.points, options.length, Boundary::periodic};
+  p.fields = {"u"};
+  p.S = BlockStencil(1);
+  p.S(0, 0) = Stencil::central_difference(p.grid.dx());
+  p.M = BlockStencil(1);
+  p.M(0, 0) = -options.epsilon * Stencil::laplacian(p.grid.dx());
+  const bool undamped = !options.mu || (options.mu->is_constant() && options.mu->value(0) == 0);
+  p.damping = {.constant = BlockStencil(1), .rate = undamped ? nullptr : options.mu, .rate_fields = {true}};
+  const int k = options.exponent;
+  p.potential = nodal_polynomial(monomial(-options.sigma / (k + 2), k + 2));
+  p.initial =
+      sample(p.grid, [&](double x) { return 0.4 * std::exp(-square(x - options.length / 2) / 2); });
+  return p;
+}
+
+ProblemEntry gkdv_entry() {
+  return {
+      .name = "gkdv",
+      .equation = "u_t + εu_xxx + ∂_x(σu^{k+1}) + μu = 0, periodic",
+      .reference = "Li, Li, Shang, Xu, Example 3; Ali et al. (2017)",
+      .fields = {"u"},
+      .parameters =
+          {
+              {.name = "length", .default_value = "10.0", .meaning = "L, the period in x", .minimum = 0, .minimum_excluded = true},
+              {.name = "points", .kind = ParameterKind::integer, .default_value = "20", .meaning = "N, grid points in one period", .minimum = 3, .maximum = 1 << 26},
+              {.name = "exponent", .kind = ParameterKind::integer, .default_value = "2", .meaning = "k, power of the nonlinearity", .minimum = 1, .maximum = max_polynomial_degree - 2},
+              {.name = "sigma", .default_value = "0.001", .meaning = "σ, strength of the nonlinearity; positive: V unbounded below"},
+              {.name = "epsilon", .default_value = "1.0", .meaning = "ε, dispersion", .minimum = 0},
+              {.name = "mu", .kind = ParameterKind::rate, .default_value = "0.5", .meaning = "μ, damping rate, 1/time"},
+          },
+      .presets = {"paper"},
+      .make =
+          [](const ParameterValues& v, const std::string&) {
+            return gkdv({.length = v.real("length"),
+                         .points = v.integer("points"),
+                         .exponent = static_cast<int>(v.integer("exponent")),
+                         .sigma = v.real("sigma"),
+                         .epsilon = v.real("epsilon"),
+                         .mu = v.rate("mu")});
+          },
+      .default_h = "1/512",
+      .default_end = 50.0,
+  };
+}
+
+}  // namespace seiche

@@ -1,0 +1,62 @@
+#include <seiche/core/error.hpp>
+#include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/wave.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace seiche {
+
+Problem klein_gordon(const KleinGordon& options) {
+  const Grid grid{options.points, options.length, Boundary::periodic};
+  const double bound = std::max(options.omega_squared, 0.0);
+  const Stencil stiffness = Stencil::identity(bound) + -options.kappa * Stencil::laplacian(grid.dx());
+  Problem p = wave_problem("klein_gordon", grid, stiffness, options.gamma);
+
+  std::vector<double> w = monomial(options.alpha / 4, 4);
+  if (options.omega_squared < 0) {
+    w[2] = options.omega_squared / 2;
+    p.notes.push_back(
+        fmt::format("omega_squared = {} < 0: ½ω²u² was moved from M into V, so that M ⪰ 0", options.omega_squared));
+  }
+  p.potential = nodal_polynomial(w);
+
+  using std::numbers::sqrt2;
+  const double sqrt5 = std::sqrt(5.0);
+  p.initial << sample(grid, [&](double x) { return std::tanh(sqrt2 * x) / sqrt5; }),
+      sample(grid, [&](double x) { return -3 * sqrt2 / (10 * sqrt5) / square(std::cosh(sqrt2 * x)); });
+  return p;
+}
+
+ProblemEntry klein_gordon_entry() {
+  return {
+      .name = "klein_gordon",
+      .equation = "u_tt + γu_t − κu_xx + ω²u + αu³ = 0, periodic",
+      .reference = "Li, Li, Shang, Xu, Example 1; Côte, Martel, Yuan, Zhao (2021)",
+      .fields = {"u", "v"},
+      .parameters =
+          {
+              {.name = "length", .default_value = "2.0", .meaning = "L, the period in x", .minimum = 0, .minimum_excluded = true},
+              {.name = "points", .kind = ParameterKind::integer, .default_value = "20", .meaning = "N, grid points in one period", .minimum = 3, .maximum = 1 << 26},
+              {.name = "kappa", .default_value = "0.04", .meaning = "κ, wave speed squared", .minimum = 0},
+              {.name = "omega_squared", .default_value = "0.2", .meaning = "ω², frequency squared of the mean; negative: a double well"},
+              {.name = "alpha", .default_value = "-1.0", .meaning = "α, strength of the cubic force; negative: focusing, V unbounded below"},
+              {.name = "gamma", .kind = ParameterKind::rate, .default_value = "0.1", .meaning = "γ, damping rate, 1/time"},
+          },
+      .presets = {"paper"},
+      .make =
+          [](const ParameterValues& v, const std::string&) {
+            return klein_gordon({.length = v.real("length"),
+                                 .points = v.integer("points"),
+                                 .kappa = v.real("kappa"),
+                                 .omega_squared = v.real("omega_squared"),
+                                 .alpha = v.real("alpha"),
+                                 .gamma = v.rate("gamma")});
+          },
+      .default_h = "1/256",
+      .default_end = 50.0,
+  };
+}
+
+}  // namespace seiche

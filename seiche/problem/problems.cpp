@@ -1,0 +1,32 @@
+#include <seiche/core/error.hpp>
+#include <seiche/problem/alpha_fpu.hpp>
+#include <seiche/problem/gkdv.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/oscillator.hpp>
+#include <seiche/problem/problems.hpp>
+
+namespace seiche {
+
+std::span<const ProblemEntry> problems() {
+  static const std::vector<ProblemEntry> list = {
+      klein_gordon_entry(),
+      alpha_fpu_entry(),
+      gkdv_entry(),
+      oscillator_entry(),
+  };
+  return list;
+}
+
+std::vector<std::string> problem_names() {
+  std::vector<std::string> names;
+  for (const ProblemEntry& entry : problems()) names.push_back(entry.name);
+  return names;
+}
+
+const ProblemEntry& find_problem(std::string_view name) {
+  for (const ProblemEntry& entry : problems())
+    if (entry.name == name) return entry;
+  throw unknown_name("problem", name, problem_names());
+}
+
+}  // namespace seiche

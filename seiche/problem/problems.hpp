@@ -1,0 +1,32 @@
+// The list of problems.
+#pragma once
+
+#include <seiche/core/parameter.hpp>
+#include <seiche/core/problem.hpp>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seiche {
+
+struct ProblemEntry {
+  std::string name;
+  std::string equation;   // in Unicode
+  std::string reference;  // where it comes from
+  std::vector<std::string> fields;
+  std::vector<Parameter> parameters;
+  std::vector<std::string> presets;  // names of initial data, the default first
+  // Throws Error where the values do not fit together.
+  Problem (*make)(const ParameterValues& values, const std::string& preset);
+  // What `seiche new` proposes.
+  std::string default_h;
+  double default_end;
+};
+
+std::span<const ProblemEntry> problems();
+std::vector<std::string> problem_names();
+const ProblemEntry& find_problem(std::string_view name);  // throws Error with the nearest name
+
+}  // namespace seiche

@@ -1,0 +1,27 @@
+// The problems that properties run over: the paper's examples and what lies around them.
+#pragma once
+
+#include <seiche/core/problem.hpp>
+
+#include <string>
+#include <vector>
+
+namespace seiche::test {
+
+Problem klein_gordon_case(double gamma = 0.1, double alpha = -1.0);
+Problem fpu_conservative_case(double gamma = 0.5, double beta = 0.01);
+Problem fpu_dissipative_case(double gamma = 0.5, double beta = 0.01);
+Problem gkdv_case(double mu = 0.5, double sigma = 0.001, double amplitude = 0.4);
+Problem duffing_case(double gamma = 0.1);
+
+struct NamedProblem {
+  std::string name;
+  Problem problem;
+};
+
+// The paper's four cases, by the names that golden.json has for them.
+std::vector<NamedProblem> golden_cases();
+// Every problem, each method is to be tried on.
+std::vector<NamedProblem> all_cases();
+
+}  // namespace seiche::test
