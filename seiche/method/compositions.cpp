@@ -1,6 +1,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/method/compositions.hpp>
 
+#include <cmath>
+
 namespace seiche {
 namespace {
 
@@ -10,6 +12,8 @@ class Composed : public Stepper {
       : propagators_(*system.linear, propagator), closure_(std::move(closure)) {}
 
   void begin(State& s) override {
+    const double H = closure_->energy(s).H;
+    if (!std::isfinite(H)) throw Error("the energy of the initial state is not a finite number (H = {})", H);
     closure_->begin(s);
     saved_ = s;
   }

@@ -55,11 +55,12 @@ void SavClosure::damp(State& s, double t, double h) {
   if (auxiliary_ == AuxiliaryMode::refresh) s.r_squared = potential().value(s.z) + s.shift;
 }
 
-// Where V + C or r² has become small against the energy, C and r² rise together: H̃ does not change.
+// Where V + C or r² has become small against the energy, C and r² rise together: H̃ does not change. A large positive
+// V(ẑ) is no reason to: at steps far too long ẑ is meaningless, and a C to match it would drown H̃ in round-off.
 bool SavClosure::keep_margin(State& s, double v_mid) const {
   if (auxiliary_ == AuxiliaryMode::frozen) return false;
   constexpr double tiny = 1e-300;
-  const double scale = std::max({s.energy_scale, system().linear->quadratic_energy(s.z) + std::abs(v_mid), tiny});
+  const double scale = std::max({s.energy_scale, system().linear->quadratic_energy(s.z) + std::max(0.0, -v_mid), tiny});
   const double margin = std::min(s.r_squared, v_mid + s.shift);
   if (margin >= 0.1 * scale) return false;
   const double rise = 2 * scale - margin;

@@ -1,6 +1,8 @@
 #include "paper_cases.hpp"
 
+#include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/method/methods.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
@@ -42,6 +44,16 @@ std::vector<NamedProblem> all_cases() {
   cases.push_back({"gKdV_sigma_1", gkdv_case(0.5, 1.0, 1.0)});
   cases.push_back({"Duffing", duffing_case()});
   return cases;
+}
+
+bool applies(std::string_view method, const Problem& problem) {
+  if (find_method(method).composition != Composition::whole) return true;
+  try {
+    with_damping_merged(problem);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 }  // namespace seiche::test

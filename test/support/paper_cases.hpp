@@ -4,6 +4,7 @@
 #include <seiche/core/problem.hpp>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace seiche::test {
@@ -23,5 +24,8 @@ struct NamedProblem {
 std::vector<NamedProblem> golden_cases();
 // Every problem, each method is to be tried on.
 std::vector<NamedProblem> all_cases();
+
+// Does the method apply (whole methods need the damping in S)?
+bool applies(std::string_view method, const Problem& problem);
 
 }  // namespace seiche::test

@@ -1,0 +1,67 @@
+// Backends agree with the dense reference, for every method.
+#include "support/paper_cases.hpp"
+
+#include <seiche/config/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+namespace seiche::test {
+namespace {
+
+Vector state_after(const Problem& problem, std::string_view method, std::string_view backend, double h, int steps) {
+  Simulation simulation(problem, {.method = std::string(method), .backend = std::string(backend)});
+  for (int n = 0; n < steps; ++n) {
+    const StepReport report = simulation.step(h);
+    EXPECT_TRUE(report.solved()) << report.message;
+  }
+  return simulation.physical();
+}
+
+TEST(Agreement, EveryMethodGivesTheSameSolutionOnEveryBackendOverTenTimeUnits) {
+  for (const auto& [name, problem] : all_cases()) {
+    for (const MethodEntry& method : methods()) {
+      if (!applies(method.name, problem)) continue;
+      const double h = 1.0 / 64;
+      const Vector expected = state_after(problem, method.name, "dense", h, 640);
+      for (const BackendEntry& backend : backends()) {
+        const Vector z = state_after(problem, method.name, backend.name, h, 640);
+        EXPECT_LE((z - expected).lpNorm<Eigen::Infinity>(), 1e-11) << name << " " << method.name << " " << backend.name;
+      }
+    }
+  }
+}
+
+TEST(Agreement, TheRightHandSideIsTheSameOnEveryBackend) {
+  for (const auto& [name, problem] : all_cases()) {
+    const System dense = find_backend("dense").system(problem, {});
+    Vector expected(dense.space->size());
+    dense.right_hand_side(0.3, dense.initial, expected);
+    for (const BackendEntry& backend : backends()) {
+      const System system = backend.system(problem, {});
+      Vector out(system.space->size());
+      system.right_hand_side(0.3, system.initial, out);
+      EXPECT_LE((system.space->physical(out) - expected).lpNorm<Eigen::Infinity>(),
+                1e-13 * (1 + expected.lpNorm<Eigen::Infinity>()))
+          << name << " " << backend.name;
+    }
+  }
+}
+
+TEST(Agreement, CoordinatesAreOrthonormalAndInvertible) {
+  for (const Index points : {1, 2, 3, 4, 7, 20, 33}) {
+    for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet}) {
+      if (boundary == Boundary::dirichlet && points < 2) continue;
+      Problem p = duffing_case();
+      p.grid = {points, 1.0, boundary};
+      p.initial = Vector::Random(p.size());
+      for (const BackendEntry& backend : backends()) {
+        const System system = backend.system(p, {});
+        EXPECT_NEAR(system.initial.norm(), p.initial.norm(), 1e-14 * points) << backend.name << points;
+        EXPECT_LE((system.space->physical(system.initial) - p.initial).norm(), 1e-14 * points) << backend.name << points;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seiche::test

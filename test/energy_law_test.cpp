@@ -1,0 +1,111 @@
+// The energy laws: any step size, every method, every problem whose hypotheses hold.
+#include "support/paper_cases.hpp"
+
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/law.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace seiche::test {
+namespace {
+
+struct LawRun {
+  double worst_increase = -std::numeric_limits<double>::infinity();  // of the method's energy, in units of round-off
+  int steps = 0;
+  bool finished = true;
+};
+
+LawRun run(const Problem& problem, std::string_view method, std::string_view backend, double h, double t_end,
+           const MethodOptions& options = {}) {
+  Simulation simulation(problem, {.method = std::string(method), .backend = std::string(backend), .method_options = options});
+  LawRun result;
+  EnergyReading before = simulation.energy();
+  while (simulation.state().t < t_end - h / 2) {
+    if (!simulation.step(h).solved()) {
+      result.finished = false;
+      break;
+    }
+    const EnergyReading after = simulation.energy();
+    const double round_off = std::max(before.modified_round_off, after.modified_round_off);
+    result.worst_increase = std::max(result.worst_increase, (after.modified - before.modified) / round_off);
+    before = after;
+    ++result.steps;
+  }
+  return result;
+}
+
+TEST(EnergyLaw, NoStepOfAnyMethodRaisesItsEnergyAtAnyStepSize) {
+  int finished = 0;
+  int runs = 0;
+  for (const auto& [name, problem] : all_cases()) {
+    if (!promise_energy_law(problem, 50).promised) continue;
+    for (const MethodEntry& method : methods()) {
+      if (!applies(method.name, problem)) continue;
+      for (const BackendEntry& backend : backends()) {
+        for (const double h : {1.0 / 64, 0.1, 0.25, 1.0, 2.5, 10.0}) {
+          const LawRun result = run(problem, method.name, backend.name, h, std::max(20.0, 20 * h));
+          EXPECT_LE(result.worst_increase, 1) << name << " " << method.name << " " << backend.name << " h = " << h;
+          ++runs;
+          finished += result.finished ? 1 : 0;
+          const bool linear = method.closure == ClosureKind::sav;  // never fails: one linear equation a step
+          if (linear || h <= 0.25) EXPECT_TRUE(result.finished) << name << " " << method.name << " h = " << h;
+        }
+      }
+    }
+  }
+  RecordProperty("runs", runs);
+  RecordProperty("finished", finished);
+  EXPECT_GT(finished, runs * 3 / 4);
+}
+
+TEST(EnergyLaw, WithoutDampingEveryMethodKeepsItsEnergyToTwelveDigits) {
+  const std::vector<NamedProblem> conservative = {{"KG_defocusing", klein_gordon_case(0, 1.0)},
+                                                  {"FPU", fpu_conservative_case(0, 0)},
+                                                  {"gKdV", gkdv_case(0)},
+                                                  {"Duffing", duffing_case(0)}};
+  for (const auto& [name, problem] : conservative) {
+    for (const MethodEntry& method : methods()) {
+      for (const BackendEntry& backend : backends()) {
+        Simulation simulation(problem, {.method = std::string(method.name), .backend = std::string(backend.name)});
+        const EnergyReading start = simulation.energy();
+        const double scale = std::abs(start.H) + simulation.state().shift;
+        double drift = 0;
+        for (int n = 0; n < 3200; ++n) {
+          ASSERT_TRUE(simulation.step(1.0 / 64).solved());
+          drift = std::max(drift, std::abs(simulation.energy().modified - start.modified));
+        }
+        EXPECT_LE(drift, 1e-12 * scale) << name << " " << method.name << " " << backend.name;
+      }
+    }
+  }
+}
+
+// The law is not a property of round-off: these must rise, or the tests above could not fail.
+TEST(EnergyLaw, IsSeenToFailWhereItsHypothesesFail) {
+  const Problem fed = klein_gordon_case(-0.1, 1.0);  // negative damping
+  EXPECT_FALSE(promise_energy_law(fed, 50).promised);
+  EXPECT_GT(run(fed, "seisav", "dense", 1.0 / 64, 20).worst_increase, 1e6);
+  EXPECT_GT(run(fed, "seavf", "modal", 1.0 / 64, 20).worst_increase, 1e6);
+}
+
+TEST(EnergyLaw, IsNotPromisedForFocusingGkdvWhereTheExactEnergyRises) {
+  const Problem p = gkdv_case(0.5, 1.0, 3.0);
+  const LawPromise promise = promise_energy_law(p, 10);
+  EXPECT_FALSE(promise.promised);
+  EXPECT_NE(promise.reason.find("energy-compatible"), std::string::npos) << promise.reason;
+  EXPECT_GT(run(p, "seidm", "modal", 1.0 / 256, 0.1).worst_increase, 1e3);
+  EXPECT_TRUE(promise_energy_law(gkdv_case(0.5, -1.0), 10).promised);
+}
+
+TEST(EnergyLaw, OfTheModifiedEnergySurvivesAShiftTooSmallForTheMargin) {
+  const Problem p = klein_gordon_case(0.1, -1.0);
+  MethodOptions tight{.C = 0.1116};  // V(z₀) + C = 3e-5
+  const LawRun result = run(p, "seisav", "modal", 1.0 / 64, 50, tight);
+  EXPECT_TRUE(result.finished);
+  EXPECT_LE(result.worst_increase, 1);
+}
+
+}  // namespace
+}  // namespace seiche::test

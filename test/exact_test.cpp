@@ -1,0 +1,118 @@
+// Identities and exact solutions.
+#include "support/matrices.hpp"
+#include "support/paper_cases.hpp"
+
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/error.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace seiche::test {
+namespace {
+
+TEST(Exact, ExponentialMethodsSolveLinearGkdvExactly) {
+  const Problem p = gkdv_case(0.5, 0.0);
+  const Matrix L = p.S.matrix(p.grid) * p.M.matrix(p.grid) - 0.5 * Matrix::Identity(20, 20);
+  const Vector expected = exponential_by_extended_series(L * 10.0) * p.initial;
+  for (const MethodEntry& method : methods()) {
+    if (method.propagator != PropagatorKind::exponential || !applies(method.name, p)) continue;
+    for (const BackendEntry& backend : backends()) {
+      Simulation simulation(p, {.method = std::string(method.name), .backend = std::string(backend.name)});
+      for (int n = 0; n < 640; ++n) ASSERT_TRUE(simulation.step(1.0 / 64).solved());
+      EXPECT_LE((simulation.physical() - expected).lpNorm<Eigen::Infinity>(), 1e-14) << method.name << backend.name;
+    }
+  }
+}
+
+TEST(Exact, GkdvLosesItsTwoLinearInvariantsAtTheRateOfTheDamping) {
+  for (const MethodEntry& method : methods()) {
+    for (const double mu : {0.5, 0.1}) {
+      const Problem p = gkdv_case(mu, 1.0);
+      if (!applies(method.name, p)) continue;
+      for (const BackendEntry& backend : backends()) {
+        Simulation simulation(p, {.method = std::string(method.name), .backend = std::string(backend.name)});
+        const auto sums = [](const Vector& z) {
+          double sum = 0;
+          double alternating = 0;
+          for (Index j = 0; j < z.size(); ++j) {
+            sum += z[j];
+            alternating += j % 2 == 0 ? z[j] : -z[j];
+          }
+          return std::pair(sum, alternating);
+        };
+        const auto start = sums(p.initial);
+        for (int n = 0; n < 50 * 64; ++n) ASSERT_TRUE(simulation.step(1.0 / 64).solved());
+        const auto end = sums(simulation.physical());
+        EXPECT_NEAR(end.first, start.first * std::exp(-50 * mu), 1e-12) << method.name << backend.name;
+        EXPECT_NEAR(end.second, start.second * std::exp(-50 * mu), 1e-12) << method.name << backend.name;
+      }
+    }
+  }
+}
+
+TEST(Exact, WithOneDegreeOfFreedomTheMultiplierIsTheAveragedVectorField) {
+  const Problem p = duffing_case(0.0);
+  for (const auto& [lm, avf] : {std::pair("lm", "avf"), std::pair("eilm", "eavf")}) {
+    SimulationOptions options{.method = lm};
+    options.method_options.scalar_solver = ScalarSolver::newton;
+    Simulation multiplier(p, options);
+    Simulation averaged(p, {.method = avf});
+    int unresolved = 0;
+    for (int n = 0; n < 640; ++n) {
+      unresolved += multiplier.step(1.0 / 64).unresolved;
+      ASSERT_TRUE(averaged.step(1.0 / 64).solved());
+      ASSERT_LE((multiplier.physical() - averaged.physical()).lpNorm<Eigen::Infinity>(), 1e-11) << lm << " step " << n;
+    }
+    EXPECT_EQ(unresolved, 0);
+  }
+}
+
+TEST(Exact, WholeAndStrangCoincideWithoutDamping) {
+  const Problem p = klein_gordon_case(0.0, 1.0);
+  for (const auto& [whole, strang] : {std::pair("avf", "savf"), std::pair("sav", "ssav"), std::pair("lm", "slm"),
+                                      std::pair("eavf", "seavf"), std::pair("eisav", "seisav"), std::pair("eilm", "seilm")}) {
+    Simulation a(p, {.method = whole});
+    Simulation b(p, {.method = strang});
+    for (int n = 0; n < 64; ++n) {
+      ASSERT_TRUE(a.step(1.0 / 64).solved());
+      ASSERT_TRUE(b.step(1.0 / 64).solved());
+    }
+    EXPECT_EQ((a.physical() - b.physical()).norm(), 0) << whole;
+  }
+}
+
+TEST(Exact, AStateAtEquilibriumStaysThere) {
+  Problem p = duffing_case(0.1);
+  p.initial.setZero();
+  for (const MethodEntry& method : methods()) {
+    Simulation simulation(p, {.method = std::string(method.name)});
+    for (int n = 0; n < 10; ++n) ASSERT_TRUE(simulation.step(0.5).solved()) << method.name;
+    EXPECT_EQ(simulation.physical().norm(), 0) << method.name;
+  }
+}
+
+TEST(Exact, AFailedStepLeavesTheStateAsItWas) {
+  Problem p = klein_gordon_case(0.0, -1.0);
+  p.initial *= 1e70;  // V overflows within the step
+  for (const MethodEntry& method : methods()) {
+    Simulation simulation(p, {.method = std::string(method.name)});
+    const Vector before = simulation.state().z;
+    const StepReport report = simulation.step(1.0);
+    EXPECT_FALSE(report.solved()) << method.name;
+    EXPECT_FALSE(report.message.empty()) << method.name;
+    EXPECT_EQ(simulation.state().z, before) << method.name;
+    EXPECT_EQ(simulation.state().n, 0);
+  }
+}
+
+TEST(Exact, AnInitialStateWithoutFiniteEnergyIsRefused) {
+  Problem p = klein_gordon_case(0.0, -1.0);
+  p.initial *= 1e100;
+  EXPECT_THROW(Simulation(p, {.method = "seisav"}), Error);
+  EXPECT_THROW(Simulation(p, {.method = "seavf"}), Error);
+}
+
+}  // namespace
+}  // namespace seiche::test

@@ -1,0 +1,261 @@
+// Reads every #include of the library and the program and compares it with the table of who may include whom.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Folders = std::set<std::string>;
+
+const fs::path root = SEICHE_SOURCE_DIR;
+
+// Who may include which folder of ours, beside its own.
+const std::map<std::string, Folders> may_include = {
+    {"core", {}},
+    {"backend", {"core"}},
+    {"potential", {"core"}},
+    {"damping", {"core"}},
+    {"method", {"core"}},
+    {"run", {"core"}},
+    {"output", {"core"}},
+    {"problem", {"core", "potential", "damping"}},
+    {"config", {"core", "potential", "damping", "method", "backend", "problem", "output", "run"}},
+    {"study", {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config"}},
+    {"figure", {"core", "output", "config", "study"}},
+    {"cli",
+     {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config", "study", "figure"}},
+};
+
+// Which folders may include a third-party header; the longest prefix decides. fmt is for everybody.
+struct ThirdParty {
+  std::string prefix;
+  Folders folders;
+};
+const std::vector<ThirdParty> third_party = {
+    {"Eigen/", {"core", "backend", "method"}},
+    {"unsupported/Eigen/", {"method"}},
+    {"fftw3.h", {"backend"}},
+    {"toml++/", {"config"}},
+    {"ginac/", {"config"}},
+    {"cln/", {"config"}},
+    {"nlohmann/", {"output", "study", "cli"}},
+    {"CLI/", {"cli"}},
+    {"boost/numeric/odeint", {"study"}},
+    {"boost/math/", {"damping", "study", "method"}},
+};
+
+struct Include {
+  fs::path file;  // from the root
+  int line = 0;
+  std::string target;
+  bool quoted = false;
+};
+
+std::string joined(const Folders& folders) {
+  std::string text;
+  for (const std::string& folder : folders) text += (text.empty() ? "" : ", ") + folder;
+  return text;
+}
+
+// "core" for seiche/core/x.hpp, "cli" for cli/x.cpp, "" for what lies in seiche/ itself.
+std::string folder_of(const fs::path& path) {
+  auto part = path.begin();
+  if (*part != "seiche") return part->string();
+  ++part;
+  return std::next(part) == path.end() ? "" : part->string();
+}
+
+bool in_standard_library(const std::string& target) {
+  return target.find('/') == std::string::npos ? target != "fftw3.h" && !target.ends_with(".hpp")
+                                               : target.starts_with("sys/");
+}
+
+// The rule that an include breaks, or "".
+std::string broken_rule(const Include& include) {
+  const std::string folder = folder_of(include.file);
+  const bool umbrella = include.file == fs::path("seiche/seiche.hpp");
+  const fs::path beside = (include.file.parent_path() / include.target).lexically_normal();
+  const bool ours = include.quoted || include.target.starts_with("seiche/") || include.target.starts_with("cli/");
+
+  if (ours) {
+    const fs::path target =
+        include.quoted && !include.target.starts_with("seiche/") ? beside : fs::path(include.target);
+    if (target == fs::path("seiche/version.hpp") || umbrella) return "";
+    if (target == fs::path("seiche/seiche.hpp")) return folder == "cli" ? "" : "only cli includes the umbrella header";
+    const auto rule = may_include.find(folder);
+    if (rule == may_include.end()) return "folder '" + folder + "' is not in the layering table";
+    const std::string target_folder = folder_of(target);
+    if (target_folder == folder || rule->second.contains(target_folder)) return "";
+    return folder + " includes only " + joined(rule->second) + (rule->second.empty() ? "" : " and ") + folder;
+  }
+
+  if (in_standard_library(include.target) || include.target.starts_with("fmt/")) return "";
+  const ThirdParty* owner = nullptr;
+  for (const ThirdParty& entry : third_party) {
+    if (include.target.starts_with(entry.prefix) && (!owner || entry.prefix.size() > owner->prefix.size())) {
+      owner = &entry;
+    }
+  }
+  if (!owner) return "this third-party header is not in the table of test/layering_test.cpp";
+  if (owner->folders.contains(folder)) return "";
+  return owner->prefix + " stays in " + joined(owner->folders);
+}
+
+// Headers are installed, so what they include is what a user of the library must have.
+std::string broken_header_rule(const Include& include) {
+  const bool header = include.file.extension() == ".hpp" && *include.file.begin() == "seiche";
+  const bool allowed = include.quoted || include.target.starts_with("seiche/") ||
+                       include.target.starts_with("Eigen/") || include.target.starts_with("fmt/") ||
+                       in_standard_library(include.target);
+  return header && !allowed ? "an installed header includes only ours, Eigen, fmt and the standard library" : "";
+}
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (fs::is_regular_file(root / folder)) return {folder};
+  if (!fs::is_directory(root / folder)) return files;
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    if (entry.is_regular_file()) files.push_back(entry.path().lexically_relative(root));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream in(root / file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<Include> includes_of(const fs::path& file) {
+  std::vector<Include> includes;
+  int number = 0;
+  for (const std::string& line : lines_of(file)) {
+    ++number;
+    std::istringstream words(line);
+    char hash = 0;
+    std::string word;
+    if (!(words >> hash) || hash != '#' || !(words >> word) || !word.starts_with("include")) continue;
+    const std::size_t open = line.find_first_of("<\"");
+    if (open == std::string::npos) continue;
+    const bool quoted = line[open] == '"';
+    const std::size_t close = line.find(quoted ? '"' : '>', open + 1);
+    includes.push_back({file, number, line.substr(open + 1, close - open - 1), quoted});
+  }
+  return includes;
+}
+
+std::vector<Include> all_includes() {
+  std::vector<Include> all;
+  for (const char* folder : {"seiche", "cli"}) {
+    for (const fs::path& file : files_below(folder)) {
+      if (file.extension() != ".hpp" && file.extension() != ".cpp") continue;
+      const std::vector<Include> includes = includes_of(file);
+      all.insert(all.end(), includes.begin(), includes.end());
+    }
+  }
+  return all;
+}
+
+std::string description(const Include& include, const std::string& rule) {
+  return include.file.string() + ":" + std::to_string(include.line) + " includes " + include.target + ", but " + rule;
+}
+
+TEST(Layering, EveryIncludeObeysTheTable) {
+  const std::vector<Include> includes = all_includes();
+  ASSERT_GT(includes.size(), 10U) << "found too few includes below " << root << " to believe it";
+  for (const Include& include : includes) {
+    const std::string rule = broken_rule(include);
+    EXPECT_TRUE(rule.empty()) << description(include, rule);
+  }
+}
+
+TEST(Layering, InstalledHeadersNeedOnlyEigenAndFmt) {
+  for (const Include& include : all_includes()) {
+    const std::string rule = broken_header_rule(include);
+    EXPECT_TRUE(rule.empty()) << description(include, rule);
+  }
+}
+
+TEST(Layering, EveryHeaderThatIsIncludedIsThere) {
+  for (const Include& include : all_includes()) {
+    if (!include.target.starts_with("seiche/") || include.target == "seiche/version.hpp") continue;
+    EXPECT_TRUE(fs::exists(root / include.target)) << description(include, "there is no such file");
+  }
+}
+
+// The reader of includes can fail: what the table forbids is refused, what it allows is not.
+TEST(Layering, ForbiddenIncludesAreRefused) {
+  const std::vector<Include> forbidden = {
+      {"seiche/core/x.hpp", 1, "seiche/method/sav.hpp", false},
+      {"seiche/method/x.cpp", 1, "seiche/backend/dense.hpp", false},
+      {"seiche/method/x.cpp", 1, "../backend/dense.hpp", true},
+      {"seiche/problem/x.cpp", 1, "seiche/backend/backends.hpp", false},
+      {"seiche/run/x.cpp", 1, "seiche/output/outputs.hpp", false},
+      {"seiche/config/x.cpp", 1, "seiche/study/converge.hpp", false},
+      {"seiche/figure/x.cpp", 1, "seiche/method/methods.hpp", false},
+      {"seiche/study/x.cpp", 1, "seiche/figure/plot.hpp", false},
+      {"seiche/study/x.cpp", 1, "cli/commands.hpp", false},
+      {"seiche/core/x.cpp", 1, "seiche/seiche.hpp", false},
+      {"seiche/novel/x.cpp", 1, "seiche/core/state.hpp", false},
+      {"seiche/run/x.cpp", 1, "Eigen/Core", false},
+      {"seiche/core/x.cpp", 1, "unsupported/Eigen/MatrixFunctions", false},
+      {"seiche/method/x.cpp", 1, "fftw3.h", false},
+      {"seiche/study/x.cpp", 1, "toml++/toml.h", false},
+      {"seiche/core/x.cpp", 1, "ginac/ginac.h", false},
+      {"seiche/config/x.cpp", 1, "nlohmann/json.hpp", false},
+      {"seiche/config/x.cpp", 1, "CLI/CLI.hpp", false},
+      {"seiche/method/x.cpp", 1, "boost/numeric/odeint.hpp", false},
+      {"seiche/core/x.cpp", 1, "boost/math/quadrature/gauss.hpp", false},
+      {"seiche/core/x.cpp", 1, "gsl/gsl_math.h", false},
+  };
+  for (const Include& include : forbidden) {
+    EXPECT_NE(broken_rule(include), "") << include.file << " includes " << include.target;
+  }
+  EXPECT_NE(broken_header_rule({"seiche/output/x.hpp", 1, "nlohmann/json.hpp", false}), "");
+
+  const std::vector<Include> allowed = {
+      {"seiche/core/x.hpp", 1, "Eigen/Core", false},
+      {"seiche/core/x.cpp", 1, "vector", false},
+      {"seiche/core/x.cpp", 1, "unistd.h", false},
+      {"seiche/core/x.cpp", 1, "seiche/version.hpp", false},
+      {"seiche/method/x.cpp", 1, "sav.hpp", true},
+      {"seiche/method/x.cpp", 1, "seiche/core/state.hpp", false},
+      {"seiche/problem/x.cpp", 1, "seiche/potential/nodal.hpp", false},
+      {"seiche/config/x.cpp", 1, "seiche/method/methods.hpp", false},
+      {"seiche/study/x.cpp", 1, "seiche/config/simulation.hpp", false},
+      {"seiche/seiche.hpp", 1, "seiche/study/converge.hpp", false},
+      {"cli/main.cpp", 1, "seiche/figure/plot.hpp", false},
+      {"cli/main.cpp", 1, "commands.hpp", true},
+      {"cli/main.cpp", 1, "CLI/CLI.hpp", false},
+  };
+  for (const Include& include : allowed) EXPECT_EQ(broken_rule(include), "") << description(include, "");
+}
+
+TEST(Layering, NothingIsLeftForLaterInTheSources) {
+  const std::vector<std::string> marks = {std::string("TO") + "DO", std::string("FIX") + "ME"};
+  for (const char* folder : {"seiche", "cli", "test", "cases", "docs", "scripts", "bench", "Makefile", "README.md"}) {
+    for (const fs::path& file : files_below(folder)) {
+      int number = 0;
+      for (const std::string& line : lines_of(file)) {
+        ++number;
+        for (const std::string& mark : marks) {
+          EXPECT_EQ(line.find(mark), std::string::npos)
+              << file.string() << ":" << number << " holds " << mark << "; make it an issue and name its number";
+        }
+      }
+    }
+  }
+}
+
+}  // namespace

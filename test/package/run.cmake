@@ -1,0 +1,33 @@
+# Installs `build` into a fresh prefix, builds the project beside this file against it, and runs both programs.
+set(CMAKE_EXECUTE_PROCESS_COMMAND_ECHO STDOUT)
+set(work "${build}/package")
+set(prefix "${work}/prefix")
+file(REMOVE_RECURSE "${work}")
+
+execute_process(COMMAND "${CMAKE_COMMAND}" --install "${build}" --config "${config}" --prefix "${prefix}"
+  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+
+# An installed package may be moved, so none of its CMake files names the tree it was made from.
+file(GLOB_RECURSE package_files "${prefix}/*.cmake")
+foreach(file IN LISTS package_files)
+  file(READ "${file}" text)
+  string(FIND "${text}" "${source}/" position)
+  if(NOT position EQUAL -1)
+    message(FATAL_ERROR "${file} names the source tree ${source}")
+  endif()
+endforeach()
+
+execute_process(COMMAND "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${work}/consumer" -G "${generator}"
+  -D "CMAKE_BUILD_TYPE=${config}" -D "CMAKE_CXX_COMPILER=${compiler}" -D "CMAKE_PREFIX_PATH=${prefix}"
+  COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${CMAKE_COMMAND}" --build "${work}/consumer" --config "${config}" COMMAND_ERROR_IS_FATAL ANY)
+
+find_program(consumer consumer PATHS "${work}/consumer" "${work}/consumer/${config}" NO_DEFAULT_PATH REQUIRED)
+find_program(program seiche PATHS "${prefix}/bin" NO_DEFAULT_PATH REQUIRED)
+foreach(command IN ITEMS "${consumer}" "${program};--version")
+  execute_process(COMMAND ${command} OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+  string(FIND "${output}" "${version}" position)
+  if(position EQUAL -1)
+    message(FATAL_ERROR "'${command}' printed '${output}', which does not name version ${version}")
+  endif()
+endforeach()
