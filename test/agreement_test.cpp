@@ -57,7 +57,8 @@ TEST(Agreement, CoordinatesAreOrthonormalAndInvertible) {
       for (const BackendEntry& backend : backends()) {
         const System system = backend.system(p, {});
         EXPECT_NEAR(system.initial.norm(), p.initial.norm(), 1e-14 * points) << backend.name << points;
-        EXPECT_LE((system.space->physical(system.initial) - p.initial).norm(), 1e-14 * points) << backend.name << points;
+        EXPECT_LE((system.space->physical(system.initial) - p.initial).norm(), 1e-14 * points)
+            << backend.name << points;
       }
     }
   }

@@ -4,9 +4,9 @@
 
 #include <seiche/backend/backends.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 namespace seiche::test {
 namespace {
@@ -52,7 +52,8 @@ TEST(Contract, FPlusItsAdjointPlusFMFVanishesForSkewSAndIsNegativeOtherwise) {
     if (setting.skew) {
       EXPECT_LE(defect.cwiseAbs().maxCoeff(), 1e-13 * size);
     } else {
-      const double largest = Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (defect + defect.transpose())).eigenvalues().maxCoeff();
+      const double largest =
+          Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (defect + defect.transpose())).eigenvalues().maxCoeff();
       EXPECT_LE(largest, 1e-13 * size);
     }
   });

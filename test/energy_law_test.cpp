@@ -19,7 +19,8 @@ struct LawRun {
 
 LawRun run(const Problem& problem, std::string_view method, std::string_view backend, double h, double t_end,
            const MethodOptions& options = {}) {
-  Simulation simulation(problem, {.method = std::string(method), .backend = std::string(backend), .method_options = options});
+  Simulation simulation(problem,
+                        {.method = std::string(method), .backend = std::string(backend), .method_options = options});
   LawRun result;
   EnergyReading before = simulation.energy();
   while (simulation.state().t < t_end - h / 2) {

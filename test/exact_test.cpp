@@ -71,8 +71,9 @@ TEST(Exact, WithOneDegreeOfFreedomTheMultiplierIsTheAveragedVectorField) {
 
 TEST(Exact, WholeAndStrangCoincideWithoutDamping) {
   const Problem p = klein_gordon_case(0.0, 1.0);
-  for (const auto& [whole, strang] : {std::pair("avf", "savf"), std::pair("sav", "ssav"), std::pair("lm", "slm"),
-                                      std::pair("eavf", "seavf"), std::pair("eisav", "seisav"), std::pair("eilm", "seilm")}) {
+  for (const auto& [whole, strang] :
+       {std::pair("avf", "savf"), std::pair("sav", "ssav"), std::pair("lm", "slm"), std::pair("eavf", "seavf"),
+        std::pair("eisav", "seisav"), std::pair("eilm", "seilm")}) {
     Simulation a(p, {.method = whole});
     Simulation b(p, {.method = strang});
     for (int n = 0; n < 64; ++n) {

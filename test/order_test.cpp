@@ -32,8 +32,8 @@ TEST(Order, OfEveryMethodOnEveryProblemIsTheOneItDeclares) {
       const std::vector<double> errors =
           errors_of(reference, problem, {.method = std::string(method.name)}, step_sizes);
       const double tolerance = method.closure == ClosureKind::lm ? 0.3 : 0.1;
-      EXPECT_NEAR(fitted_order(step_sizes, errors), method.order, tolerance)
-          << name << " " << method.name << "\n" << table(step_sizes, errors);
+      EXPECT_NEAR(fitted_order(step_sizes, errors), method.order, tolerance) << name << " " << method.name << "\n"
+                                                                             << table(step_sizes, errors);
     }
   }
 }
@@ -43,7 +43,9 @@ TEST(Order, IsTwoWithRefreshedAuxiliaryAndWithDampingThatVariesInTime) {
   class Wave final : public Rate {  // γ(t) = 0.4 + 0.3 sin(3t)
    public:
     double value(double t) const override { return 0.4 + 0.3 * std::sin(3 * t); }
-    double integral(double t, double h) const override { return 0.4 * h - 0.1 * (std::cos(3 * (t + h)) - std::cos(3 * t)); }
+    double integral(double t, double h) const override {
+      return 0.4 * h - 0.1 * (std::cos(3 * (t + h)) - std::cos(3 * t));
+    }
     bool is_constant() const override { return false; }
     double first_negative_time(double) const override { return -1; }
     std::string text() const override { return "0.4 + 0.3*sin(3*t)"; }

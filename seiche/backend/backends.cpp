@@ -13,7 +13,8 @@ namespace {
 constexpr std::array list = {
     BackendEntry{"dense", "full matrices in physical coordinates: the reference, and the fastest for a few unknowns",
                  dense_system},
-    BackendEntry{"modal", "Fourier or sine coefficients, one small block per mode: exact and fast on grids", modal_system},
+    BackendEntry{"modal", "Fourier or sine coefficients, one small block per mode: exact and fast on grids",
+                 modal_system},
 };
 
 }  // namespace

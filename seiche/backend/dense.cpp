@@ -1,6 +1,7 @@
 #include <seiche/backend/dense.hpp>
 #include <seiche/backend/force_map.hpp>
 #include <seiche/backend/grid_space.hpp>
+#include <seiche/core/error.hpp>
 
 namespace seiche {
 namespace {
@@ -35,7 +36,8 @@ class DensePropagator final : public Propagator {
 
 class DenseLinear final : public LinearPart {
  public:
-  DenseLinear(Matrix S, Matrix M) : S_(std::move(S)), M_(std::move(M)), absolute_M_(M_.cwiseAbs()), scratch_(M_.rows()) {}
+  DenseLinear(Matrix S, Matrix M)
+      : S_(std::move(S)), M_(std::move(M)), absolute_M_(M_.cwiseAbs()), scratch_(M_.rows()) {}
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = S_ * z; }
   void apply_M(const Vector& z, Vector& out) const override { out.noalias() = M_ * z; }
@@ -60,6 +62,10 @@ class DenseLinear final : public LinearPart {
 
 System dense_system(const Problem& problem, const BackendOptions&) {
   const Index n = problem.grid.unknowns();
+  if (problem.size() > dense_limit) {
+    throw Error("the dense backend takes up to {} unknowns and {} has {}; use backend \"modal\"", dense_limit,
+                problem.name, problem.size());
+  }
   const std::shared_ptr<const FieldTransform> identity = identity_transform(n);
   System system;
   system.space = std::make_unique<GridSpace>(problem.field_count(), identity);

@@ -5,6 +5,8 @@
 
 namespace seiche {
 
+// Throws Error above dense_limit unknowns, where the matrices alone would take gigabytes.
+inline constexpr Index dense_limit = 4096;
 System dense_system(const Problem& problem, const BackendOptions& options = {});
 
 }  // namespace seiche

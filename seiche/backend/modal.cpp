@@ -56,22 +56,36 @@ class ModalLinear final : public LinearPart {
   }
 
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
-    std::vector<ForceMaps<Block>> maps;
-    std::vector<Block> Ms;
-    const Modes range = modes(grid_);
-    for (Index k = range.first; k < range.first + range.count; ++k) {
-      Ms.push_back(M_symbol_.symbol(k, range.period));
-      maps.push_back(force_maps<Block>(kind, S_symbol_.symbol(k, range.period), Ms.back(), h));
+    switch (M_symbol_.fields()) {  // blocks of a size known to the compiler: no allocation per mode
+      case 1: return sized_propagator<1>(kind, h);
+      case 2: return sized_propagator<2>(kind, h);
+      default: return sized_propagator<Eigen::Dynamic>(kind, h);
     }
-    const auto at = [&](Index k) { return static_cast<std::size_t>(k - range.first); };
-    return std::make_unique<ModalPropagator>(
-        map([&](Index k, Index) { return maps[at(k)].F; }),
-        map([&](Index k, Index) -> Block { return maps[at(k)].F * Ms[at(k)]; }),
-        map([&](Index k, Index) { return maps[at(k)].Q; }),
-        map([&](Index k, Index) -> Block { return maps[at(k)].Q * Ms[at(k)]; }));
   }
 
  private:
+  template <int m>
+  std::unique_ptr<Propagator> sized_propagator(PropagatorKind kind, double h) const {
+    using SizedBlock = Eigen::Matrix<std::complex<double>, m, m>;
+    struct Maps {
+      SizedBlock F, FM, Q, QM;
+    };
+    std::vector<Maps> maps;
+    const Modes range = modes(grid_);
+    maps.reserve(static_cast<std::size_t>(range.count));
+    for (Index k = range.first; k < range.first + range.count; ++k) {
+      const SizedBlock S = S_symbol_.symbol(k, range.period);
+      const SizedBlock M = M_symbol_.symbol(k, range.period);
+      const ForceMaps<SizedBlock> block = force_maps<SizedBlock>(kind, S, M, h);
+      maps.push_back({block.F, block.F * M, block.Q, block.Q * M});
+    }
+    const auto at = [&](Index k) -> const Maps& { return maps[static_cast<std::size_t>(k - range.first)]; };
+    return std::make_unique<ModalPropagator>(map([&](Index k, Index) -> Block { return at(k).F; }),
+                                             map([&](Index k, Index) -> Block { return at(k).FM; }),
+                                             map([&](Index k, Index) -> Block { return at(k).Q; }),
+                                             map([&](Index k, Index) -> Block { return at(k).QM; }));
+  }
+
   ModeMap map(const ModeMap::Block& block) const { return ModeMap(grid_, M_symbol_.fields(), block); }
 
   Grid grid_;
@@ -108,11 +122,13 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
     const auto symbol = [D = problem.damping.constant](Index k, Index period) { return D.symbol(k, period); };
     constant = std::make_unique<ModeMap>(problem.grid, problem.field_count(), symbol);
     make_flow = [grid = problem.grid, m = problem.field_count(), symbol](double h) {
-      return std::make_unique<ModeMap>(
-          grid, m, [&](Index k, Index period) { return damping_exponential<Block>(symbol(k, period), h); });
+      return std::make_unique<ModeMap>(grid, m, [&](Index k, Index period) {
+        return damping_exponential<Block>(symbol(k, period), h);
+      });
     };
   }
-  system.damping = std::make_unique<GridDamping>(problem, transform->slots(), std::move(constant), std::move(make_flow));
+  system.damping =
+      std::make_unique<GridDamping>(problem, transform->slots(), std::move(constant), std::move(make_flow));
   system.initial.resize(system.space->size());
   system.space->from_physical(problem.initial, system.initial);
   return system;

@@ -22,8 +22,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const bool equal = lower(a[i - 1]) == lower(b[j - 1]);
       row[j] = std::min({back[j] + 1, row[j - 1] + 1, back[j - 1] + (equal ? 0U : 1U)});
-      const bool swapped =
-          i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+      const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
       if (swapped) row[j] = std::min(row[j], two_back[j - 2] + 1);
     }
     two_back = std::move(back);
@@ -50,7 +49,8 @@ std::string nearest_name(std::string_view wanted, const std::vector<std::string>
 Error unknown_name(std::string_view what, std::string_view wanted, const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(wanted, names);
   const std::string hint = nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-  return Error("unknown {} '{}'{}{} Allowed: {}", what, wanted, hint, nearest.empty() ? "." : "", fmt::join(names, ", "));
+  return Error("unknown {} '{}'{}{} Allowed: {}", what, wanted, hint, nearest.empty() ? "." : "",
+               fmt::join(names, ", "));
 }
 
 }  // namespace seiche

@@ -64,12 +64,12 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
   const Extreme constant = hermitian_extremes(problem.grid, [&](Index k, Index period) -> Eigen::MatrixXcd {
     return problem.M.symbol(k, period) * problem.damping.constant.symbol(k, period);
   });
-  const Extreme varying = damping.rate ? hermitian_extremes(problem.grid,
-                                                            [&](Index k, Index period) -> Eigen::MatrixXcd {
-                                                              return problem.M.symbol(k, period) *
-                                                                     rate_projection(problem);
-                                                            })
-                                       : Extreme{0, 0, 0};
+  const Extreme varying = damping.rate
+                              ? hermitian_extremes(problem.grid,
+                                                   [&](Index k, Index period) -> Eigen::MatrixXcd {
+                                                     return problem.M.symbol(k, period) * rate_projection(problem);
+                                                   })
+                              : Extreme{0, 0, 0};
   if (!constant.is_nonnegative() || !varying.is_nonnegative()) {
     return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
   }
@@ -80,8 +80,9 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
   const bool scalar = damping.constant.is_zero() &&
                       std::all_of(damping.rate_fields.begin(), damping.rate_fields.end(), [](bool b) { return b; });
   if (scalar && problem.potential->grows_outward()) return {true, "D = γI and u·∇V(u) ≥ 0 for every u"};
-  return {false, "the damping moves the field that V depends on, and V can rise when it shrinks: the "
-                 "energy-compatible damping condition is not guaranteed"};
+  return {false,
+          "the damping moves the field that V depends on, and V can rise when it shrinks: the "
+          "energy-compatible damping condition is not guaranteed"};
 }
 
 }  // namespace seiche

@@ -29,18 +29,20 @@ Problem with_damping_merged(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
   if (damping.is_zero()) return problem;
   if (damping.rate && !damping.rate->is_constant()) {
-    throw Error("a method that merges the damping into S needs a constant D, but the rate {} varies with time; "
-                "the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) take it",
-                damping.rate->text());
+    throw Error(
+        "a method that merges the damping into S needs a constant D, but the rate {} varies with time; "
+        "the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) take it",
+        damping.rate->text());
   }
   Problem merged = problem;
   const auto merge = [&](Index row, Index column, const Stencil& d) {
     if (d.is_zero()) return;
     if (!gradient_is_identity(problem, column)) {
-      throw Error("a method that merges the damping into S needs Dz = D'∇H(z), but in {} the damped field {} has "
-                  "∇H ≠ {}; the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) take it",
-                  problem.name, problem.fields[static_cast<std::size_t>(column)],
-                  problem.fields[static_cast<std::size_t>(column)]);
+      throw Error(
+          "a method that merges the damping into S needs Dz = D'∇H(z), but in {} the damped field {} has "
+          "∇H ≠ {}; the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) take it",
+          problem.name, problem.fields[static_cast<std::size_t>(column)],
+          problem.fields[static_cast<std::size_t>(column)]);
     }
     merged.S(row, column) += -1.0 * d;
   };

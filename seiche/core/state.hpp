@@ -8,9 +8,9 @@
 namespace seiche {
 
 struct State {
-  Vector z;              // in the coordinates of Space
-  double t = 0.0;        // t₀ + n h for fixed steps
-  std::int64_t n = 0;    // steps taken
+  Vector z;            // in the coordinates of Space
+  double t = 0.0;      // t₀ + n h for fixed steps
+  std::int64_t n = 0;  // steps taken
   // Scalar auxiliary variable (sav family): r² = V + C along the exact solution, E₀ the energy scale of its guard.
   double r_squared = 0.0;
   double shift = 0.0;  // C

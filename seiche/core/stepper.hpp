@@ -21,9 +21,9 @@ struct StepReport {
 };
 
 struct EnergyReading {
-  double H = 0.0;                 // ½zᵀMz + V(z)
-  double modified = 0.0;          // ½zᵀMz + r² − C; equal to H where the method has none
-  double round_off = 0.0;         // of H
+  double H = 0.0;          // ½zᵀMz + V(z)
+  double modified = 0.0;   // ½zᵀMz + r² − C; equal to H where the method has none
+  double round_off = 0.0;  // of H
   double modified_round_off = 0.0;
 };
 
@@ -31,8 +31,8 @@ struct EnergyReading {
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  virtual void begin(State& state) = 0;                    // fills what the method keeps beside z and t
-  virtual StepReport step(State& state, double h) = 0;     // from t to t + h; allocates nothing for an h seen before
+  virtual void begin(State& state) = 0;                 // fills what the method keeps beside z and t
+  virtual StepReport step(State& state, double h) = 0;  // from t to t + h; allocates nothing for an h seen before
   virtual EnergyReading energy(const State& state) const = 0;
   virtual bool has_modified_energy() const = 0;
 };

@@ -22,7 +22,7 @@ struct System {
   double energy(const Vector& z) const { return linear->quadratic_energy(z) + potential->value(z); }
   // 50ε times the sizes of the terms of H: no energy computed in double precision means more than this.
   double energy_round_off(const Vector& z) const;
-  void gradient(const Vector& z, Vector& out) const;                 // ∇H
+  void gradient(const Vector& z, Vector& out) const;                   // ∇H
   void right_hand_side(double t, const Vector& z, Vector& out) const;  // S∇H − Dz
 };
 

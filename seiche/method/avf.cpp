@@ -71,10 +71,11 @@ StepReport AvfClosure::advance(State& s, Propagators& propagators, double t, dou
     report.scalar_iterations += solved.iterations;
     if (!solved.converged) {
       report.status = StepReport::Status::failed;
-      report.message = fmt::format("the implicit equation of avf was not solved at t = {:.6g} with h = {:.6g}: the update "
-                                   "is still {:.3g} × its tolerance after fixed-point and Newton–Krylov iterations; a "
-                                   "smaller h will do",
-                                   t, h, solved.residual);
+      report.message = fmt::format(
+          "the implicit equation of avf was not solved at t = {:.6g} with h = {:.6g}: the update "
+          "is still {:.3g} × its tolerance after fixed-point and Newton–Krylov iterations; a "
+          "smaller h will do",
+          t, h, solved.residual);
       return report;
     }
   }

@@ -35,12 +35,12 @@ struct ExplicitStep {
   // Fills everything below from z; returns V(ẑ).
   double prepare(const Potential& potential, const Propagator& propagator, const Vector& z);
 
-  Vector z_mid;  // ẑ
-  Vector g;      // ĝ = ∇V(ẑ)
-  Vector dz;     // FMz = (E − I)z
-  Vector q;      // Fĝ
-  Vector delta;  // δ₁ = dz + q
-  Vector z_plus; // z₁ = z + δ₁
+  Vector z_mid;   // ẑ
+  Vector g;       // ĝ = ∇V(ẑ)
+  Vector dz;      // FMz = (E − I)z
+  Vector q;       // Fĝ
+  Vector delta;   // δ₁ = dz + q
+  Vector z_plus;  // z₁ = z + δ₁
 
  private:
   Vector gradient_;

@@ -30,16 +30,18 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
   // λd stands in for ḡ − ĝ: a root that asks for much more is another one.
   const Potential::Support support = system_.potential->support();
   const double correction = std::abs(root.x) * d.segment(support.begin, support.size).norm();
-  const bool near = correction <= 4 * equation_.gradient_gap() && equation_.gradient_gap() <= equation_.mean_gradient_norm();
+  const bool near =
+      correction <= 4 * equation_.gradient_gap() && equation_.gradient_gap() <= equation_.mean_gradient_norm();
   if (root.converged && near) {
     z = start.z_plus + root.x * q_;
     return report;
   }
   if (depth == 0) {
     report.status = StepReport::Status::failed;
-    report.message = fmt::format("the directed multiplier was not found in a substep of h = {:.6g} (λ = {:.3g}, |λd| = "
-                                 "{:.3g}, |ḡ − ĝ| = {:.3g}, |ḡ| = {:.3g}); a smaller h will do",
-                                 h, root.x, correction, equation_.gradient_gap(), equation_.mean_gradient_norm());
+    report.message = fmt::format(
+        "the directed multiplier was not found in a substep of h = {:.6g} (λ = {:.3g}, |λd| = "
+        "{:.3g}, |ḡ − ĝ| = {:.3g}, |ḡ| = {:.3g}); a smaller h will do",
+        h, root.x, correction, equation_.gradient_gap(), equation_.mean_gradient_norm());
     return report;
   }
   ++report.fallbacks;

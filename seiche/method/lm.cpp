@@ -90,9 +90,10 @@ StepReport LmClosure::solve_by_newton(Vector& z, double t) {
   report.unresolved = root.converged ? 0 : 1;
   if (!std::isfinite(root.x)) {
     report.status = StepReport::Status::failed;
-    report.message = fmt::format("Newton's iteration for the multiplier η left the numbers at t = {:.6g}; "
-                                 "scalar_solver = \"robust\" will do",
-                                 t);
+    report.message = fmt::format(
+        "Newton's iteration for the multiplier η left the numbers at t = {:.6g}; "
+        "scalar_solver = \"robust\" will do",
+        t);
     return report;
   }
   z = start_.z_plus + root.x * start_.q;

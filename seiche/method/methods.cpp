@@ -73,7 +73,8 @@ void MethodOptions::validate(const MethodEntry& method) const {
   }
   if (auxiliary == AuxiliaryMode::transport) return;
   if (method.closure == avf || method.closure == dm) {
-    throw Error("auxiliary belongs to the sav and lm families; {} carries no auxiliary through the damping", method.name);
+    throw Error("auxiliary belongs to the sav and lm families; {} carries no auxiliary through the damping",
+                method.name);
   }
   if (auxiliary == AuxiliaryMode::refresh && method.closure == lm) {
     throw Error("auxiliary = \"refresh\" has no meaning for {}: V is not carried; use \"transport\" or \"frozen\"",

@@ -46,8 +46,7 @@ void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
     return;
   }
   std::fill(coefficients_.begin(), coefficients_.end(), 0.0);
-  potential_.along(end, direction,
-                   std::span(coefficients_.data(), static_cast<std::size_t>(potential_.degree()) + 1));
+  potential_.along(end, direction, std::span(coefficients_.data(), static_cast<std::size_t>(potential_.degree()) + 1));
   coefficients_[0] = residual;
   coefficients_[1] -= ge_ + ed_;
   coefficients_[2] -= eq_;

@@ -30,8 +30,9 @@ Pointer nodal_polynomial(const std::vector<double>& c) {
 }
 
 Pointer bond_polynomial(const std::vector<double>& c, Boundary boundary) {
-  return with_degree(
-      c, [boundary](auto w) -> Pointer { return std::make_shared<BondPotential<decltype(w)>>(w, boundary); });
+  return with_degree(c, [boundary](auto w) -> Pointer {
+    return std::make_shared<BondPotential<decltype(w)>>(w, boundary);
+  });
 }
 
 std::vector<double> monomial(double c, int d) {

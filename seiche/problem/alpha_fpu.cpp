@@ -29,9 +29,10 @@ Problem alpha_fpu(const AlphaFpu& options) {
 
   if (options.formulation == AlphaFpu::Formulation::dissipative && p.damping.rate) {
     if (!p.damping.rate->is_constant()) {
-      throw Error("formulation = \"dissipative\" puts gamma into the constant S, but gamma = {} varies with time; use "
-                  "formulation = \"conservative\"",
-                  p.damping.rate->text());
+      throw Error(
+          "formulation = \"dissipative\" puts gamma into the constant S, but gamma = {} varies with time; use "
+          "formulation = \"conservative\"",
+          p.damping.rate->text());
     }
     p.S(1, 1) = Stencil::identity(-p.damping.rate->value(0));
     p.damping.rate = nullptr;
@@ -49,18 +50,42 @@ ProblemEntry alpha_fpu_entry() {
   return {
       .name = "alpha_fpu",
       .equation = "u_tt − βu_xxt − (1 + εu_xᵏ)u_xx + m²u + γu_t = 0, u = 0 at both ends",
-      .reference = "Li, Li, Shang, Xu, Example 2; Macías-Díaz, Puri (2009)",
+      .reference = "Li, Li, Shang, Xu, Example 2; Macías-Díaz (2009)",
       .fields = {"u", "v"},
       .parameters =
           {
-              {.name = "length", .default_value = "2.0", .meaning = "L, where the chain ends", .minimum = 0, .minimum_excluded = true},
-              {.name = "points", .kind = ParameterKind::integer, .default_value = "20", .meaning = "N, grid intervals; N − 1 unknowns per field", .minimum = 2, .maximum = 1 << 26},
-              {.name = "exponent", .kind = ParameterKind::integer, .default_value = "1", .meaning = "k, power of u_x in the stress", .minimum = 1, .maximum = max_polynomial_degree - 2},
+              {.name = "length",
+               .default_value = "2.0",
+               .meaning = "L, where the chain ends",
+               .minimum = 0,
+               .minimum_excluded = true},
+              {.name = "points",
+               .kind = ParameterKind::integer,
+               .default_value = "20",
+               .meaning = "N, grid intervals; N − 1 unknowns per field",
+               .minimum = 2,
+               .maximum = 1 << 26},
+              {.name = "exponent",
+               .kind = ParameterKind::integer,
+               .default_value = "1",
+               .meaning = "k, power of u_x in the stress",
+               .minimum = 1,
+               .maximum = max_polynomial_degree - 2},
               {.name = "epsilon", .default_value = "0.005", .meaning = "ε, strength of the nonlinear stress"},
-              {.name = "beta", .default_value = "0.01", .meaning = "β, Kelvin–Voigt damping, length²/time", .minimum = 0},
-              {.name = "gamma", .kind = ParameterKind::rate, .default_value = "0.5", .meaning = "γ, damping rate, 1/time"},
+              {.name = "beta",
+               .default_value = "0.01",
+               .meaning = "β, Kelvin–Voigt damping, length²/time",
+               .minimum = 0},
+              {.name = "gamma",
+               .kind = ParameterKind::rate,
+               .default_value = "0.5",
+               .meaning = "γ, damping rate, 1/time"},
               {.name = "mass", .default_value = "1.0", .meaning = "m, frequency of the mean"},
-              {.name = "formulation", .kind = ParameterKind::choice, .default_value = "conservative", .meaning = "γ in D (conservative, Example 2.1) or in S (dissipative, Example 2.2)", .choices = {"conservative", "dissipative"}},
+              {.name = "formulation",
+               .kind = ParameterKind::choice,
+               .default_value = "conservative",
+               .meaning = "γ in D (conservative, Example 2.1) or in S (dissipative, Example 2.2)",
+               .choices = {"conservative", "dissipative"}},
           },
       .presets = {"paper"},
       .make =

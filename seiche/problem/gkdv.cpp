@@ -19,8 +19,7 @@ Problem gkdv(const Gkdv& options) {
   p.damping = {.constant = BlockStencil(1), .rate = undamped ? nullptr : options.mu, .rate_fields = {true}};
   const int k = options.exponent;
   p.potential = nodal_polynomial(monomial(-options.sigma / (k + 2), k + 2));
-  p.initial =
-      sample(p.grid, [&](double x) { return 0.4 * std::exp(-square(x - options.length / 2) / 2); });
+  p.initial = sample(p.grid, [&](double x) { return 0.4 * std::exp(-square(x - options.length / 2) / 2); });
   return p;
 }
 
@@ -32,10 +31,26 @@ ProblemEntry gkdv_entry() {
       .fields = {"u"},
       .parameters =
           {
-              {.name = "length", .default_value = "10.0", .meaning = "L, the period in x", .minimum = 0, .minimum_excluded = true},
-              {.name = "points", .kind = ParameterKind::integer, .default_value = "20", .meaning = "N, grid points in one period", .minimum = 3, .maximum = 1 << 26},
-              {.name = "exponent", .kind = ParameterKind::integer, .default_value = "2", .meaning = "k, power of the nonlinearity", .minimum = 1, .maximum = max_polynomial_degree - 2},
-              {.name = "sigma", .default_value = "0.001", .meaning = "σ, strength of the nonlinearity; positive: V unbounded below"},
+              {.name = "length",
+               .default_value = "10.0",
+               .meaning = "L, the period in x",
+               .minimum = 0,
+               .minimum_excluded = true},
+              {.name = "points",
+               .kind = ParameterKind::integer,
+               .default_value = "20",
+               .meaning = "N, grid points in one period",
+               .minimum = 3,
+               .maximum = 1 << 26},
+              {.name = "exponent",
+               .kind = ParameterKind::integer,
+               .default_value = "2",
+               .meaning = "k, power of the nonlinearity",
+               .minimum = 1,
+               .maximum = max_polynomial_degree - 2},
+              {.name = "sigma",
+               .default_value = "0.001",
+               .meaning = "σ, strength of the nonlinearity; positive: V unbounded below"},
               {.name = "epsilon", .default_value = "1.0", .meaning = "ε, dispersion", .minimum = 0},
               {.name = "mu", .kind = ParameterKind::rate, .default_value = "0.5", .meaning = "μ, damping rate, 1/time"},
           },

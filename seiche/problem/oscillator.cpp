@@ -30,10 +30,20 @@ ProblemEntry oscillator_entry() {
       .fields = {"q", "p"},
       .parameters =
           {
-              {.name = "points", .kind = ParameterKind::integer, .default_value = "1", .meaning = "number of oscillators, which do not touch", .minimum = 1, .maximum = 1 << 26},
-              {.name = "omega_squared", .default_value = "1.0", .meaning = "ω², frequency squared; negative: a double well"},
+              {.name = "points",
+               .kind = ParameterKind::integer,
+               .default_value = "1",
+               .meaning = "number of oscillators, which do not touch",
+               .minimum = 1,
+               .maximum = 1 << 26},
+              {.name = "omega_squared",
+               .default_value = "1.0",
+               .meaning = "ω², frequency squared; negative: a double well"},
               {.name = "alpha", .default_value = "1.0", .meaning = "α, strength of the cubic force"},
-              {.name = "gamma", .kind = ParameterKind::rate, .default_value = "0.1", .meaning = "γ, damping rate, 1/time"},
+              {.name = "gamma",
+               .kind = ParameterKind::rate,
+               .default_value = "0.1",
+               .meaning = "γ, damping rate, 1/time"},
           },
       .presets = {"release"},
       .make =

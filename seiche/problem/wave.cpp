@@ -14,7 +14,9 @@ Problem wave_problem(std::string name, const Grid& grid, const Stencil& stiffnes
   p.M(0, 0) = stiffness;
   p.M(1, 1) = Stencil::identity();
   const bool undamped = !gamma || (gamma->is_constant() && gamma->value(0) == 0);
-  p.damping = {.constant = BlockStencil(2), .rate = undamped ? nullptr : std::move(gamma), .rate_fields = {false, true}};
+  p.damping = {.constant = BlockStencil(2),
+               .rate = undamped ? nullptr : std::move(gamma),
+               .rate_fields = {false, true}};
   p.initial = Vector::Zero(p.size());
   return p;
 }

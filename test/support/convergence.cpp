@@ -24,7 +24,8 @@ Errors errors_against(const Reference& reference, const Problem& problem, const 
     const Vector distance =
         simulation.physical() - Eigen::Map<const Vector>(exact.data(), static_cast<Index>(exact.size()));
     errors.solution = std::max(errors.solution, distance.lpNorm<Eigen::Infinity>());
-    errors.energy = std::max(errors.energy, std::abs(simulation.system().energy(simulation.state().z) - reference.energy(k)));
+    errors.energy =
+        std::max(errors.energy, std::abs(simulation.system().energy(simulation.state().z) - reference.energy(k)));
   }
   return errors;
 }

@@ -19,8 +19,7 @@ Problem fpu_conservative_case(double gamma, double beta) {
 }
 
 Problem fpu_dissipative_case(double gamma, double beta) {
-  return alpha_fpu(
-      {.beta = beta, .gamma = constant_rate(gamma), .formulation = AlphaFpu::Formulation::dissipative});
+  return alpha_fpu({.beta = beta, .gamma = constant_rate(gamma), .formulation = AlphaFpu::Formulation::dissipative});
 }
 
 Problem gkdv_case(double mu, double sigma, double amplitude) {

@@ -1,0 +1,23 @@
+// Everything a program needs: problems, methods, backends, the time loop and its observers.
+//
+// Start here: seiche/config/simulation.hpp puts a problem, a method and a backend together; seiche/core/problem.hpp
+// says what a problem is; seiche/method/methods.hpp and seiche/problem/problems.hpp list what there is.
+#pragma once
+
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/law.hpp>
+#include <seiche/core/observer.hpp>
+#include <seiche/damping/rates.hpp>
+#include <seiche/output/energy_trace.hpp>
+#include <seiche/output/final_state.hpp>
+#include <seiche/output/snapshots.hpp>
+#include <seiche/potential/bond.hpp>
+#include <seiche/potential/nodal.hpp>
+#include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/alpha_fpu.hpp>
+#include <seiche/problem/gkdv.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/oscillator.hpp>
+#include <seiche/run/integrate.hpp>
+#include <seiche/version.hpp>

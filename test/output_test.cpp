@@ -1,0 +1,209 @@
+// Files appear whole or not at all, and numbers survive them to the last bit.
+#include <seiche/core/error.hpp>
+#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/energy_trace.hpp>
+#include <seiche/output/final_state.hpp>
+#include <seiche/output/progress.hpp>
+#include <seiche/output/snapshots.hpp>
+#include <seiche/output/summary.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Output : public testing::Test {
+ protected:
+  Output() {
+    std::string name = (fs::temp_directory_path() / "seiche_output_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw Error("no temporary directory {}", name);
+    directory = name;
+  }
+  ~Output() override { fs::remove_all(directory); }
+
+  std::string text(const char* name) const {
+    std::ifstream in(directory / name);
+    std::ostringstream all;
+    all << in.rdbuf();
+    return all.str();
+  }
+  std::vector<std::string> lines(const char* name) const {
+    std::ifstream in(directory / name);
+    std::vector<std::string> all;
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    return all;
+  }
+
+  fs::path directory;
+};
+
+// Doubles that a shorter form would change.
+const std::vector<double> awkward = {
+    0.1, 1.0 / 3, -2.2250738585072014e-308, 5e-324, 1.7976931348623157e308, 1.0000000000000002, 123456789.12345679,
+    -0.0};
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(Output, AFileIsThereOnlyAfterCommit) {
+  const fs::path path = directory / "x.txt";
+  AtomicFile file(path);
+  file.write("whole");
+  EXPECT_FALSE(fs::exists(path));
+  file.commit();
+  EXPECT_EQ(text("x.txt"), "whole");
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory), {}), 1) << "nothing temporary is left";
+}
+
+TEST_F(Output, WithoutCommitTheEarlierFileStays) {
+  write_file(directory / "x.txt", "before");
+  { AtomicFile(directory / "x.txt").write("half of somethi"); }
+  EXPECT_EQ(text("x.txt"), "before");
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory), {}), 1);
+}
+
+// Below a regular file nothing can be written, not even by root.
+TEST_F(Output, AnUnwritablePlaceIsNamedWithTheReason) {
+  write_file(directory / "file", "");
+  const fs::path below = directory / "file" / "out";
+  for (const std::string& message :
+       {error_of([&] { make_directory(below); }), error_of([&] { AtomicFile file(below / "x"); }),
+        error_of([&] { make_directory(directory / "file"); })}) {
+    EXPECT_THAT(message, HasSubstr((directory / "file").string()));
+    EXPECT_THAT(message, HasSubstr(std::strerror(ENOTDIR)));
+  }
+  EXPECT_THAT(error_of([&] { AtomicFile file(directory / "none" / "x"); }), HasSubstr(std::strerror(ENOENT)));
+}
+
+TEST_F(Output, AFullDiskIsAnErrorAndNotSilence) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  fs::create_symlink("/dev/full", directory / "x.partial");
+  const std::string message = error_of([&] {
+    AtomicFile file(directory / "x");
+    file.write("text");
+    file.commit();
+  });
+  EXPECT_THAT(message, HasSubstr(std::strerror(ENOSPC)));
+}
+
+TEST_F(Output, TheFinalStateReadsBackToTheLastBit) {
+  const Vector values = Eigen::Map<const Vector>(awkward.data(), static_cast<Index>(awkward.size()));
+  write_final_state(directory / "final.txt", values);
+  const std::vector<std::string> read = lines("final.txt");
+  ASSERT_EQ(read.size(), awkward.size());
+  for (std::size_t i = 0; i < awkward.size(); ++i) {
+    EXPECT_EQ(std::strtod(read[i].c_str(), nullptr), awkward[i]) << read[i];
+  }
+  EXPECT_EQ(read[0], "0.10000000000000001") << "17 significant digits";
+}
+
+TEST_F(Output, TheEnergyTraceHasAColumnForTheModifiedEnergyOnlyWhereThereIsOne) {
+  for (const bool modified : {false, true}) {
+    EnergyTrace trace(directory / "energy.csv", modified);
+    const State state{.z = {}, .t = 0.25, .n = 1};
+    trace.observe(state, {.H = 0.1, .modified = 1.0 / 3});
+    trace.finish({});
+    EXPECT_EQ(lines("energy.csv"),
+              (modified ? std::vector<std::string>{"t,H,H_modified", "0.25,0.10000000000000001,0.33333333333333331"}
+                        : std::vector<std::string>{"t,H", "0.25,0.10000000000000001"}));
+  }
+}
+
+// Coordinates that are not the physical values: z is their double.
+class HalvingSpace : public Space {
+ public:
+  Index size() const override { return 4; }
+  Index physical_size() const override { return 4; }
+  void to_physical(const Vector& z, Vector& values) const override { values = z / 2; }
+  void from_physical(const Vector& values, Vector& z) const override { z = 2 * values; }
+};
+
+TEST_F(Output, SnapshotsHoldPhysicalValuesUnderTheNamesOfTheirFields) {
+  Problem problem;
+  problem.fields = {"u", "v"};
+  problem.grid = {.intervals = 2, .length = 1.0, .boundary = Boundary::periodic};
+  const HalvingSpace space;
+  Snapshots snapshots(directory / "snapshots.csv", problem, space, {.every_steps = 2});
+  State state{.z = Vector::LinSpaced(4, 2.0, 8.0)};
+  EXPECT_TRUE(snapshots.is_due(state, false));
+  snapshots.observe(state, {});
+  state.n = 1;
+  EXPECT_FALSE(snapshots.is_due(state, false));
+  snapshots.finish({});
+  EXPECT_EQ(lines("snapshots.csv"), (std::vector<std::string>{"t,u_1,u_2,v_1,v_2", "0,1,2,3,4"}));
+}
+
+TEST(Summary, HasTheKeysOfTheInterfaceInTheirOrder) {
+  RunReport report;
+  report.has_modified_energy = true;
+  report.message = "said \"so\"\n";
+  const RunIdentity run{.problem = "klein_gordon", .method = "seisav", .backend = "modal", .h = 1.0 / 256};
+  const auto json = nlohmann::ordered_json::parse(summary_json(run, report));
+  std::vector<std::string> keys;
+  for (const auto& item : json.items()) keys.push_back(item.key());
+  EXPECT_EQ(keys, (std::vector<std::string>{"status", "message", "problem", "method", "backend", "h", "steps", "t",
+                                            "energy", "counts", "wall_seconds", "versions"}));
+  EXPECT_EQ(
+      json["energy"].dump(),
+      R"({"initial":0.0,"final":0.0,"max_increase":0.0,"modified":{"initial":0.0,"final":0.0,"max_increase":0.0},)"
+      R"("law":"not promised"})");
+  EXPECT_EQ(json["counts"].dump(), R"({"gradients":0,"potentials":0,"scalar_iterations":0,"fallbacks":0})");
+  EXPECT_EQ(json["h"], 0.00390625);
+  EXPECT_EQ(json["message"], "said \"so\"\n");
+}
+
+TEST(Summary, NotANumberBecomesNullSoThatEveryReaderOfJsonAcceptsIt) {
+  RunReport report;
+  report.energy.initial = std::numeric_limits<double>::quiet_NaN();
+  report.energy.final = std::numeric_limits<double>::infinity();
+  report.message = "\xff is no UTF-8";
+  const auto json = nlohmann::json::parse(summary_json({}, report));
+  EXPECT_TRUE(json["energy"]["initial"].is_null());
+  EXPECT_TRUE(json["energy"]["final"].is_null());
+  EXPECT_TRUE(json["energy"]["modified"].is_null()) << "the method has none";
+}
+
+TEST(Progress, NeverAsksForARecordAndDrawsAtMostTenTimesASecond) {
+  std::FILE* terminal = std::tmpfile();
+  ASSERT_TRUE(terminal);
+  setenv("NO_COLOR", "1", 1);
+  Progress progress(terminal, 1'000'000'000);
+  State state;
+  const auto begin = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(350)) {
+    ++state.n;
+    EXPECT_FALSE(progress.is_due(state, false));
+  }
+  progress.finish({});
+  std::rewind(terminal);
+  std::string drawn(1 << 16, '\0');
+  drawn.resize(std::fread(drawn.data(), 1, drawn.size(), terminal));
+  std::fclose(terminal);
+  const auto returns = std::count(drawn.begin(), drawn.end(), '\r');
+  EXPECT_GE(returns, 3) << drawn;
+  EXPECT_LE(returns, 3 + 2) << "three bars and the two that wipe the last one";
+  EXPECT_THAT(drawn, HasSubstr("steps/s"));
+  EXPECT_EQ(drawn.find('\x1b'), std::string::npos) << "NO_COLOR is honoured";
+}
+
+}  // namespace
+}  // namespace seiche
