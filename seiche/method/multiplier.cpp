@@ -10,12 +10,11 @@ double absolute_dot(const Vector& a, const Vector& b) { return (a.array() * b.ar
 
 }  // namespace
 
-MultiplierEquation::MultiplierEquation(const Potential& potential, Index size)
-    : potential_(potential), mean_(size), end_(size), gradient_(size) {
+MultiplierEquation::MultiplierEquation(const Potential& potential, Index size) : potential_(potential), mean_(size) {
   if (potential.degree() > 0) {
     coefficients_.resize(static_cast<std::size_t>(std::max(potential.degree(), 2)) + 1);
   } else {
-    for (Vector* v : {&start_, &end_0_, &direction_}) v->setZero(size);
+    for (Vector* v : {&end_, &gradient_, &increment_}) v->setZero(size);
   }
 }
 
@@ -28,8 +27,7 @@ void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
   gap_norm_ = (mean_ - line.g).norm();
   mean_norm_ = mean_.norm();
   gd_ = line.g.dot(line.delta);
-  ge_ = line.g.dot(line.q);
-  ed_ = line.e.dot(line.delta);
+  linear_ = line.g.dot(line.q) + line.e.dot(line.delta);
   eq_ = line.e.dot(line.q);
   const Potential::Support support = potential_.support();
   const double sizes = line.g.norm() * line.delta.segment(support.begin, support.size).norm();
@@ -38,17 +36,21 @@ void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
              absolute_dot(mean_, line.q) + absolute_dot(line.g, line.q) + absolute_dot(line.e, line.delta),
              absolute_dot(line.e, line.q)};
 
-  const double residual = measured_at ? mean_.dot(end - start) - gd_ : (mean_ - line.g).dot(line.delta);  // F(0)
   if (coefficients_.empty()) {
-    start_ = start;
-    end_0_ = end;
-    direction_ = direction;
+    delta_ = &line.delta;
+    q_ = &line.q;
+    g_ = &line.g;
+    e_ = &line.e;
+    start_ = &start;
+    end_0_ = &end;
+    direction_ = &direction;
+    measured_elsewhere_ = measured_at != nullptr;
     return;
   }
   std::fill(coefficients_.begin(), coefficients_.end(), 0.0);
   potential_.along(end, direction, std::span(coefficients_.data(), static_cast<std::size_t>(potential_.degree()) + 1));
-  coefficients_[0] = residual;
-  coefficients_[1] -= ge_ + ed_;
+  coefficients_[0] = measured_at ? mean_.dot(end - start) - gd_ : (mean_ - line.g).dot(line.delta);  // F(0)
+  coefficients_[1] -= linear_;
   coefficients_[2] -= eq_;
 }
 
@@ -63,13 +65,19 @@ MultiplierEquation::Value MultiplierEquation::at(double x) {
   return {F, slope, scales_[0] + std::abs(x) * (scales_[1] + std::abs(x) * scales_[2])};
 }
 
-// V(end) − V(start) by the mean gradient, so that no two large values of V are subtracted.
+// F from the mean gradient and δ itself: end − start would carry the round-off of z, which short steps do not forgive.
 MultiplierEquation::Value MultiplierEquation::at_by_quadrature(double x) {
-  end_ = end_0_ + x * direction_;
-  potential_.mean_gradient(start_, end_, mean_);
+  end_ = *end_0_ + x * *direction_;
+  potential_.mean_gradient(*start_, end_, mean_);
   potential_.gradient(end_, gradient_);
-  const double work = gd_ + x * (ge_ + ed_ + x * eq_);  // f(x)ᵀδ(x)
-  return {mean_.dot(end_ - start_) - work, gradient_.dot(direction_) - (ge_ + ed_ + 2 * x * eq_),
+  double F = 0;
+  if (measured_elsewhere_) {
+    F = mean_.dot(end_ - *start_) - (gd_ + x * (linear_ + x * eq_));
+  } else {
+    increment_ = *delta_ + x * *q_;
+    F = (mean_ - *g_ - x * *e_).dot(increment_);
+  }
+  return {F, gradient_.dot(*direction_) - (linear_ + 2 * x * eq_),
           scales_[0] + std::abs(x) * (scales_[1] + std::abs(x) * scales_[2])};
 }
 

@@ -41,6 +41,7 @@ class MultiplierEquation {
   enum class Stop { residual, residual_or_update };
 
   MultiplierEquation(const Potential& potential, Index size);
+  // The vectors of the line must live and keep their values for as long as the equation is evaluated.
   void set(const Line& line, const MeasuredAt* measured_at = nullptr);
 
   Value at(double x);
@@ -58,9 +59,13 @@ class MultiplierEquation {
   std::vector<double> coefficients_;  // of F, for polynomial V; empty otherwise
   std::array<double, 3> scales_{};    // of 1, |x|, x²
   double cosine_ = 0, mean_norm_ = 0, gap_norm_ = 0;
-  double ge_ = 0, ed_ = 0, eq_ = 0, gd_ = 0;  // ĝᵀq, eᵀδ₁, eᵀq, ĝᵀδ₁
-  Vector mean_, end_, gradient_;
-  Vector start_, end_0_, direction_;  // copies of the line, for general V only
+  double gd_ = 0, linear_ = 0, eq_ = 0;  // f(x)ᵀδ(x) = ĝᵀδ₁ + x (ĝᵀq + eᵀδ₁) + x² eᵀq
+  Vector mean_;
+  // For general V only:
+  const Vector *delta_ = nullptr, *q_ = nullptr, *g_ = nullptr, *e_ = nullptr;
+  const Vector *start_ = nullptr, *end_0_ = nullptr, *direction_ = nullptr;
+  bool measured_elsewhere_ = false;
+  Vector end_, gradient_, increment_;
 };
 
 }  // namespace seiche

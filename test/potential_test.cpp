@@ -1,0 +1,110 @@
+// The contracts of potentials, pointwise and in the coordinates of every backend.
+#include "support/cosine.hpp"
+#include "support/paper_cases.hpp"
+
+#include <seiche/backend/backends.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/potential/bond.hpp>
+#include <seiche/potential/nodal.hpp>
+#include <seiche/potential/polynomials.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace seiche::test {
+namespace {
+
+std::vector<NamedProblem> problems_with_every_kind_of_potential() {
+  std::vector<NamedProblem> list = all_cases();
+  Problem p = klein_gordon_case();
+  p.potential = nodal_polynomial({0.5, -0.3, 0.2, 0.7, -0.1, 0.05, 0.02});
+  list.push_back({"nodal_degree_6", p});
+  p.potential = bond_polynomial({0, 0, 1.0, 0.3, 0.2}, Boundary::periodic);
+  list.push_back({"bond_periodic", p});
+  p.potential = std::make_shared<NodalPotential<Cosine>>(Cosine{});
+  list.push_back({"nodal_cosine", p});
+  return list;
+}
+
+template <class Check>
+void for_every_potential(const Check& check) {
+  std::srand(7);
+  for (const auto& [name, problem] : problems_with_every_kind_of_potential()) {
+    for (const BackendEntry& backend : backends()) {
+      SCOPED_TRACE(name + " " + std::string(backend.name));
+      const System system = backend.system(problem, {});
+      const auto random = [&] {
+        Vector z(system.space->size());
+        system.space->from_physical(0.3 * Vector::Random(problem.size()), z);
+        return z;
+      };
+      check(*system.potential, random(), random());
+    }
+  }
+}
+
+TEST(Potential, GradientIsTheGradientOfTheValue) {
+  for_every_potential([](const Potential& V, const Vector& z, const Vector& direction) {
+    Vector g(z.size());
+    EXPECT_NEAR(V.value_and_gradient(z, g), V.value(z), 1e-14 * (1 + V.magnitude(z)));
+    const double s = 1e-5;
+    const double slope = (V.value(z + s * direction) - V.value(z - s * direction)) / (2 * s);
+    EXPECT_NEAR(g.dot(direction), slope, 1e-6 * (1 + std::abs(slope)));
+  });
+}
+
+TEST(Potential, MeanGradientTimesTheIncrementIsTheDifferenceOfValues) {
+  for_every_potential([](const Potential& V, const Vector& a, const Vector& b) {
+    Vector mean(a.size());
+    V.mean_gradient(a, b, mean);
+    EXPECT_NEAR(mean.dot(b - a), V.value(b) - V.value(a), 1e-13 * (1 + V.magnitude(a) + V.magnitude(b)));
+  });
+}
+
+TEST(Potential, MeanGradientBetweenNeighboursLosesNoDigits) {
+  for_every_potential([](const Potential& V, const Vector& a, const Vector& b) {
+    const Vector near = a + 1e-9 * b;
+    Vector mean(a.size());
+    Vector middle(a.size());
+    V.mean_gradient(a, near, mean);
+    V.gradient(0.5 * (a + near), middle);
+    EXPECT_LE((mean - middle).norm(), 1e-13 * (1 + middle.norm()));
+  });
+}
+
+TEST(Potential, CoefficientsAlongALineGiveItsValues) {
+  for_every_potential([](const Potential& V, const Vector& p, const Vector& q) {
+    if (V.degree() == 0) return;
+    std::vector<double> c(static_cast<std::size_t>(V.degree()) + 1);
+    V.along(p, q, c);
+    for (const double x : {-1.0, 0.0, 0.4, 2.0}) {
+      double sum = 0;
+      for (std::size_t i = c.size(); i-- > 0;) sum = sum * x + c[i];
+      EXPECT_NEAR(sum, V.value(p + x * q), 1e-12 * (1 + V.magnitude(p + x * q)));
+    }
+  });
+}
+
+TEST(Potential, GradientsVanishOutsideTheSupport) {
+  for_every_potential([](const Potential& V, const Vector& z, const Vector&) {
+    Vector g = Vector::Constant(z.size(), 7.0);
+    V.gradient(z, g);
+    const Potential::Support s = V.support();
+    EXPECT_EQ(g.head(s.begin).norm() + g.tail(g.size() - s.begin - s.size).norm(), 0);
+  });
+}
+
+TEST(Potential, GrowsOutwardOnlyForEvenPowersWithPositiveCoefficients) {
+  EXPECT_TRUE(nodal_polynomial({0, 0, 1, 0, 2})->grows_outward());
+  EXPECT_FALSE(nodal_polynomial({0, 0, 1, 1e-3, 2})->grows_outward());
+  EXPECT_FALSE(nodal_polynomial({0, 0, 1, 0, -2})->grows_outward());
+}
+
+TEST(Potential, ADegreeThatIsTooHighIsRefused) {
+  EXPECT_NO_THROW(nodal_polynomial(monomial(1, max_polynomial_degree)));
+  EXPECT_THROW(nodal_polynomial(monomial(1, max_polynomial_degree + 1)), Error);
+}
+
+}  // namespace
+}  // namespace seiche::test
