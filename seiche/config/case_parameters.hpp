@@ -1,0 +1,20 @@
+// What [problem] says: parameters against the problem's own list, and initial data.
+#pragma once
+
+#include <seiche/config/case_value.hpp>
+#include <seiche/config/run_spec.hpp>
+#include <seiche/problem/problems.hpp>
+
+#include <filesystem>
+
+namespace seiche {
+
+// Needs spec.t_end: a rate must be finite, and within its bounds, up to there.
+void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value);
+
+// A preset, { file = "…" }, or a formula for every field. A relative file name starts at `folder`, or else at the
+// current one.
+InitialData read_initial(std::string_view key, const CaseValue& value, const ProblemEntry& problem,
+                         const std::filesystem::path& folder);
+
+}  // namespace seiche

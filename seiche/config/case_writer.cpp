@@ -1,0 +1,120 @@
+// write_case and example_case: the same layout, the second with every meaning and bound beside its key.
+#include <seiche/config/case_file.hpp>
+#include <seiche/config/case_value.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/problem/problems.hpp>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+std::string number_or_string(const std::string& text) { return is_toml_number(text) ? text : toml_string(text); }
+
+// Step sizes are fractions by nature: 1/256 says more than 0.00390625.
+std::string step_size(double h) {
+  const double parts = std::round(1 / h);
+  const bool is_fraction = parts >= 2 && parts < 1e9 && 1 / parts == h;
+  return is_fraction ? fmt::format("\"1/{}\"", static_cast<long>(parts)) : toml_real(h);
+}
+
+std::string initial_text(const InitialData& initial) {
+  if (const auto* preset = std::get_if<PresetData>(&initial)) return toml_string(preset->name);
+  if (const auto* data = std::get_if<FileData>(&initial))
+    return fmt::format("{{ file = {} }}", toml_string(data->file.string()));
+  std::vector<std::string> entries;
+  for (const auto& [field, formula] : std::get<FormulaData>(initial).formulas)
+    entries.push_back(fmt::format("{} = {}", field, toml_string(formula)));
+  return fmt::format("{{ {} }}", fmt::join(entries, ", "));
+}
+
+std::string_view to_text(AuxiliaryMode mode) {
+  switch (mode) {
+    case AuxiliaryMode::frozen: return "frozen";
+    case AuxiliaryMode::refresh: return "refresh";
+    default: return "transport";
+  }
+}
+
+std::string bounds(const Parameter& p) {
+  std::vector<std::string> parts;
+  if (p.kind == ParameterKind::integer) parts.emplace_back("whole");
+  if (p.kind == ParameterKind::rate) parts.emplace_back("a number, or a formula in t in quotes");
+  if (std::isfinite(p.minimum)) parts.push_back(fmt::format("{} {}", p.minimum_excluded ? ">" : "≥", p.minimum));
+  if (std::isfinite(p.maximum)) parts.push_back(fmt::format("≤ {}", p.maximum));
+  if (p.kind == ParameterKind::choice) parts.push_back(fmt::format("\"{}\"", fmt::join(p.choices, "\" | \"")));
+  return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", "));
+}
+
+std::string parameter_literal(const Parameter& parameter, const std::string& text) {
+  return parameter.kind == ParameterKind::choice ? toml_string(text) : number_or_string(text);
+}
+
+// "key = value" with the comment in one column.
+std::string line(const std::string& key, const std::string& value, const std::string& comment) {
+  return fmt::format("{:<34}# {}\n", fmt::format("{} = {}", key, value), comment);
+}
+
+}  // namespace
+
+std::string write_case(const RunSpec& spec) {
+  std::string text = fmt::format("[problem]\nname = {}\n", toml_string(spec.problem));
+  for (const Parameter& parameter : find_problem(spec.problem).parameters) {
+    const auto value = spec.parameter_texts.find(parameter.name);
+    if (value == spec.parameter_texts.end()) throw Error("the case has no parameter {}", parameter.name);
+    text += fmt::format("{} = {}\n", parameter.name, parameter_literal(parameter, value->second));
+  }
+  text += fmt::format("initial = {}\n", initial_text(spec.initial));
+
+  const MethodOptions& options = spec.method_options;
+  text += fmt::format("\n[method]\nname = {}\nh = {}\n", toml_string(spec.method), step_size(spec.h));
+  text += fmt::format("C = {}\n", options.C ? toml_real(*options.C) : "\"auto\"");
+  text += fmt::format("auxiliary = \"{}\"\n", to_text(options.auxiliary));
+  text += fmt::format("scalar_solver = \"{}\"\n", options.scalar_solver == ScalarSolver::newton ? "newton" : "robust");
+
+  text += fmt::format("\n[backend]\nname = {}\nplan = \"{}\"\n", toml_string(spec.backend),
+                      spec.measure_plans ? "measure" : "estimate");
+  text += fmt::format("\n[time]\nend = {}\n", toml_real(spec.t_end));
+  text += fmt::format("\n[output]\ndirectory = {}\nenergy_every = {}\nsnapshot_every = {}\n",
+                      toml_string(spec.output_directory), spec.energy_every, spec.snapshot_every);
+  return text;
+}
+
+std::string example_case(const std::string& problem) {
+  const ProblemEntry& entry = find_problem(problem);
+  std::string text = fmt::format("# {}\n# {}\n\n[problem]\n", entry.equation, entry.reference);
+  text += fmt::format("name = {}\n", toml_string(entry.name));
+  for (const Parameter& parameter : entry.parameters) {
+    text += line(parameter.name, parameter_literal(parameter, parameter.default_value),
+                 parameter.meaning + bounds(parameter));
+  }
+  std::vector<std::string> formulas;
+  for (const std::string& field : entry.fields) formulas.push_back(fmt::format("{} = \"0\"", field));
+  text += line("initial", toml_string(entry.presets.front()),
+               fmt::format("{}; or {{ file = \"z0.txt\" }}; or formulas in x, j: {{ {} }}",
+                           fmt::join(entry.presets, " | "), fmt::join(formulas, ", ")));
+
+  text += "\n[method]\n";
+  text += line("name", "\"seisav\"", fmt::format("{}", fmt::join(method_names(), " | ")));
+  text += line("h", number_or_string(entry.default_h), "step size, time; a number, or a fraction in quotes");
+  text += line("C", "\"auto\"", "sav family: the shift in √(V + C), energy; \"auto\" or a number");
+  text +=
+      line("auxiliary", "\"transport\"", "transport | frozen | refresh: what the damping does to r (sav, lm family)");
+  text += line("scalar_solver", "\"robust\"", "lm family: robust | newton (the paper's)");
+
+  text += "\n[backend]\n";
+  text += line("name", "\"auto\"", fmt::format("auto | {}", fmt::join(backend_names(), " | ")));
+  text += line("plan", "\"estimate\"", "FFTW: estimate (repeatable to the bit) | measure (fastest)");
+  text += "\n[time]\n";
+  text += line("end", toml_real(entry.default_end), "time");
+  text += "\n[output]\n";
+  text += line("directory", toml_string("out/" + entry.name), "made if it is not there");
+  text += line("energy_every", "1", "steps");
+  text += line("snapshot_every", "64", "steps; 0: the first and the last state only");
+  return text;
+}
+
+}  // namespace seiche

@@ -1,0 +1,19 @@
+// From the text of a formula to a Formula, and from a Formula to its derivative. Computer algebra (GiNaC) works only
+// while compiling; what comes out is a plain program.
+#pragma once
+
+#include <seiche/core/formula.hpp>
+
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// Throws Error that points into the text. Arguments of the formula come in the order of `variables`.
+FormulaPointer compile_formula(const std::string& text, const std::vector<std::string>& variables);
+
+// ∂f/∂variable. `formula` must come from compile_formula or differentiate; throws Error for min and max, and where the
+// variable is none of the formula's.
+FormulaPointer differentiate(const Formula& formula, const std::string& variable);
+
+}  // namespace seiche

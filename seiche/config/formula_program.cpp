@@ -1,0 +1,112 @@
+#include <seiche/config/formula_program.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace seiche {
+namespace {
+
+using Kind = Instruction::Kind;
+
+double sech(double x) { return 1.0 / std::cosh(x); }
+// Unlike std::fmin, NaN stays NaN: a wrong value must not vanish in a minimum.
+double smaller(double a, double b) { return std::isnan(a) || a < b ? a : b; }
+double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+
+constexpr std::array<FormulaFunction, 19> function_table = {{
+    {"sin", 1, [](double x) { return std::sin(x); }, nullptr},
+    {"cos", 1, [](double x) { return std::cos(x); }, nullptr},
+    {"tan", 1, [](double x) { return std::tan(x); }, nullptr},
+    {"asin", 1, [](double x) { return std::asin(x); }, nullptr},
+    {"acos", 1, [](double x) { return std::acos(x); }, nullptr},
+    {"atan", 1, [](double x) { return std::atan(x); }, nullptr},
+    {"sinh", 1, [](double x) { return std::sinh(x); }, nullptr},
+    {"cosh", 1, [](double x) { return std::cosh(x); }, nullptr},
+    {"tanh", 1, [](double x) { return std::tanh(x); }, nullptr},
+    {"asinh", 1, [](double x) { return std::asinh(x); }, nullptr},
+    {"acosh", 1, [](double x) { return std::acosh(x); }, nullptr},
+    {"atanh", 1, [](double x) { return std::atanh(x); }, nullptr},
+    {"exp", 1, [](double x) { return std::exp(x); }, nullptr},
+    {"log", 1, [](double x) { return std::log(x); }, nullptr},
+    {"sqrt", 1, [](double x) { return std::sqrt(x); }, nullptr},
+    {"abs", 1, [](double x) { return std::fabs(x); }, nullptr},
+    {"sech", 1, sech, nullptr},
+    {"min", 2, nullptr, smaller},
+    {"max", 2, nullptr, larger},
+}};
+
+double whole_power(double x, int exponent) {
+  switch (exponent) {  // the frequent ones without a call
+    case -2: return 1.0 / (x * x);
+    case -1: return 1.0 / x;
+    case 2: return x * x;
+    case 3: return x * x * x;
+    default: return std::pow(x, exponent);
+  }
+}
+
+int operands(const Instruction& instruction) {
+  switch (instruction.kind) {
+    case Kind::number:
+    case Kind::variable: return 0;
+    case Kind::negate:
+    case Kind::whole_power: return 1;
+    case Kind::call: return instruction.function->arity;
+    default: return 2;
+  }
+}
+
+}  // namespace
+
+std::span<const FormulaFunction> formula_functions() { return function_table; }
+
+const FormulaFunction* find_formula_function(std::string_view name) {
+  const auto* found =
+      std::find_if(function_table.begin(), function_table.end(), [&](const auto& entry) { return entry.name == name; });
+  return found == function_table.end() ? nullptr : found;
+}
+
+int stack_needed(std::span<const Instruction> program) {
+  int depth = 0;
+  int deepest = 0;
+  for (const Instruction& instruction : program) {
+    depth += 1 - operands(instruction);
+    deepest = std::max(deepest, depth);
+  }
+  return deepest;
+}
+
+double run_program(std::span<const Instruction> program, std::span<const double> arguments) {
+  std::array<double, formula_stack_size + 1>
+      stack;                   // NOLINT: written before it is read; zeroing costs more than a sine
+  double* top = stack.data();  // the entry below the first is never read
+  for (const Instruction& instruction : program) {
+    switch (instruction.kind) {
+      case Kind::number: *++top = instruction.number; break;
+      case Kind::variable: {
+        const auto index = static_cast<std::size_t>(instruction.index);
+        *++top = index < arguments.size() ? arguments[index] : std::numeric_limits<double>::quiet_NaN();
+        break;
+      }
+      case Kind::add: --top, *top += top[1]; break;
+      case Kind::subtract: --top, *top -= top[1]; break;
+      case Kind::multiply: --top, *top *= top[1]; break;
+      case Kind::divide: --top, *top /= top[1]; break;
+      case Kind::negate: *top = -*top; break;
+      case Kind::power: --top, *top = std::pow(*top, top[1]); break;
+      case Kind::whole_power: *top = whole_power(*top, instruction.index); break;
+      case Kind::call:
+        if (instruction.function->arity == 1) {
+          *top = instruction.function->one(*top);
+        } else {
+          --top, *top = instruction.function->two(*top, top[1]);
+        }
+        break;
+    }
+  }
+  return *top;
+}
+
+}  // namespace seiche

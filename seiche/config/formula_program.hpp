@@ -1,0 +1,38 @@
+// A formula as instructions for a stack machine: evaluated in double, without allocation, from any number of threads.
+// Computer algebra objects are none of these things, so they are gone once a formula is compiled.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace seiche {
+
+struct FormulaFunction {
+  std::string_view name;
+  int arity;
+  double (*one)(double);          // arity 1
+  double (*two)(double, double);  // arity 2
+};
+
+std::span<const FormulaFunction> formula_functions();
+const FormulaFunction* find_formula_function(std::string_view name);  // null where there is none
+
+struct Instruction {
+  enum class Kind { number, variable, add, subtract, multiply, divide, negate, power, whole_power, call };
+  Kind kind;
+  double number = 0.0;  // of `number`
+  int index = 0;        // of `variable`: which one; of `whole_power`: the exponent
+  const FormulaFunction* function = nullptr;
+};
+
+using FormulaProgram = std::vector<Instruction>;
+
+inline constexpr int formula_stack_size = 256;
+
+int stack_needed(std::span<const Instruction> program);
+
+// The program must need at most formula_stack_size. Never throws; what is not real comes back as NaN.
+double run_program(std::span<const Instruction> program, std::span<const double> arguments);
+
+}  // namespace seiche

@@ -1,0 +1,33 @@
+// The text of a formula cut into tokens, and errors that point into it. Our own, because computer algebra parsers
+// report no position, guess at products, and do not end on input of a hostile size.
+#pragma once
+
+#include <seiche/core/error.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seiche {
+
+inline constexpr std::size_t longest_formula = 4000;  // bytes
+
+struct FormulaToken {
+  enum class Kind { number, name, symbol, end };  // symbol: one of + - * / ^ ( ) ,
+  Kind kind;
+  std::string_view text;
+  std::size_t position;  // in bytes from the start
+  double value = 0.0;    // of a number
+
+  bool is(char c) const { return kind == Kind::symbol && text.front() == c; }
+  bool starts_value() const { return kind == Kind::number || kind == Kind::name || is('('); }
+};
+
+// "formula, column 2: a multiplication sign is missing: write 2*u", then the text and a caret below the place.
+Error formula_error(std::string_view text, std::size_t position, std::string_view sentence);
+
+// The tokens, an `end` last; they look into `text`, which must outlive them. Throws Error at the first bad character.
+std::vector<FormulaToken> tokenise_formula(std::string_view text);
+
+}  // namespace seiche

@@ -1,0 +1,45 @@
+#include <seiche/config/initial_file.hpp>
+#include <seiche/core/error.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace seiche {
+namespace {
+
+// Not by a stream, whose numbers depend on the locale and end silently at the first bad one.
+double read_token(const std::string& token, const std::filesystem::path& file, std::size_t line) {
+  const char* begin = token.data() + (token.starts_with('+') ? 1 : 0);
+  const char* end = token.data() + token.size();
+  double value = 0.0;
+  const auto [rest, status] = std::from_chars(begin, end, value);
+  if (status == std::errc() && rest == end && std::isfinite(value)) return value;
+  throw Error("{}:{}: '{}' is not a finite number", file.string(), line,
+              token.size() > 60 ? token.substr(0, 60) + "…" : token);
+}
+
+}  // namespace
+
+Vector read_initial_file(const std::filesystem::path& file, const Problem& problem) {
+  std::ifstream input(file);
+  if (!input || std::filesystem::is_directory(file)) throw Error("{} cannot be read", file.string());
+  Vector z(problem.size());
+  Index count = 0;
+  std::string text;
+  for (std::size_t line = 1; std::getline(input, text); ++line) {
+    std::istringstream words(text);
+    for (std::string token; words >> token; ++count) {
+      const double value = read_token(token, file, line);
+      if (count < z.size()) z[count] = value;
+    }
+  }
+  if (input.bad()) throw Error("{} cannot be read to its end", file.string());
+  if (count != z.size())
+    throw Error("{} holds {} numbers but the state has {} ({} field{} × {} unknowns)", file.string(), count, z.size(),
+                problem.field_count(), problem.field_count() == 1 ? "" : "s", problem.grid.unknowns());
+  return z;
+}
+
+}  // namespace seiche

@@ -1,0 +1,13 @@
+// A state in a file: its numbers with white space between, in the order of z. What `final.txt` of a run looks like.
+#pragma once
+
+#include <seiche/core/problem.hpp>
+
+#include <filesystem>
+
+namespace seiche {
+
+// Throws Error with the line and the token that is no finite number, or with both counts where they differ.
+Vector read_initial_file(const std::filesystem::path& file, const Problem& problem);
+
+}  // namespace seiche

@@ -1,0 +1,62 @@
+// A case file, checked: what to run, with which method, and what to record.
+#pragma once
+
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/parameter.hpp>
+#include <seiche/core/problem.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace seiche {
+
+struct PresetData {
+  std::string name;
+  bool operator==(const PresetData&) const = default;
+};
+struct FileData {
+  std::filesystem::path file;  // absolute: the case file is copied to where the results are
+  bool operator==(const FileData&) const = default;
+};
+struct FormulaData {
+  std::map<std::string, std::string> formulas;  // field → formula in x, j and the problem's real parameters
+  bool operator==(const FormulaData&) const = default;
+};
+using InitialData = std::variant<PresetData, FileData, FormulaData>;
+
+struct RunSpec {
+  std::string source;  // how errors call the case: its file name
+
+  std::string problem;
+  ParameterValues parameters;                          // one for every Parameter of the problem
+  std::map<std::string, std::string> parameter_texts;  // the same as written: "1/3", "0.1 + 0.05*sin(t)"
+  InitialData initial;
+
+  std::string method = "seisav";
+  double h = 0.0;
+  MethodOptions method_options;
+  std::string backend = "auto";
+  bool measure_plans = false;
+
+  double t_end = 0.0;
+  std::string output_directory;
+  std::int64_t energy_every = 1;     // steps
+  std::int64_t snapshot_every = 64;  // steps; 0: the first and the last state only
+
+  std::vector<std::string> notes;  // what the user should know before the run
+};
+
+// The names that an initial formula may use, in the order of its arguments: x, j = 1, 2, …, then the real and whole
+// parameters of the problem.
+std::vector<std::string> initial_variables(const std::string& problem);
+
+// Throws Error where the parameters do not fit together, or the initial data do not fit the state.
+Problem make_problem(const RunSpec& spec);
+
+SimulationOptions simulation_options(const RunSpec& spec);
+
+}  // namespace seiche

@@ -1,0 +1,122 @@
+#include <seiche/core/error.hpp>
+#include <seiche/damping/rates.hpp>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+using boost::math::quadrature::gauss;
+using boost::math::quadrature::gauss_kronrod;
+
+constexpr double never = -1.0;
+
+// ∫₀¹ f by Kronrod's 15 points on halved intervals. Not Boost's own halving, which asks each half for twice the relative
+// accuracy and so descends to its last level everywhere once a formula has a kink.
+template <class F>
+class AdaptiveIntegral {
+ public:
+  explicit AdaptiveIntegral(const F& f) : f_(f) {}
+
+  double operator()() {
+    const Estimate whole = estimate(0.0, 1.0);
+    allowed_error_ = tolerance * whole.magnitude;
+    return refined(whole, 0.0, 1.0, 40);
+  }
+
+ private:
+  static constexpr double tolerance = 1e-14;
+  struct Estimate {
+    double value, error, magnitude;  // magnitude: ∫|f|, so that a change of sign is no reason to refine
+  };
+
+  Estimate estimate(double a, double b) {
+    const double half = (b - a) / 2;
+    const auto f = [&](double x) { return f_(a + half * (1 + x)); };
+    Estimate e{};
+    e.value = half * gauss_kronrod<double, 15>::integrate(f, -1.0, 1.0, 0, 0.0, &e.error, &e.magnitude);
+    e.error *= half;
+    e.magnitude *= half;
+    return e;
+  }
+
+  double refined(const Estimate& e, double a, double b, int depth) {
+    const bool good = !(e.error > tolerance * e.magnitude && e.error > allowed_error_);  // also for NaN
+    if (good || depth == 0 || --halvings_left_ < 0) return e.value;
+    const double middle = (a + b) / 2;
+    const double left = refined(estimate(a, middle), a, middle, depth - 1);
+    return left + refined(estimate(middle, b), middle, b, depth - 1);
+  }
+
+  const F& f_;
+  double allowed_error_ = 0.0;
+  int halvings_left_ =
+      20000;  // a kink costs about 20; the bound is for formulas whose round-off is above the tolerance
+};
+
+class ConstantRate final : public Rate {
+ public:
+  explicit ConstantRate(double gamma) : gamma_(gamma) {}
+  double value(double) const override { return gamma_; }
+  double integral(double, double h) const override { return gamma_ * h; }
+  bool is_constant() const override { return true; }
+  double first_negative_time(double) const override { return gamma_ < 0 ? 0.0 : never; }
+  std::string text() const override { return fmt::format("{}", gamma_); }
+
+ private:
+  double gamma_;
+};
+
+class FormulaRate final : public Rate {
+ public:
+  explicit FormulaRate(FormulaPointer formula) : formula_(std::move(formula)) {
+    if (formula_->polynomial()) degree_ = static_cast<int>(formula_->polynomial()->size()) - 1;
+  }
+
+  double value(double t) const override { return (*formula_)(t); }
+
+  // Every rule has positive weights, so that γ ≥ 0 gives ∫γ ≥ 0 to the last bit; the antiderivative of a polynomial
+  // would not. On s ∈ [0, 1] with t + sh, since (t + h) − t loses the digits of h once t ≫ h.
+  double integral(double t, double h) const override {
+    const auto gamma = [&](double s) { return (*formula_)(std::fma(s, h, t)); };
+    if (degree_ > 0 && degree_ <= 13) return h * gauss<double, 7>::integrate(gamma, 0.0, 1.0);   // exact to 2n − 1
+    if (degree_ > 0 && degree_ <= 59) return h * gauss<double, 30>::integrate(gamma, 0.0, 1.0);  // likewise
+    return h * AdaptiveIntegral(gamma)();
+  }
+
+  bool is_constant() const override { return false; }
+
+  double first_negative_time(double t_end) const override {
+    constexpr int samples = 4096;
+    for (int i = 0; i <= samples; ++i) {
+      const double t = t_end * i / samples;
+      if (value(t) < 0) return t;
+    }
+    return never;
+  }
+
+  std::string text() const override { return formula_->text(); }
+
+ private:
+  FormulaPointer formula_;
+  int degree_ = -1;  // −1: not a polynomial
+};
+
+}  // namespace
+
+RatePointer constant_rate(double gamma) {
+  if (!std::isfinite(gamma)) throw Error("a damping rate must be a finite number, not {}", gamma);
+  return std::make_shared<ConstantRate>(gamma);
+}
+
+RatePointer formula_rate(FormulaPointer formula) {
+  const auto& polynomial = formula->polynomial();
+  if (polynomial && polynomial->size() == 1) return constant_rate(polynomial->front());
+  return std::make_shared<FormulaRate>(std::move(formula));
+}
+
+}  // namespace seiche
