@@ -1,0 +1,52 @@
+# The front door of Seiche. Each target installs what it needs (Debian, Ubuntu) and builds what it runs.
+PREFIX ?= /usr/local
+OUT ?= out/paper
+ARGS ?=
+JOBS ?= 2
+
+.DEFAULT_GOAL := help
+.PHONY: help deps configure build paper test bench install format tidy asan clean
+
+help:  ## this list
+	@echo "Seiche: energy-stable integrators for damped Hamiltonian systems"
+	@sed -n -E 's/^([a-z]+):.*  ## (.*)/  make \1\t\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
+
+deps:
+	@bash scripts/install-deps
+
+configure: deps
+	@cmake --preset release >/dev/null
+
+build: configure  ## build/release/seiche, the program
+	@cmake --build --preset release --target seiche_cli
+
+paper: build  ## the paper's examples, figures and claims: out/paper/report.html (ARGS=--quick, OUT=folder)
+	@build/release/seiche paper --out "$(OUT)" $(ARGS)
+	@echo "The report is $(OUT)/report.html"
+
+test: configure  ## build and run all tests
+	@cmake --build --preset release
+	@ctest --preset release --parallel $(JOBS)
+
+bench:  ## build and run the benchmarks (ARGS go to the program)
+	@bash scripts/install-deps --bench
+	@cmake --preset bench >/dev/null
+	@cmake --build --preset bench
+	@build/bench/bench/seiche_bench $(ARGS)
+
+install: build  ## library, headers and program into PREFIX (default /usr/local)
+	@cmake --install build/release --prefix "$(PREFIX)"
+
+format:  ## lay out every C++ file with clang-format
+	@bash scripts/install-deps --ci
+	@bash scripts/ci-format --fix
+
+tidy:  ## read every C++ file with clang-tidy
+	@bash scripts/install-deps --ci
+	@bash scripts/ci-tidy --all
+
+asan: deps  ## build and run the tests under sanitizers
+	@bash scripts/ci-asan
+
+clean:  ## remove everything that was built
+	@rm -rf build
