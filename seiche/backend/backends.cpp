@@ -6,6 +6,7 @@
 #include <fftw3.h>
 
 #include <array>
+#include <cstdlib>
 
 namespace seiche {
 namespace {
@@ -44,5 +45,12 @@ std::map<std::string, std::string> backend_library_versions() {
   return {{"eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
           {"fftw", fftw_version}};
 }
+
+std::string planning_wisdom() {
+  const std::unique_ptr<char, decltype(&std::free)> text(fftw_export_wisdom_to_string(), &std::free);
+  return text ? text.get() : "";
+}
+
+void use_planning_wisdom(const std::string& wisdom) { fftw_import_wisdom_from_string(wisdom.c_str()); }
 
 }  // namespace seiche

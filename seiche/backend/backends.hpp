@@ -28,4 +28,8 @@ const BackendEntry& automatic_backend(const Problem& problem);
 // Name and version of each library the backends stand on.
 std::map<std::string, std::string> backend_library_versions();
 
+// What FFTW has learnt by measuring plans, as text: a run that starts from the same text plans the same way.
+std::string planning_wisdom();
+void use_planning_wisdom(const std::string& wisdom);  // text that is no wisdom is ignored
+
 }  // namespace seiche

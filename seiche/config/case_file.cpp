@@ -201,23 +201,13 @@ class Reader {
       if (h > spec_.t_end) throw Error("{} = {} must be ≤ time.end = {}", key, value.shown(), spec_.t_end);
       if (spec_.t_end / h > 1e15) throw Error("{} = {} would take {:.3g} steps", key, value.shown(), spec_.t_end / h);
       spec_.h = h;
-      note_shortened_step();
     };
     if (on("method", "h", read) || problem_ == nullptr) return;
     spec_.h = read_number("method.h", text_value(problem_->default_h));
-    if (spec_.h <= spec_.t_end) return note_shortened_step();
+    if (spec_.h <= spec_.t_end) return;
     spec_.h = spec_.t_end;
     spec_.notes.push_back(fmt::format("method.h is not given and its default {} is more than time.end: h = {}",
                                       problem_->default_h, spec_.h));
-  }
-
-  void note_shortened_step() {
-    const double quotient = spec_.t_end / spec_.h;
-    const double nearest = std::round(quotient);
-    if (std::abs(quotient - nearest) <= 16 * epsilon * quotient) return;  // as the time loop judges it
-    const double last = spec_.t_end - std::floor(quotient) * spec_.h;
-    spec_.notes.push_back(fmt::format("h = {} does not divide end = {}: the last step is shortened to {:.6g}", spec_.h,
-                                      spec_.t_end, last));
   }
 
   void read_backend() {

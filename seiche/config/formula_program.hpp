@@ -20,7 +20,7 @@ const FormulaFunction* find_formula_function(std::string_view name);  // null wh
 
 struct Instruction {
   enum class Kind { number, variable, add, subtract, multiply, divide, negate, power, whole_power, call };
-  Kind kind;
+  Kind kind = Kind::number;
   double number = 0.0;  // of `number`
   int index = 0;        // of `variable`: which one; of `whole_power`: the exponent
   const FormulaFunction* function = nullptr;
