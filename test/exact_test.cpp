@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace seiche::test {
 namespace {
@@ -91,6 +92,23 @@ TEST(Exact, AStateAtEquilibriumStaysThere) {
     Simulation simulation(p, {.method = std::string(method.name)});
     for (int n = 0; n < 10; ++n) ASSERT_TRUE(simulation.step(0.5).solved()) << method.name;
     EXPECT_EQ(simulation.physical().norm(), 0) << method.name;
+  }
+}
+
+TEST(Exact, ASolutionThatDecaysBelowTheSmallestNumberIsFollowedToTheEnd) {
+  for (const auto& [name, problem, h] :
+       {std::tuple("gkdv", gkdv_case(0.5), 1.0), std::tuple("fpu", fpu_dissipative_case(), 3.0)}) {
+    for (const MethodEntry& method : methods()) {
+      if (!applies(method.name, problem)) continue;
+      Simulation simulation(problem, {.method = std::string(method.name)});
+      for (int n = 0; n < 2000; ++n) {
+        const StepReport report = simulation.step(h);
+        ASSERT_TRUE(report.solved()) << name << " " << method.name << " step " << n << ": " << report.message;
+      }
+      if (method.propagator == PropagatorKind::exponential) {  // Crank–Nicolson hardly damps what it does not resolve
+        EXPECT_LE(simulation.physical().norm(), 1e-100) << name << " " << method.name;
+      }
+    }
   }
 }
 

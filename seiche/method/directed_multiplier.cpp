@@ -29,10 +29,10 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
 
   // λd stands in for ḡ − ĝ: a root that asks for much more is another one.
   const Potential::Support support = system_.potential->support();
-  const double correction = std::abs(root.x) * d.segment(support.begin, support.size).norm();
+  const double correction = std::abs(root.x) * d.segment(support.begin, support.size).stableNorm();
   const bool near =
       correction <= 4 * equation_.gradient_gap() && equation_.gradient_gap() <= equation_.mean_gradient_norm();
-  if (root.converged && near) {
+  if (root.converged && (near || equation_.at(0).is_negligible())) {
     z = start.z_plus + root.x * q_;
     return report;
   }

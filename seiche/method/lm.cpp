@@ -66,8 +66,7 @@ StepReport LmClosure::solve_robustly(Vector& z, Propagators& propagators, double
   constexpr int max_iterations = 8;
   StepReport report;
   MultiplierEquation::Root root;
-  const MultiplierEquation::Value at_one = equation_.at(0);
-  bool accepted = std::abs(at_one.F) <= 4 * epsilon * at_one.scale;  // equilibria: a raw Newton divides 0 by 0
+  bool accepted = equation_.at(0).is_resolved();  // equilibria: a raw Newton divides 0 by 0
   if (!accepted && std::abs(equation_.cosine()) >= 0.1) {
     root = equation_.newton(max_iterations, MultiplierEquation::Stop::residual_or_update);
     report.scalar_iterations = root.iterations;

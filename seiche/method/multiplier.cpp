@@ -24,8 +24,8 @@ void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
   const Vector& direction = measured_at ? measured_at->direction : line.q;
 
   potential_.mean_gradient(start, end, mean_);  // ḡ(0)
-  gap_norm_ = (mean_ - line.g).norm();
-  mean_norm_ = mean_.norm();
+  gap_norm_ = (mean_ - line.g).stableNorm();    // squares of what has decayed would underflow
+  mean_norm_ = mean_.stableNorm();
   gd_ = line.g.dot(line.delta);
   linear_ = line.g.dot(line.q) + line.e.dot(line.delta);
   eq_ = line.e.dot(line.q);
@@ -85,7 +85,7 @@ MultiplierEquation::Root MultiplierEquation::newton(int max_iterations, Stop sto
   Root root;
   for (;;) {
     const Value value = at(root.x);
-    if (std::abs(value.F) <= 4 * epsilon * value.scale) {
+    if (value.is_resolved()) {
       root.converged = true;
       return root;
     }

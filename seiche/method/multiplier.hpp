@@ -4,6 +4,8 @@
 #include <seiche/core/potential.hpp>
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace seiche {
@@ -32,6 +34,9 @@ class MultiplierEquation {
     double F;
     double slope;
     double scale;  // size of the terms that F is the difference of
+    bool is_resolved() const { return std::abs(F) <= 4 * epsilon * scale + std::numeric_limits<double>::min(); }
+    // The terms themselves underflow: a solution that has decayed to nothing has no multiplier to find.
+    bool is_negligible() const { return scale <= std::numeric_limits<double>::min() / epsilon; }
   };
   struct Root {
     double x = 0.0;

@@ -77,6 +77,11 @@ StepReport SavClosure::advance(State& s, Propagators& propagators, double t, dou
   propagator.predict(s.z, gradient_, z_mid_);  // ẑ, from z⁻
   const double v_mid = potential().value_and_gradient(z_mid_, g_);
   report.fallbacks += keep_margin(s, v_mid) ? 1 : 0;
+  if (!std::isfinite(v_mid)) {
+    report.status = StepReport::Status::failed;
+    report.message = fmt::format("the solution left the numbers: V(ẑ) = {} at t = {:.6g} with h = {:.6g}", v_mid, t, h);
+    return report;
+  }
   if (!(v_mid + s.shift > 0)) {
     report.status = StepReport::Status::failed;
     report.message = fmt::format("V(ẑ) + C = {:.6g} must be > 0 at t = {:.6g}; C = {:.6g} would do", v_mid + s.shift, t,
