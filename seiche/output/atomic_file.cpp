@@ -1,0 +1,58 @@
+#include <seiche/core/error.hpp>
+#include <seiche/output/atomic_file.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+Error cannot_write(const std::filesystem::path& path, int error_number) {
+  return Error("cannot write {}: {}", path.string(), std::strerror(error_number));
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
+  temporary_ += ".partial";
+  file_.reset(std::fopen(temporary_.c_str(), "wb"));
+  if (!file_) throw cannot_write(path_, errno);
+  std::setvbuf(file_.get(), nullptr, _IOFBF, 1 << 16);
+}
+
+AtomicFile::~AtomicFile() {
+  if (!file_) return;
+  file_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void AtomicFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) throw cannot_write(path_, errno);
+}
+
+void AtomicFile::commit() {
+  if (std::fflush(file_.get()) != 0) throw cannot_write(path_, errno);
+  std::error_code error;
+  std::filesystem::rename(temporary_, path_, error);
+  if (error) throw cannot_write(path_, error.value());
+  file_.reset();
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+void make_directory(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw Error("cannot make the directory {}: {}", path.string(), std::strerror(error.value()));
+  // create_directories is content with a regular file of that name.
+  if (!std::filesystem::is_directory(path, error)) throw cannot_write(path, error ? error.value() : ENOTDIR);
+}
+
+}  // namespace seiche

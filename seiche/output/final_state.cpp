@@ -1,0 +1,18 @@
+#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/csv_row.hpp>
+#include <seiche/output/final_state.hpp>
+
+namespace seiche {
+
+void write_final_state(const std::filesystem::path& path, const Vector& physical_values) {
+  AtomicFile file(path);
+  CsvRow row;
+  for (const double value : physical_values) {
+    row.clear();
+    row.add(value);
+    file.write(row.line());
+  }
+  file.commit();
+}
+
+}  // namespace seiche

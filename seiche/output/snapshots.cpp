@@ -1,0 +1,30 @@
+#include <seiche/output/snapshots.hpp>
+
+#include <fmt/ranges.h>
+
+namespace seiche {
+
+Snapshots::Snapshots(const std::filesystem::path& path, const Problem& problem, const Space& space, Schedule schedule)
+    : file_(path), space_(space), schedule_(schedule), values_(space.physical_size()) {
+  file_.write(fmt::format("t,{}\n", fmt::join(value_names(problem), ",")));
+}
+
+void Snapshots::observe(const State& state, const EnergyReading&) {
+  space_.to_physical(state.z, values_);
+  row_.clear();
+  row_.add(state.t);
+  row_.add(values_);
+  file_.write(row_.line());
+}
+
+void Snapshots::finish(const RunReport&) { file_.commit(); }
+
+std::vector<std::string> value_names(const Problem& problem) {
+  std::vector<std::string> names;
+  for (const std::string& field : problem.fields) {
+    for (Index j = 1; j <= problem.grid.unknowns(); ++j) names.push_back(fmt::format("{}_{}", field, j));
+  }
+  return names;
+}
+
+}  // namespace seiche

@@ -1,0 +1,55 @@
+#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/summary.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+using Json = nlohmann::ordered_json;  // the order of the keys is the order of reading
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json energy_json(const EnergySummary& energy) {
+  return {{"initial", number(energy.initial)},
+          {"final", number(energy.final)},
+          {"max_increase", number(energy.max_increase)}};
+}
+
+}  // namespace
+
+std::string summary_json(const RunIdentity& run, const RunReport& report) {
+  Json energy = energy_json(report.energy);
+  energy["modified"] = report.has_modified_energy ? energy_json(report.modified) : Json(nullptr);
+  energy["law"] = to_string(report.law);
+
+  Json versions = Json::object();
+  for (const auto& [name, version] : run.versions) versions[name] = version;
+
+  const Json summary = {{"status", to_string(report.status)},
+                        {"message", report.message},
+                        {"problem", run.problem},
+                        {"method", run.method},
+                        {"backend", run.backend},
+                        {"h", number(run.h)},
+                        {"steps", report.steps},
+                        {"t", number(report.t)},
+                        {"energy", energy},
+                        {"counts",
+                         {{"gradients", report.potential_counts.gradients},
+                          {"potentials", report.potential_counts.values},
+                          {"scalar_iterations", report.scalar_iterations},
+                          {"fallbacks", report.fallbacks}}},
+                        {"wall_seconds", number(report.wall_seconds)},
+                        {"versions", versions}};
+  // Bytes of a file name that are no UTF-8 must not turn a report into an exception.
+  return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const std::filesystem::path& path, const RunIdentity& run, const RunReport& report) {
+  write_file(path, summary_json(run, report));
+}
+
+}  // namespace seiche

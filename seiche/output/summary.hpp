@@ -1,0 +1,24 @@
+// summary.json: what was run and what came of it, for programs. Also what `seiche run --json` prints.
+#pragma once
+
+#include <seiche/core/run_report.hpp>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace seiche {
+
+struct RunIdentity {
+  std::string problem;
+  std::string method;
+  std::string backend;
+  double h = 0.0;
+  std::map<std::string, std::string> versions = {};
+};
+
+// A number that is not finite becomes null, since JSON has no NaN; so does `modified` for a method that has none.
+std::string summary_json(const RunIdentity& run, const RunReport& report);
+void write_summary(const std::filesystem::path& path, const RunIdentity& run, const RunReport& report);
+
+}  // namespace seiche

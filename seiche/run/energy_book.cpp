@@ -1,0 +1,60 @@
+#include <seiche/run/energy_book.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+void advance(EnergySummary& summary, double increase, double value, bool first_increase) {
+  summary.final = value;
+  summary.max_increase = first_increase ? increase : std::max(summary.max_increase, increase);
+}
+
+}  // namespace
+
+EnergyBook::EnergyBook(LawPromise promise, bool has_modified_energy)
+    : promise_(std::move(promise)), has_modified_energy_(has_modified_energy) {}
+
+void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
+  if (empty_) {
+    energy_ = {.initial = reading.H, .final = reading.H, .max_increase = 0.0};
+    modified_ = {.initial = reading.modified, .final = reading.modified, .max_increase = 0.0};
+    first_n_ = n;
+    empty_ = false;
+  } else {
+    const bool first_increase = last_n_ == first_n_;
+    advance(energy_, reading.H - last_.H, reading.H, first_increase);
+    advance(modified_, reading.modified - last_.modified, reading.modified, first_increase);
+
+    const double increase = has_modified_energy_ ? reading.modified - last_.modified : reading.H - last_.H;
+    // Both ends of the difference carry round-off, so the larger counts.
+    const double round_off = has_modified_energy_ ? std::max(reading.modified_round_off, last_.modified_round_off)
+                                                  : std::max(reading.round_off, last_.round_off);
+    const double allowed = round_off * static_cast<double>(n - last_n_);
+    if (increase > allowed && !first_violation_.found) first_violation_ = {t, increase, allowed, true};
+  }
+  last_ = reading;
+  last_n_ = n;
+}
+
+void EnergyBook::write_to(RunReport& report) const {
+  report.energy = energy_;
+  report.has_modified_energy = has_modified_energy_;
+  report.modified = modified_;
+  report.law_reason = promise_.reason;
+  if (!promise_.promised) {
+    report.law = LawVerdict::not_promised;
+  } else if (!first_violation_.found) {
+    report.law = LawVerdict::holds;
+  } else {
+    report.law = LawVerdict::violated;
+    report.law_reason = fmt::format("the {} rose by {:.3g} up to t = {:.6g}, and round-off explains only {:.3g}",
+                                    has_modified_energy_ ? "modified energy" : "energy H", first_violation_.increase,
+                                    first_violation_.t, first_violation_.allowed);
+  }
+}
+
+}  // namespace seiche

@@ -1,0 +1,34 @@
+// The energy books of a run: first and last value, largest increase, and whether the promised law held.
+#pragma once
+
+#include <seiche/core/run_report.hpp>
+#include <seiche/core/stepper.hpp>
+
+#include <cstdint>
+
+namespace seiche {
+
+class EnergyBook {
+ public:
+  EnergyBook(LawPromise promise, bool has_modified_energy);
+
+  // One reading per recorded step, in order. `n` counts steps, so that round-off may add up over those in between.
+  void add(const EnergyReading& reading, double t, std::int64_t n);
+  bool has(std::int64_t n) const { return !empty_ && n == last_n_; }  // was the last reading taken at step n?
+  void write_to(RunReport& report) const;
+
+ private:
+  LawPromise promise_;
+  bool has_modified_energy_;
+  bool empty_ = true;
+  std::int64_t first_n_ = 0;
+  std::int64_t last_n_ = 0;
+  EnergyReading last_;
+  EnergySummary energy_, modified_;
+  struct Violation {
+    double t = 0.0, increase = 0.0, allowed = 0.0;
+    bool found = false;
+  } first_violation_;
+};
+
+}  // namespace seiche

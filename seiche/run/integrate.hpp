@@ -1,0 +1,25 @@
+// The time loop.
+#pragma once
+
+#include <seiche/core/observer.hpp>
+#include <seiche/core/system.hpp>
+
+#include <atomic>
+#include <span>
+
+namespace seiche {
+
+struct IntegrateOptions {
+  double h = 0.0;
+  double t_end = 0.0;
+  LawPromise law = {};
+  const std::atomic<bool>* stop = nullptr;  // set by a signal handler: the run ends after the current step
+};
+
+// Steps from state.t to t_end; state must have been begun. t = t₀ + n h; the last step is shortened to land on t_end.
+// A failed step ends the run with what was computed before it; an energy above the promised law (beyond round-off,
+// judged at every step that some observer records) sets law = violated. Never throws for numerical reasons.
+RunReport integrate(const System& system, Stepper& stepper, State& state, const IntegrateOptions& options,
+                    std::span<Observer* const> observers = {});
+
+}  // namespace seiche
