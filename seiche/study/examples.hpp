@@ -1,0 +1,42 @@
+// The paper's numerical examples with all methods that apply: errors, orders, energies and cost.
+#pragma once
+
+#include <seiche/core/problem.hpp>
+#include <seiche/study/converge.hpp>
+#include <seiche/study/evidence.hpp>
+#include <seiche/study/results.hpp>
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+struct PaperExample {
+  std::string key, title, parameters;
+  Problem problem;
+  double t_end;
+  std::vector<double> step_sizes;  // large to small
+};
+
+// Examples 1, 2.1, 2.2, 3, and 3 with μ = 0.1; `quick` ends them earlier.
+std::vector<PaperExample> paper_examples(bool quick);
+
+// The eight schemes of the paper's comparison, in the order of its legends.
+const std::vector<std::string>& paper_methods();
+
+struct ExampleOptions {
+  ReferenceOptions reference = {};
+  TimingOptions timing = {};
+  double seavf_end = 1.0;  // how long the paper's reference is followed, a multiple of its step
+  int threads = 2;         // of the error runs
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct ExampleStudy {
+  ExampleResult result;
+  ExampleEvidence evidence;
+};
+ExampleStudy study_example(const PaperExample& example, const ExampleOptions& options);
+
+}  // namespace seiche
