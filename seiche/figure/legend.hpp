@@ -1,0 +1,27 @@
+// The legend below a panel. gnuplot's own key spaces proportional fonts as if every letter were wide.
+#pragma once
+
+#include <seiche/figure/plot.hpp>
+
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+class Legend {
+ public:
+  // `room`: leave space for at least so many entries. Lengths are in inches.
+  Legend(const std::vector<Series>& series, std::size_t room, double panel_width);
+
+  double height() const;
+  // Commands for gnuplot; the legend's top edge is `top` above the bottom of a panel of `panel_height`.
+  std::string script(double top, double panel_height) const;
+
+ private:
+  std::vector<Series> entries_;  // without their data
+  double panel_width_;
+  std::size_t columns_ = 1;
+  std::size_t rows_ = 0;
+};
+
+}  // namespace seiche

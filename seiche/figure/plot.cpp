@@ -1,0 +1,144 @@
+#include <seiche/figure/gnuplot.hpp>
+#include <seiche/figure/legend.hpp>
+#include <seiche/figure/plot.hpp>
+#include <seiche/figure/slope_triangle.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+namespace seiche {
+namespace {
+
+// Inches.
+constexpr double panel_width = 3.4;
+constexpr double left = 0.58;
+constexpr double right = 0.10;
+constexpr double top = 0.22;
+constexpr double below_axis = 0.35;  // tick labels and the axis label
+constexpr double axes_height = 1.78;
+constexpr double axes_width = panel_width - left - right;
+constexpr double bottom_margin = 0.05;
+
+constexpr double dots_per_inch = 300;
+constexpr double pngcairo_dots_per_inch = 96;  // what its font sizes and line widths suppose
+constexpr double font_size = 7;
+
+std::string terminals(const std::string& stem, double height, const std::string& plot_command) {
+  // The scales of pdfcairo are those that make both files look the same.
+  constexpr double scale = dots_per_inch / pngcairo_dots_per_inch;
+  return fmt::format(
+      "set terminal pngcairo enhanced size {:.0f},{:.0f} font 'DejaVu Sans,7' fontscale {:.4f} linewidth {:.4f} "
+      "pointscale {:.4f} background rgb 'white'\nset output {}\n{}"
+      "set terminal pdfcairo enhanced size {}in,{:.4f}in font 'DejaVu Sans,7' fontscale 0.75 linewidth 1.5 pointscale 0.75\n"
+      "set output {}\nreplot\nset output\n",
+      panel_width * dots_per_inch, height * dots_per_inch, scale, scale, scale, gnuplot_file(stem + ".png"),
+      plot_command, panel_width, height, gnuplot_file(stem + ".pdf"));
+}
+
+// Above the left end of the axes; a long one begins further left.
+std::string title_script(const std::string& title, double y) {
+  constexpr double edge = 0.06;
+  const double widest = panel_width - 2 * edge;
+  const double size = font_size * std::min(1.0, widest / text_width(title, font_size));
+  const double x = std::clamp(panel_width - edge - text_width(title, size), edge, left);
+  return fmt::format("set label {} at screen {:.5f},{:.5f} left font ',{:.2f}'\n", gnuplot_text(title), x / panel_width,
+                     y, size);
+}
+
+std::string axis_script(char name, const Axis& axis) {
+  std::string text;
+  if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
+  text += fmt::format("set {}range [{:.10g}:{:.10g}]\n", name, axis.low, axis.high);
+  text += fmt::format("set {}tics {}\n", name, axis.ticks);
+  if (!axis.logarithmic) text += fmt::format("set m{}tics 2\n", name);
+  return text;
+}
+
+// A data block $name, and the part of the plot command that draws it; "" if nothing of it can be shown.
+struct Drawing {
+  std::string data;
+  std::string command;
+};
+
+void append_point(std::string& text, double x, double y) {
+  fmt::format_to(std::back_inserter(text), "{:.7g} {:.7g}\n", x, y);
+}
+
+Drawing drawing(const Plot& plot, const Series& series, const std::string& block) {
+  Drawing result;
+  const auto shown = [&](std::size_t i) { return plot.x.shows(series.x[i]) && plot.y.shows(series.y[i]); };
+  std::string line;
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    if (shown(i)) append_point(line, series.x[i], series.y[i]);
+  }
+  std::string marks;
+  for (const std::size_t i : series.marked) {
+    if (i < series.x.size() && shown(i)) append_point(marks, series.x[i], series.y[i]);
+  }
+  if (!line.empty()) {
+    result.data += fmt::format("${}l << EOD\n{}EOD\n", block, line);
+    result.command += fmt::format("${}l using 1:2 with lines {}, ", block, gnuplot_line(series.style));
+  }
+  if (!marks.empty() && series.style.marker != Marker::none) {
+    result.data += fmt::format("${}m << EOD\n{}EOD\n", block, marks);
+    result.command += fmt::format("${}m using 1:2 with points lc rgb '{}' lw {} {}, ", block, series.style.colour,
+                                  std::min(series.style.width, 0.65), gnuplot_marker(series.style));
+  }
+  return result;
+}
+
+}  // namespace
+
+void mark_all(Series& series) {
+  series.marked.resize(series.x.size());
+  std::iota(series.marked.begin(), series.marked.end(), std::size_t{0});
+}
+
+std::string plot_script(const Plot& plot) {
+  const Legend legend(plot.series, plot.legend_room, panel_width);
+  const double axes_bottom = bottom_margin + legend.height() + below_axis;
+  const double height = axes_bottom + axes_height + top;
+
+  std::string script = "reset\nset encoding utf8\nunset key\n";
+  script += fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n", left / panel_width,
+                        1 - right / panel_width);
+  script += fmt::format("set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n", axes_bottom / height,
+                        1 - top / height);
+  script +=
+      "set border 15 lw 0.5 lc rgb '#202020' front\nset tics in scale 0.55,0.3 font ',6.3'\n"
+      "set grid xtics ytics lt 1 lc rgb '#DEDEDE' lw 0.4 back\nset clip two\n"
+      "set xtics mirror offset 0,0.35\nset ytics mirror offset 0.45,0\n";
+  script += axis_script('x', plot.x) + axis_script('y', plot.y);
+  script += title_script(plot.title, 1 - 0.5 * top / height);
+  script += fmt::format("set label {} at screen {:.5f},{:.5f} center font ',7'\n", plot.x_label,
+                        (left + axes_width / 2) / panel_width, (axes_bottom - 0.245) / height);
+  script += fmt::format("set label {} at screen {:.5f},{:.5f} center rotate by 90 font ',7'\n", plot.y_label,
+                        0.09 / panel_width, (axes_bottom + axes_height / 2) / height);
+  script += legend.script(bottom_margin + legend.height(), height);
+  if (plot.slope_two) {
+    if (const auto triangle = clear_slope_triangle(plot, axes_width, axes_height)) script += triangle->script();
+  }
+
+  std::vector<const Series*> drawn;
+  for (const Series& series : plot.series) drawn.push_back(&series);
+  std::stable_sort(drawn.begin(), drawn.end(), [](const Series* a, const Series* b) { return a->layer < b->layer; });
+  std::string command;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const Drawing one = drawing(plot, *drawn[i], fmt::format("s{}", i));
+    script += one.data;
+    command += one.command;
+  }
+  if (command.empty()) {
+    script += "set label 'nothing to show' at graph 0.5,0.5 center textcolor rgb '#707070'\n";
+    command = "NaN";
+  } else {
+    command.resize(command.size() - 2);  // the last comma
+  }
+  return script + terminals(plot.stem, height, "plot " + command + "\n");
+}
+
+}  // namespace seiche

@@ -1,0 +1,36 @@
+// One panel, from curves and axes to gnuplot commands: sizes, margins, legend and slope triangle are decided here.
+#pragma once
+
+#include <seiche/figure/axis.hpp>
+#include <seiche/figure/style.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+struct Series {
+  std::string label;  // "" keeps it out of the legend
+  LineStyle style;
+  std::vector<double> x, y;
+  std::vector<std::size_t> marked = {};  // the points with a marker
+  int layer = 0;                         // higher ones are drawn later
+};
+
+struct Plot {
+  std::string stem;  // of the files
+  std::string title;
+  std::string x_label, y_label;  // literals for gnuplot, see gnuplot_text
+  Axis x, y;
+  std::vector<Series> series;   // in the order of the legend
+  bool slope_two = false;       // a triangle of slope 2, where it is clear of the curves
+  std::size_t legend_room = 0;  // for at least so many entries, so that panels side by side have one height
+};
+
+// Draws <stem>.png and <stem>.pdf in the working directory.
+std::string plot_script(const Plot& plot);
+
+void mark_all(Series& series);
+
+}  // namespace seiche

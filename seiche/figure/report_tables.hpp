@@ -1,0 +1,18 @@
+// The tables of the report: verdicts, errors with orders, the full record of each run.
+#pragma once
+
+#include <seiche/study/results.hpp>
+
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// Symbol and word in the colour of the outcome; none of the three is needed to understand the others.
+std::string outcome_mark(Outcome outcome);
+
+std::string verdict_table(const std::vector<Verdict>& verdicts);
+std::string error_table(const ExampleResult& example);   // method × h, with the orders; notes on what went wrong
+std::string record_table(const ExampleResult& example);  // one row per run
+
+}  // namespace seiche

@@ -1,0 +1,49 @@
+// One visual language for all figures: how each method is named and drawn. Shape tells the closure (circle avf, square
+// sav, triangle lm, star dm), the other shape of a pair the `whole` composition; filled and solid is exponential,
+// open and dashed Cayley. Colours stay apart in print and for colour-blind readers; shapes repeat what they say.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace seiche {
+
+enum class Marker { none, circle, square, triangle, star, pentagon, diamond, triangle_down };
+enum class Dash { solid, dashed, dash_dotted, dotted };
+
+struct LineStyle {
+  std::string colour = "#000000";
+  Marker marker = Marker::none;
+  bool filled = true;
+  Dash dash = Dash::solid;
+  double width = 0.8;  // pt
+  double size = 1.0;   // of the marker, relative
+};
+
+struct MethodStyle {
+  std::string_view name;   // as in the list of methods
+  std::string_view label;  // as in the paper
+  LineStyle line;
+  bool proposed;  // one of the two methods the paper proposes: drawn last and heavier
+};
+
+// Null for a name that is not one of the methods.
+const MethodStyle* find_method_style(std::string_view name);
+std::string method_label(std::string_view name);  // the name itself if unknown
+LineStyle method_line(std::string_view name);     // black if unknown
+
+// For curves whose names say more than the method, as "SEISAV as printed (r frozen)". The first word decides the method;
+// of several curves of one method the `nth` (from 0) keeps its colour and changes dash and filling.
+std::string_view method_of_curve(std::string_view curve_name);  // "" if the first word is no method
+LineStyle curve_line(std::string_view curve_name, int nth, int index);
+
+LineStyle reference_line();
+
+// gnuplot's options for a line or a marker: "lc rgb '#0072B2' lw 1.5 dt solid", "pt 7 ps 0.5".
+std::string gnuplot_line(const LineStyle& style);
+std::string gnuplot_marker(const LineStyle& style);
+
+// Of a text in DejaVu Sans, near enough to lay out legends and titles; inches, the font size in points.
+double text_width(std::string_view text, double font_size);
+
+}  // namespace seiche
