@@ -56,8 +56,9 @@ TEST(Agreement, CoordinatesAreOrthonormalAndInvertible) {
       p.initial = Vector::Random(p.size());
       for (const BackendEntry& backend : backends()) {
         const System system = backend.system(p, {});
-        EXPECT_NEAR(system.initial.norm(), p.initial.norm(), 1e-14 * points) << backend.name << points;
-        EXPECT_LE((system.space->physical(system.initial) - p.initial).norm(), 1e-14 * points)
+        EXPECT_NEAR(system.initial.norm(), p.initial.norm(), 1e-14 * static_cast<double>(points))
+            << backend.name << points;
+        EXPECT_LE((system.space->physical(system.initial) - p.initial).norm(), 1e-14 * static_cast<double>(points))
             << backend.name << points;
       }
     }

@@ -16,7 +16,7 @@ std::atomic<long> allocations{0};
 }  // namespace
 
 // Eigen asks malloc for its vectors and the standard library asks operator new: count both.
-extern "C" void* __libc_malloc(std::size_t size);
+extern "C" void* __libc_malloc(std::size_t size);  // NOLINT(bugprone-reserved-identifier): the C library named it
 #if !defined(__SANITIZE_ADDRESS__)
 extern "C" void* malloc(std::size_t size) {
   allocations.fetch_add(1, std::memory_order_relaxed);

@@ -281,14 +281,6 @@ TEST(CaseFile, StepSizeIsPositiveAndWithinTheRun) {
   EXPECT_EQ(parse_case(minimal, "x.toml", {"method.h=50"}).h, 50.0);
 }
 
-TEST(CaseFile, AStepSizeThatDoesNotDivideTheRunIsNoted) {
-  const RunSpec spec = parse_case(minimal, "x.toml", {"method.h=0.3"});
-  ASSERT_EQ(spec.notes.size(), 1U);
-  EXPECT_EQ(spec.notes[0], "h = 0.3 does not divide end = 50: the last step is shortened to 0.2");
-  for (const char* h : {"0.1", "1/3", "1/7", "0.01", "50"})  // 0.1 is no binary fraction, and divides all the same
-    EXPECT_TRUE(parse_case(minimal, "x.toml", {std::string("method.h=") + h}).notes.empty()) << h;
-}
-
 TEST(CaseFile, AShortRunWithoutStepSizeTakesOneStepAndSaysSo) {
   const RunSpec spec = parse_case(minimal, "x.toml", {"time.end=1e-4"});
   EXPECT_EQ(spec.h, 1e-4);

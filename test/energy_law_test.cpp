@@ -51,7 +51,9 @@ TEST(EnergyLaw, NoStepOfAnyMethodRaisesItsEnergyAtAnyStepSize) {
           ++runs;
           finished += result.finished ? 1 : 0;
           const bool linear = method.closure == ClosureKind::sav;  // never fails: one linear equation a step
-          if (linear || h <= 0.25) EXPECT_TRUE(result.finished) << name << " " << method.name << " h = " << h;
+          if (linear || h <= 0.25) {
+            EXPECT_TRUE(result.finished) << name << " " << method.name << " h = " << h;
+          }
         }
       }
     }

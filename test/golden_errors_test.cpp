@@ -59,7 +59,7 @@ TEST_P(GoldenErrors, OfTheRobustMultiplierAreNoLargerThanThoseOfPlainNewton) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, GoldenErrors, testing::Values("dense", "modal"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& backend) { return backend.param; });
 
 }  // namespace
 }  // namespace seiche::test

@@ -42,7 +42,7 @@ std::vector<GoldenMethod> golden_methods(const std::string& case_name) {
   const nlohmann::json& data = golden_case(case_name);
   std::vector<GoldenMethod> list;
   for (const auto& [golden_name, results] : data.at("methods").items()) {
-    GoldenMethod method{.golden_name = golden_name, .method = {}, .results = results};
+    GoldenMethod method{.golden_name = golden_name, .method = {}, .step_sizes = {}, .results = results};
     std::string name = golden_name.substr(0, golden_name.find('_'));
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
     method.method = golden_name == "SEILM_dir" ? "seidm" : name;

@@ -1,0 +1,47 @@
+#include "command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+namespace seiche::cli {
+namespace {
+
+bool is_assignment(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const auto in_key = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.'; };
+  return equals != std::string_view::npos && equals > 0 &&
+         std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(equals), in_key);
+}
+
+}  // namespace
+
+void print_data(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw std::runtime_error(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+  }
+}
+
+void print_note(std::string_view text) { fmt::print(stderr, "seiche: {}\n", text); }
+
+void print_lines(std::string_view text) { fmt::print(stderr, "{}", text); }
+
+std::vector<std::string> with_set_repeated(const std::vector<std::string>& arguments) {
+  std::vector<std::string> out;
+  bool after_set = false;
+  bool first = false;  // the value of --set itself, whatever it looks like
+  for (const std::string& argument : arguments) {
+    if (after_set && !first && is_assignment(argument)) out.emplace_back("--set");
+    after_set = argument == "--set" || (after_set && (first || is_assignment(argument)));
+    first = argument == "--set";
+    out.push_back(argument);
+  }
+  return out;
+}
+
+}  // namespace seiche::cli

@@ -1,0 +1,32 @@
+// What all subcommands share: exit codes, the way a subcommand enters the program, stdout and stderr.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seiche::cli {
+
+enum ExitCode : int { success = 0, computation_failed = 1, wrong_usage = 2, law_violated = 3, interrupted = 130 };
+
+// Set by the subcommand that was called; main runs it after parsing. An Error thrown by it means wrong usage.
+using Action = std::function<ExitCode()>;
+
+void add_run(CLI::App& app, Action& action);
+void add_converge(CLI::App& app, Action& action);
+void add_paper(CLI::App& app, Action& action);
+void add_list(CLI::App& app, Action& action);
+void add_new(CLI::App& app, Action& action);
+
+void print_data(std::string_view text);   // to stdout; throws std::runtime_error where it cannot be written
+void print_note(std::string_view text);   // one line to stderr, after "seiche: "
+void print_lines(std::string_view text);  // to stderr as it is
+
+// Every argument after --set that looks like key=value gets a --set of its own, so that one --set may take several
+// and never swallows the case file.
+std::vector<std::string> with_set_repeated(const std::vector<std::string>& arguments);
+
+}  // namespace seiche::cli

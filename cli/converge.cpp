@@ -1,0 +1,106 @@
+// seiche converge: errors, orders, energies and cost of methods at several step sizes.
+#include "command_line.hpp"
+#include "load_case.hpp"
+#include "reference_name.hpp"
+#include "stop_signal.hpp"
+
+#include <fmt/format.h>
+#include <seiche/config/case_value.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/law.hpp>
+#include <seiche/study/converge.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace seiche::cli {
+namespace {
+
+struct ConvergeArguments {
+  CaseArgument case_argument;
+  std::vector<std::string> methods;
+  std::vector<std::string> step_sizes;
+  std::string reference = "odeint";
+  int threads = 1;
+  bool json = false;
+};
+
+double step_size(const std::string& text) {
+  CaseValue value;
+  value.kind = CaseValue::Kind::text;
+  value.text = text;
+  const double h = read_number("--h", value);
+  if (!(h > 0) || !std::isfinite(h)) throw Error("--h {} must be a finite number > 0", text);
+  return h;
+}
+
+// A law that does not hold where it was promised outweighs nothing but a run that failed.
+ExitCode exit_code(const Convergence& study, const LawPromise& law) {
+  const auto failed = [](const StudyRow& row) { return !row.failure.empty(); };
+  const auto unlawful = [](const StudyRow& row) { return !row.energy_law_held && row.unresolved == 0; };
+  if (std::any_of(study.rows.begin(), study.rows.end(), failed)) return computation_failed;
+  return law.promised && std::any_of(study.rows.begin(), study.rows.end(), unlawful) ? law_violated : success;
+}
+
+ExitCode converge_case(const ConvergeArguments& arguments) {
+  const std::atomic<bool>& stop = stop_on_signal();
+  const RunSpec spec = load_case(arguments.case_argument);
+  const Problem problem = make_problem(spec);
+  const std::vector<std::string> methods =
+      arguments.methods.empty() ? std::vector<std::string>{spec.method} : arguments.methods;
+  std::vector<double> step_sizes;
+  for (const std::string& text : arguments.step_sizes) step_sizes.push_back(step_size(text));
+  if (step_sizes.empty()) step_sizes = {spec.h, spec.h / 2, spec.h / 4};
+
+  ConvergeOptions options;
+  options.t_end = spec.t_end;
+  options.backend = spec.backend;
+  options.method_options = spec.method_options;
+  options.threads = arguments.threads;
+  options.stop = &stop;
+  options.reference.stop = &stop;
+  options.reference.kind = find_reference(arguments.reference);
+  const std::string remarks = notes(spec, problem);
+  if (!remarks.empty()) print_note(remarks);
+
+  // What does not exist or does not apply is refused here; what goes wrong from now on is a failed computation.
+  for (const std::string& method : methods) {
+    Simulation(problem, {.method = method,
+                         .backend = spec.backend,
+                         .method_options = options_for(method, spec.method_options),
+                         .backend_options = {}});
+  }
+  Convergence study;
+  try {
+    study = converge(problem, methods, step_sizes, options);
+  } catch (const Error& error) {
+    print_note(error.what());
+    return stop ? interrupted : computation_failed;
+  }
+  print_data(arguments.json ? converge_json(study) : converge_table(study));
+  return stop ? interrupted : exit_code(study, promise_energy_law(problem, spec.t_end));
+}
+
+}  // namespace
+
+void add_converge(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<ConvergeArguments>();
+  CLI::App* command = app.add_subcommand("converge", "Errors, orders and cost of methods at several step sizes");
+  add_case(*command, arguments->case_argument);
+  command->add_option("--methods", arguments->methods, "Methods, by commas; without it, that of the case")
+      ->type_name("A,B,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--h", arguments->step_sizes, "Step sizes, by commas; without it h, h/2, h/4 of the case")
+      ->type_name("1/32,1/64,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--reference", arguments->reference, reference_help);
+  command->add_option("--threads", arguments->threads, "Threads of the error runs; timed runs are alone")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65536));
+  command->add_flag("--json", arguments->json, "One JSON document on stdout");
+  command->callback([arguments, &action] { action = [arguments] { return converge_case(*arguments); }; });
+}
+
+}  // namespace seiche::cli

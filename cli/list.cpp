@@ -1,0 +1,121 @@
+// seiche list: what there is, for people and for programs.
+#include "command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#include <seiche/backend/backends.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/method/methods.hpp>
+#include <seiche/problem/problems.hpp>
+
+#include <iterator>
+#include <memory>
+
+namespace seiche::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json methods_json() {
+  Json list = Json::array();
+  for (const MethodEntry& method : methods()) {
+    list.push_back({{"name", method.name},
+                    {"closure", to_string(method.closure)},
+                    {"propagator", to_string(method.propagator)},
+                    {"composition", to_string(method.composition)},
+                    {"order", method.order},
+                    {"law", method.law},
+                    {"reference", method.reference}});
+  }
+  return list;
+}
+
+Json problems_json() {
+  Json list = Json::array();
+  for (const ProblemEntry& problem : problems()) {
+    Json parameters = Json::array();
+    for (const Parameter& parameter : problem.parameters) {
+      parameters.push_back(
+          {{"name", parameter.name}, {"default", parameter.default_value}, {"meaning", parameter.meaning}});
+    }
+    list.push_back({{"name", problem.name},
+                    {"equation", problem.equation},
+                    {"reference", problem.reference},
+                    {"fields", problem.fields},
+                    {"initial", problem.presets},
+                    {"parameters", parameters}});
+  }
+  return list;
+}
+
+Json backends_json() {
+  Json list = Json::array();
+  for (const BackendEntry& backend : backends()) list.push_back({{"name", backend.name}, {"summary", backend.summary}});
+  return list;
+}
+
+std::string methods_text() {
+  std::string text = fmt::format("{:<8} {:<8} {:<12} {:<12} {:>5}  {:<11} {}\n", "name", "closure", "propagator",
+                                 "composition", "order", "law", "reference");
+  for (const MethodEntry& method : methods()) {
+    text += fmt::format("{:<8} {:<8} {:<12} {:<12} {:>5}  {:<11} {}\n", method.name, to_string(method.closure),
+                        to_string(method.propagator), to_string(method.composition), method.order, method.law,
+                        method.reference);
+  }
+  return text;
+}
+
+std::string problems_text() {
+  std::string text;
+  for (const ProblemEntry& problem : problems()) {
+    std::vector<std::string> names;
+    for (const Parameter& parameter : problem.parameters) names.push_back(parameter.name);
+    text += fmt::format("{:<14} {}\n{:14} from {}\n{:14} parameters {}; initial {}\n", problem.name, problem.equation,
+                        "", problem.reference, "", fmt::join(names, ", "), fmt::join(problem.presets, ", "));
+  }
+  return text;
+}
+
+std::string backends_text() {
+  std::string text;
+  for (const BackendEntry& backend : backends()) text += fmt::format("{:<8} {}\n", backend.name, backend.summary);
+  return text;
+}
+
+struct List {
+  std::string name;
+  Json (*json)();
+  std::string (*text)();
+};
+const std::vector<List> lists = {{"methods", methods_json, methods_text},
+                                 {"problems", problems_json, problems_text},
+                                 {"backends", backends_json, backends_text}};
+
+ExitCode print_list(const std::string& name, bool json) {
+  std::vector<std::string> names;
+  for (const List& list : lists) {
+    names.push_back(list.name);
+    if (list.name != name) continue;
+    print_data(json ? list.json().dump(2) + "\n" : list.text());
+    return success;
+  }
+  throw unknown_name("list", name, names);
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, Action& action) {
+  struct Arguments {
+    std::string name;
+    bool json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("list", "List methods, problems or backends");
+  command->add_option("WHAT", arguments->name, "methods, problems or backends")->required();
+  command->add_flag("--json", arguments->json, "One JSON array on stdout");
+  command->callback(
+      [arguments, &action] { action = [arguments] { return print_list(arguments->name, arguments->json); }; });
+}
+
+}  // namespace seiche::cli

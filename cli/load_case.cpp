@@ -1,0 +1,30 @@
+#include "load_case.hpp"
+
+#include <fmt/ranges.h>
+#include <seiche/config/case_file.hpp>
+
+#include <iostream>
+#include <iterator>
+
+namespace seiche::cli {
+
+void add_case(CLI::App& command, CaseArgument& argument) {
+  command.add_option("CASE", argument.file, "Case file in TOML; - reads standard input")->required();
+  command.add_option("--set", argument.overrides, "Override a key of the case: method.h=1/64")
+      ->type_name("KEY=VALUE ...")
+      ->allow_extra_args(false);
+}
+
+RunSpec load_case(const CaseArgument& argument) {
+  if (argument.file != "-") return read_case(argument.file, argument.overrides);
+  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+  return parse_case(text, "standard input", argument.overrides);
+}
+
+std::string notes(const RunSpec& spec, const Problem& problem) {
+  std::vector<std::string> all = spec.notes;
+  all.insert(all.end(), problem.notes.begin(), problem.notes.end());
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+}  // namespace seiche::cli

@@ -1,0 +1,23 @@
+// The case file that a subcommand was given, and the notes about it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <seiche/config/run_spec.hpp>
+
+#include <string>
+#include <vector>
+
+namespace seiche::cli {
+
+struct CaseArgument {
+  std::string file;  // "-" is standard input
+  std::vector<std::string> overrides;
+};
+
+void add_case(CLI::App& command, CaseArgument& argument);  // CASE and --set
+RunSpec load_case(const CaseArgument& argument);
+
+// What the case and the problem have to say, "; "-separated.
+std::string notes(const RunSpec& spec, const Problem& problem);
+
+}  // namespace seiche::cli

@@ -1,0 +1,88 @@
+// The program: subcommands, and one place that turns what went wrong into a sentence and an exit code.
+#include "command_line.hpp"
+#include "versions.hpp"
+
+#include <fmt/format.h>
+#include <seiche/core/error.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+namespace seiche::cli {
+namespace {
+
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+// CLI11 only says that something was unexpected; the nearest name is ours to find.
+Error unexpected(const CLI::App& app) {
+  const std::vector<CLI::App*> called = app.get_subcommands();
+  const CLI::App& command = called.empty() ? app : *called.front();
+  const std::string extra = app.remaining(true).front();
+  if (!extra.starts_with("-")) return Error("unexpected argument '{}'", extra);
+  return unknown_name("option", extra.substr(0, extra.find('=')), option_names(command));
+}
+
+ExitCode run_program(const std::vector<std::string>& arguments) {
+  CLI::App app("Seiche: energy-stable integrators for damped Hamiltonian systems", "seiche");
+  app.set_version_flag("--version", version_text, "Versions of Seiche and its libraries, and the instruction set");
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(36);
+  Action action;
+  add_run(app, action);
+  add_converge(app, action);
+  add_paper(app, action);
+  add_list(app, action);
+  add_new(app, action);
+
+  // Before parsing, since CLI11 would complain about what is missing instead of what is misspelt.
+  const std::vector<std::string> names = subcommand_names(app);
+  if (!arguments.empty() && !arguments[0].starts_with("-") &&
+      std::find(names.begin(), names.end(), arguments[0]) == names.end()) {
+    throw unknown_name("command", arguments[0], names);
+  }
+  std::vector<std::string> reversed = with_set_repeated(arguments);
+  std::reverse(reversed.begin(), reversed.end());  // the order in which CLI11 wants them
+  try {
+    app.parse(reversed);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    app.exit(asked);
+    return success;
+  } catch (const CLI::ExtrasError&) {
+    throw unexpected(app);
+  } catch (const CLI::ParseError& error) {
+    throw Error("{} (seiche --help lists commands and options)", error.what());
+  }
+  return action();
+}
+
+}  // namespace
+}  // namespace seiche::cli
+
+int main(int count, char** values) {
+  using namespace seiche::cli;
+  try {
+    return run_program({values + std::min(count, 1), values + count});
+  } catch (const seiche::Error& error) {
+    print_note(error.what());
+    return wrong_usage;
+  } catch (const std::bad_alloc&) {
+    print_note("there is not enough memory for this");
+    return computation_failed;
+  } catch (const std::exception& error) {
+    print_note(error.what());
+    return computation_failed;
+  }
+}

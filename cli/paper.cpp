@@ -1,0 +1,112 @@
+// seiche paper: every example, method, figure and claim of the paper.
+#include "command_line.hpp"
+#include "reference_name.hpp"
+#include "stop_signal.hpp"
+#include "versions.hpp"
+
+#include <fmt/format.h>
+#include <seiche/core/error.hpp>
+#include <seiche/figure/panels.hpp>
+#include <seiche/figure/report.hpp>
+#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/progress_bar.hpp>
+#include <seiche/study/paper.hpp>
+
+#include <memory>
+
+namespace seiche::cli {
+namespace {
+
+struct PaperArguments {
+  std::string directory = "out/paper";
+  std::string reference = "odeint";
+  int threads = 2;
+  bool quick = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+std::string verdicts_text(const PaperResults& results) {
+  std::string text;
+  for (const Verdict& verdict : results.verdicts) {
+    text += fmt::format("{:<14} {}: {}\n{:14} {}\n", to_string(verdict.outcome), verdict.example, verdict.claim, "",
+                        verdict.measured);
+  }
+  return text;
+}
+
+// A bar where there is a terminal, else one line per piece of work.
+class StudyProgress {
+ public:
+  explicit StudyProgress(bool quiet) : bar_(stderr), quiet_(quiet), draws_(ProgressBar::is_wanted(quiet)) {}
+
+  void operator()(double done, std::string_view what) {
+    if (draws_) {
+      bar_.draw(done, fmt::format("{}, {} left", what, bar_.time_left(done)));
+    } else if (!quiet_) {
+      print_note(fmt::format("{:>3.0f} % {}", 100 * done, what));
+    }
+  }
+  void wipe() { bar_.wipe(); }
+
+ private:
+  ProgressBar bar_;
+  bool quiet_, draws_;
+};
+
+// "", or why there are no figures: the numbers and the report are worth having without.
+std::string draw(const PaperResults& results, const std::string& directory) {
+  try {
+    draw_paper(results, directory);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+ExitCode paper(const PaperArguments& arguments) {
+  const std::atomic<bool>& stop = stop_on_signal();
+  PaperOptions options;
+  options.quick = arguments.quick;
+  options.reference = find_reference(arguments.reference);
+  make_directory(arguments.directory);
+  StudyProgress progress(arguments.quiet);
+  options.threads = arguments.threads;
+  options.progress = [&](double done, std::string_view what) { progress(done, what); };
+  options.stop = &stop;
+  try {
+    const PaperResults results = run_paper(options);
+    progress.wipe();
+    write_results(results, arguments.directory);
+    const std::string no_figures_because = stop ? "the study was interrupted" : draw(results, arguments.directory);
+    write_report(results, arguments.directory, versions(), no_figures_because);
+    print_data(arguments.json ? paper_json(results) : verdicts_text(results));
+    if (!no_figures_because.empty()) print_note(fmt::format("there are no figures: {}", no_figures_because));
+    if (!arguments.quiet) print_note(fmt::format("{:.1f} s; see {}/report.html", results.seconds, arguments.directory));
+    if (stop) return interrupted;
+    return no_figures_because.empty() ? success : computation_failed;
+  } catch (const Error& error) {
+    progress.wipe();
+    print_note(error.what());
+    return stop ? interrupted : computation_failed;
+  }
+}
+
+}  // namespace
+
+void add_paper(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<PaperArguments>();
+  CLI::App* command = app.add_subcommand("paper", "The paper: every example, method, figure and claim");
+  command->add_option("--out", arguments->directory, "Where data, figures and report.html go; default out/paper")
+      ->type_name("DIR");
+  command->add_option("--reference", arguments->reference, reference_help);
+  command->add_option("--threads", arguments->threads, "Threads of the error runs; timed runs are alone")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65536));
+  command->add_flag("--quick", arguments->quick, "Shorter runs, the same figures and claims");
+  command->add_flag("--json", arguments->json, "One JSON document on stdout");
+  command->add_flag("--quiet", arguments->quiet, "No progress");
+  command->callback([arguments, &action] { action = [arguments] { return paper(*arguments); }; });
+}
+
+}  // namespace seiche::cli

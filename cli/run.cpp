@@ -1,0 +1,130 @@
+// seiche run: one case, one method, and the files that a run leaves.
+#include "command_line.hpp"
+#include "load_case.hpp"
+#include "stop_signal.hpp"
+#include "versions.hpp"
+
+#include <fmt/format.h>
+#include <seiche/config/case_file.hpp>
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/law.hpp>
+#include <seiche/output/energy_trace.hpp>
+#include <seiche/output/final_state.hpp>
+#include <seiche/output/progress.hpp>
+#include <seiche/output/snapshots.hpp>
+#include <seiche/output/summary.hpp>
+#include <seiche/run/integrate.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+namespace seiche::cli {
+namespace {
+
+struct RunArguments {
+  CaseArgument case_argument;
+  std::string directory;
+  int threads = 1;
+  bool json = false;
+  bool quiet = false;
+};
+
+// What the problem promises, unless an option of the method gives it up.
+LawPromise promise(const Simulation& simulation, const RunSpec& spec) {
+  if (spec.method_options.auxiliary == AuxiliaryMode::refresh) {
+    return {false, "auxiliary = \"refresh\" resets r after the damping, and the modified energy may rise there"};
+  }
+  if (spec.method_options.scalar_solver == ScalarSolver::newton) {
+    return {false, "scalar_solver = \"newton\" accepts steps whose scalar equation it did not solve"};
+  }
+  return promise_energy_law(simulation.problem(), spec.t_end);
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+ExitCode exit_code(const RunReport& report) {
+  switch (report.status) {
+    case RunReport::Status::failed: return computation_failed;
+    case RunReport::Status::interrupted: return interrupted;
+    case RunReport::Status::success: break;
+  }
+  return report.law == LawVerdict::violated ? law_violated : success;
+}
+
+ExitCode run(const RunArguments& arguments) {
+  const std::atomic<bool>& stop = stop_on_signal();
+  RunSpec spec = load_case(arguments.case_argument);
+  if (!arguments.directory.empty()) spec.output_directory = arguments.directory;
+  if (arguments.threads > 1) {
+    print_note(fmt::format("--threads {}: a single run uses one thread in this version", arguments.threads));
+  }
+  const std::filesystem::path directory = spec.output_directory;
+  const std::filesystem::path wisdom = directory / "fftw_wisdom";
+  if (spec.measure_plans) use_planning_wisdom(text_of(wisdom));  // a run repeated in its directory plans the same way
+  const Problem problem = make_problem(spec);
+  Simulation simulation(problem, simulation_options(spec));
+  const LawPromise law = promise(simulation, spec);
+  const std::string remarks = notes(spec, problem);
+  if (!remarks.empty() && !arguments.quiet) print_note(remarks);
+
+  make_directory(directory);
+  write_file(directory / "case.toml", write_case(spec));
+  if (spec.measure_plans) write_file(wisdom, planning_wisdom());
+  const bool modified = simulation.stepper().has_modified_energy();
+  EnergyTrace trace(directory / "energy.csv", modified, {.every_steps = spec.energy_every});
+  Snapshots snapshots(directory / "snapshots.csv", simulation.problem(), *simulation.system().space,
+                      {.every_steps = spec.snapshot_every});
+  Progress progress(stderr, static_cast<std::int64_t>(std::ceil(spec.t_end / spec.h)));
+  std::vector<Observer*> observers = {&trace, &snapshots};
+  if (ProgressBar::is_wanted(arguments.quiet)) observers.push_back(&progress);
+
+  const IntegrateOptions options{.h = spec.h, .t_end = spec.t_end, .law = law, .stop = &stop};
+  RunReport report = integrate(simulation.system(), simulation.stepper(), simulation.state(), options, observers);
+  if (!remarks.empty()) report.message += "; " + remarks;
+
+  const RunIdentity identity{.problem = problem.name,
+                             .method = spec.method,
+                             .backend = simulation.backend(),
+                             .h = spec.h,
+                             .versions = versions()};
+  try {
+    write_final_state(directory / "final.txt", simulation.physical());
+    write_summary(directory / "summary.json", identity, report);
+  } catch (const Error& error) {  // not the user's mistake any more: the directory was writable at the start
+    report.status = RunReport::Status::failed;
+    report.message += fmt::format("; {}", error.what());
+  }
+  if (arguments.json) print_data(summary_json(identity, report));
+  if (!arguments.quiet) {
+    print_lines(report.full());
+    print_lines(fmt::format("{:<10} {}\n", "files", directory.string()));
+  } else if (report.status == RunReport::Status::failed || report.law == LawVerdict::violated) {
+    print_note(report.message);
+  }
+  return exit_code(report);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command = app.add_subcommand("run", "Run one case");
+  add_case(*command, arguments->case_argument);
+  command->add_option("--out", arguments->directory, "Where the files go, instead of output.directory")
+      ->type_name("DIR");
+  command->add_option("--threads", arguments->threads, "Threads (a single run uses one)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65536));
+  command->add_flag("--json", arguments->json, "Print summary.json on stdout");
+  command->add_flag("--quiet", arguments->quiet, "No progress bar, and a word only when something went wrong");
+  command->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace seiche::cli

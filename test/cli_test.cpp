@@ -1,0 +1,383 @@
+// The program as its users meet it: exit codes, sentences, files and stdout.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+#include <seiche/backend/backends.hpp>
+#include <seiche/method/methods.hpp>
+#include <seiche/problem/problems.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Result {
+  int exit = -1;
+  std::string out, err;
+};
+
+class Cli : public testing::Test {
+ protected:
+  Cli() {
+    std::string name = (fs::temp_directory_path() / "seiche_cli_XXXXXX").string();
+    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory " + name);
+    directory = name;
+  }
+  ~Cli() override { fs::remove_all(directory); }
+
+  // `arguments` as a shell would split them, in the temporary directory.
+  Result seiche(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = "cd '" + directory.string() + "' && " + before + " '" SEICHE_PROGRAM "' " + arguments +
+                                " >stdout.txt 2>stderr.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("stdout.txt"), text("stderr.txt")};
+  }
+  std::string text(const fs::path& name) const {
+    std::ifstream in(directory / name);
+    std::ostringstream all;
+    all << in.rdbuf();
+    return all.str();
+  }
+  std::vector<std::string> lines(const fs::path& name) const {
+    std::ifstream in(directory / name);
+    std::vector<std::string> all;
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    return all;
+  }
+  void write(const fs::path& name, const std::string& content) const { std::ofstream(directory / name) << content; }
+
+  // A small Klein–Gordon case, with what a test wants to change put behind it.
+  void write_case(const std::string& problem = "", const std::string& method = "h = \"1/64\"") const {
+    write("case.toml", "[problem]\nname = \"klein_gordon\"\npoints = 8\n" + problem +
+                           "\n[method]\nname = \"seisav\"\n" + method + "\n[time]\nend = 1.0\n");
+  }
+  // What is refused: exit code 2, a sentence on stderr, nothing on stdout, no directory begun.
+  std::string refused(const std::string& arguments) const {
+    const Result result = seiche(arguments);
+    EXPECT_EQ(result.exit, 2) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_FALSE(fs::exists(directory / "out")) << arguments;
+    EXPECT_THAT(result.err, HasSubstr("seiche: "));
+    return result.err;
+  }
+
+  fs::path directory;
+};
+
+TEST_F(Cli, ARunLeavesItsFiles) {
+  write_case();
+  const Result result = seiche("run case.toml --out out --set output.snapshot_every=32");
+  ASSERT_EQ(result.exit, 0) << result.err;
+  EXPECT_EQ(result.out, "") << "stdout is for data";
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(directory / "out")) names.insert(entry.path().filename().string());
+  EXPECT_EQ(names, (std::set<std::string>{"case.toml", "energy.csv", "final.txt", "snapshots.csv", "summary.json"}));
+
+  EXPECT_EQ(lines("out/energy.csv").front(), "t,H,H_modified");
+  EXPECT_EQ(lines("out/energy.csv").size(), 1U + 65U);
+  EXPECT_EQ(lines("out/snapshots.csv").size(), 1U + 3U);
+  EXPECT_THAT(lines("out/snapshots.csv").front(), AllOf(HasSubstr("t,u_1,u_2"), HasSubstr("u_8,v_1")));
+  EXPECT_EQ(lines("out/final.txt").size(), 16U);
+  const json summary = json::parse(text("out/summary.json"));
+  EXPECT_EQ(summary["status"], "success");
+  EXPECT_EQ(summary["steps"], 64);
+  EXPECT_EQ(summary["t"], 1.0);
+  EXPECT_EQ(summary["energy"]["law"], "holds");
+  for (const char* library : {"seiche", "git", "compiler", "eigen", "fftw"}) {
+    EXPECT_TRUE(summary["versions"].contains(library)) << library;
+  }
+}
+
+TEST_F(Cli, TheCaseItLeavesRunsToTheSameBits) {
+  write_case("gamma = \"0.1 + 0.05*sin(t)\"");
+  ASSERT_EQ(seiche("run case.toml --out first --quiet").exit, 0);
+  ASSERT_EQ(seiche("run first/case.toml --out second --quiet").exit, 0);
+  for (const char* name : {"energy.csv", "final.txt", "snapshots.csv"}) {
+    EXPECT_EQ(text(fs::path("first") / name), text(fs::path("second") / name)) << name;
+  }
+}
+
+TEST_F(Cli, OneRunStartsWhereAnotherEnded) {
+  write_case();
+  ASSERT_EQ(seiche("run case.toml --out first --quiet").exit, 0);
+  ASSERT_EQ(seiche("run case.toml --out second --quiet --set 'problem.initial={file=\"first/final.txt\"}'").exit, 0);
+  const json first = json::parse(text("first/summary.json")), second = json::parse(text("second/summary.json"));
+  EXPECT_NEAR(second["energy"]["initial"].get<double>(), first["energy"]["final"].get<double>(), 1e-15);
+}
+
+TEST_F(Cli, JsonIsExactlyOneDocumentOnStdoutAndTheSummaryFile) {
+  write_case();
+  const Result result = seiche("run case.toml --out out --json");
+  EXPECT_EQ(result.exit, 0);
+  EXPECT_EQ(json::parse(result.out), json::parse(text("out/summary.json")));
+  EXPECT_THAT(result.err, HasSubstr("reached t = 1")) << "people read stderr";
+  EXPECT_EQ(seiche("run case.toml --out out --json --quiet").err, "");
+}
+
+TEST_F(Cli, OneSetTakesSeveralKeysAndLeavesTheCaseFileAlone) {
+  write_case();
+  const Result result =
+      seiche("run --set time.end=0.5 method.h=1/32 case.toml --out out --json --set method.name=seilm");
+  ASSERT_EQ(result.exit, 0) << result.err;
+  const json summary = json::parse(result.out);
+  EXPECT_EQ(summary["steps"], 16);
+  EXPECT_EQ(summary["method"], "seilm");
+  EXPECT_TRUE(summary["energy"]["modified"].is_null());
+  EXPECT_EQ(lines("out/energy.csv").front(), "t,H");
+}
+
+TEST_F(Cli, AStepThatDoesNotDivideTheTimeIsSaidToBeShortened) {
+  write_case();
+  const Result result = seiche("run case.toml --out out --json --set method.h=0.3");
+  EXPECT_EQ(result.exit, 0);
+  EXPECT_THAT(result.err, HasSubstr("shortened to 0.1"));
+  const json summary = json::parse(result.out);
+  EXPECT_THAT(summary["message"], HasSubstr("shortened to 0.1"));
+  EXPECT_EQ(summary["t"], 1.0);
+  EXPECT_EQ(summary["steps"], 4);
+}
+
+TEST_F(Cli, WrongCaseFilesAreRefusedWithTheValueAndWhatIsAllowed) {
+  write_case("poinst = 3");
+  EXPECT_THAT(refused("run case.toml --out out"),
+              AllOf(HasSubstr("case.toml:4"), HasSubstr("poinst"), HasSubstr("did you mean 'points'")));
+  write_case("gamma = \"0.1 + * t\"");
+  EXPECT_THAT(refused("run case.toml --out out"), AllOf(HasSubstr("case.toml:4"), HasSubstr("column 7")));
+  write_case();
+  EXPECT_THAT(refused("run case.toml --out out --set method.name=seisv"), HasSubstr("did you mean 'seisav'"));
+  EXPECT_THAT(refused("run case.toml --out out --set problem.name=klein_godron"), HasSubstr("klein_gordon"));
+  EXPECT_THAT(refused("run case.toml --out out --set backend.name=modl"), HasSubstr("did you mean 'modal'"));
+  EXPECT_THAT(refused("run case.toml --out out --set problem.points=-3"), AllOf(HasSubstr("-3"), HasSubstr("≥ 3")));
+  EXPECT_THAT(refused("run case.toml --out out --set method.h=0"), HasSubstr("must be > 0"));
+  EXPECT_THAT(refused("run case.toml --out out --set method.h=nan"), HasSubstr("finite"));
+  EXPECT_THAT(refused("run case.toml --out out --set method.h=1/0"), HasSubstr("divides by zero"));
+  EXPECT_THAT(refused("run case.toml --out out --set time.end=-1"), HasSubstr("-1"));
+  EXPECT_THAT(refused("run case.toml --out out --set method.C=-1"), HasSubstr("would do"));
+  EXPECT_THAT(refused("run none.toml --out out"), HasSubstr("none.toml"));
+  write("broken.toml", "[problem\n");
+  EXPECT_THAT(refused("run broken.toml --out out"), HasSubstr("broken.toml:1"));
+}
+
+TEST_F(Cli, InitialFilesAreRefusedWithLineOrCounts) {
+  write_case("initial = { file = \"z0.txt\" }");
+  EXPECT_THAT(refused("run case.toml --out out"), HasSubstr("z0.txt"));
+  write("z0.txt", "1 2 3\n4 nan 6\n");
+  EXPECT_THAT(refused("run case.toml --out out"), AllOf(HasSubstr("z0.txt:2"), HasSubstr("nan")));
+  write("z0.txt", "1 2 3\n");
+  EXPECT_THAT(refused("run case.toml --out out"), AllOf(HasSubstr("3 numbers"), HasSubstr("16")));
+}
+
+TEST_F(Cli, MethodsThatDoNotApplySayWhyAndWhichDo) {
+  write("case.toml", "[problem]\nname = \"gkdv\"\n[time]\nend = 1.0\n");
+  for (const char* method : {"avf", "sav"}) {
+    EXPECT_THAT(refused(std::string("run case.toml --out out --set method.name=") + method),
+                AllOf(HasSubstr("does not apply"), HasSubstr("seisav")));
+  }
+}
+
+// Below a regular file nothing can be written, not even by root.
+TEST_F(Cli, AnUnwritableDirectoryIsNamedWithTheReason) {
+  write_case();
+  write("file", "");
+  EXPECT_THAT(refused("run case.toml --out file/out"), AllOf(HasSubstr("file/out"), HasSubstr("Not a directory")));
+  EXPECT_THAT(refused("run case.toml --out file"), HasSubstr("file"));
+}
+
+TEST_F(Cli, WrongUsageIsRefusedWithTheNearestName) {
+  write_case();
+  EXPECT_THAT(refused(""), HasSubstr("--help"));
+  EXPECT_THAT(refused("rnu case.toml"), HasSubstr("did you mean 'run'"));
+  EXPECT_THAT(refused("run"), HasSubstr("CASE"));
+  EXPECT_THAT(refused("run case.toml --jsn"), HasSubstr("did you mean '--json'"));
+  EXPECT_THAT(refused("run case.toml other.toml"), HasSubstr("other.toml"));
+  EXPECT_THAT(refused("run case.toml --threads 0"), HasSubstr("--threads"));
+  EXPECT_THAT(refused("run case.toml --threads many"), HasSubstr("--threads"));
+  EXPECT_THAT(refused("run case.toml --out"), HasSubstr("--out"));
+  EXPECT_THAT(refused("run case.toml --set method.h"), HasSubstr("method.h"));
+  EXPECT_THAT(refused("list method"), HasSubstr("did you mean 'methods'"));
+  EXPECT_THAT(refused("new gkvd"), HasSubstr("did you mean 'gkdv'"));
+  EXPECT_THAT(refused("converge case.toml --methods seisv"), HasSubstr("did you mean 'seisav'"));
+  EXPECT_THAT(refused("converge case.toml --h 1/32,0"), HasSubstr("> 0"));
+  EXPECT_THAT(refused("converge case.toml --reference odeitn"), HasSubstr("did you mean 'odeint'"));
+  EXPECT_THAT(refused("paper --out out --reference odeitn"), HasSubstr("did you mean 'odeint'"));
+  EXPECT_THAT(refused("paper --quik"), HasSubstr("did you mean '--quick'"));
+}
+
+TEST_F(Cli, MoreThreadsThanARunUsesAreMentionedOnce) {
+  write_case();
+  const Result result = seiche("run case.toml --out out --threads 4 --quiet");
+  EXPECT_EQ(result.exit, 0);
+  EXPECT_THAT(result.err, HasSubstr("uses one thread"));
+}
+
+TEST_F(Cli, ALawThatIsNotPromisedIsSaidWithTheReason) {
+  write_case("gamma = -0.1");
+  const Result result = seiche("run case.toml --out out --json");
+  EXPECT_EQ(result.exit, 0);
+  const json summary = json::parse(result.out);
+  EXPECT_EQ(summary["energy"]["law"], "not promised");
+  EXPECT_THAT(summary["message"], HasSubstr("negative"));
+  EXPECT_GT(summary["energy"]["max_increase"].get<double>(), 0.0);
+
+  write_case("", "h = \"1/64\"\nauxiliary = \"refresh\"");
+  EXPECT_EQ(json::parse(seiche("run case.toml --out out --json").out)["energy"]["law"], "not promised");
+}
+
+// The focusing equation without damping blows up at t ≈ 12.7.
+TEST_F(Cli, AFailedRunKeepsWhatItComputedAndExitsWithOne) {
+  write("case.toml", "[problem]\nname = \"klein_gordon\"\ngamma = 0\n[method]\nname = \"seilm\"\n[time]\nend = 50.0\n");
+  const Result result = seiche("run case.toml --out out --json");
+  EXPECT_EQ(result.exit, 1) << result.err;
+  const json summary = json::parse(result.out);
+  EXPECT_EQ(summary["status"], "failed");
+  EXPECT_NEAR(summary["t"].get<double>(), 12.7, 0.1);
+  EXPECT_EQ(lines("out/energy.csv").size(), summary["steps"].get<std::size_t>() + 2);
+  EXPECT_EQ(lines("out/final.txt").size(), 40U);
+  EXPECT_THAT(text("out/energy.csv") + text("out/final.txt") + text("out/snapshots.csv"),
+              AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
+}
+
+TEST_F(Cli, CtrlCLeavesWholeFilesAndExitsWith130) {
+  write_case();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    fs::remove_all(directory / "out");
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      const std::string home = directory.string();
+      if (chdir(home.c_str()) != 0 || !freopen("stdout.txt", "w", stdout) || !freopen("stderr.txt", "w", stderr))
+        _exit(9);
+      execl(SEICHE_PROGRAM, "seiche", "run", "case.toml", "--out", "out", "--json", "--set", "time.end=1e7",
+            "output.energy_every=1000", static_cast<char*>(nullptr));
+      _exit(9);
+    }
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!fs::exists(directory / "out/snapshots.csv.partial") && std::chrono::steady_clock::now() < give_up) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    kill(child, signal);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status)) << text("stderr.txt");
+    EXPECT_EQ(WEXITSTATUS(status), 130) << text("stderr.txt");
+
+    const json summary = json::parse(text("stdout.txt"));
+    EXPECT_EQ(summary["status"], "interrupted");
+    EXPECT_EQ(json::parse(text("out/summary.json")), summary);
+    const double t = summary["t"].get<double>();
+    EXPECT_GT(t, 0.0);
+    for (const char* name : {"out/energy.csv", "out/snapshots.csv"}) {
+      ASSERT_FALSE(lines(name).empty()) << name;
+      EXPECT_EQ(std::stod(lines(name).back()), t) << "the last row of " << name << " is the last state";
+      EXPECT_EQ(text(name).back(), '\n');
+    }
+    EXPECT_EQ(lines("out/final.txt").size(), 16U);
+    for (const auto& entry : fs::directory_iterator(directory / "out")) EXPECT_NE(entry.path().extension(), ".partial");
+  }
+}
+
+TEST_F(Cli, ListsNameEverythingThereIs) {
+  const json methods = json::parse(seiche("list methods --json").out);
+  std::vector<std::string> names;
+  for (const json& method : methods) {
+    names.push_back(method["name"]);
+    for (const char* key : {"closure", "propagator", "composition", "order", "law", "reference"}) {
+      EXPECT_TRUE(method.contains(key)) << key;
+    }
+  }
+  EXPECT_EQ(names, method_names());
+  EXPECT_EQ(json::parse(seiche("list problems --json").out).size(), problems().size());
+  EXPECT_EQ(json::parse(seiche("list backends --json").out).size(), backends().size());
+  for (const std::string& name : names) EXPECT_THAT(seiche("list methods").out, HasSubstr(name));
+}
+
+TEST_F(Cli, VersionNamesLibrariesAndInstructionSet) {
+  const Result result = seiche("--version");
+  EXPECT_EQ(result.exit, 0);
+  for (const char* word : {"seiche 0.", "eigen", "fftw", "fmt", "cli11", "compiler", "instruction_set"}) {
+    EXPECT_THAT(result.out, HasSubstr(word));
+  }
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(Cli, EveryProblemsExampleCaseRunsFromStandardInput) {
+  for (const std::string& name : problem_names()) {
+    const std::string new_case = "'" SEICHE_PROGRAM "' new " + name + " |";
+    const Result result = seiche("run - --out " + name + " --json --set time.end=0.25", new_case);
+    EXPECT_EQ(result.exit, 0) << name << ": " << result.err;
+    EXPECT_EQ(json::parse(result.out)["problem"], name);
+  }
+}
+
+TEST_F(Cli, EveryCaseFileRuns) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(SEICHE_SOURCE_DIR) / "cases")) {
+    if (entry.path().extension() != ".toml") continue;
+    const Result result = seiche("run '" + entry.path().string() + "' --out out --json --quiet --set time.end=0.125");
+    EXPECT_EQ(result.exit, 0) << entry.path() << ": " << result.err;
+    ++count;
+  }
+  EXPECT_GE(count, 4);
+}
+
+TEST_F(Cli, ConvergeShowsTheOrderOfTheMethod) {
+  write_case();
+  const Result result = seiche("converge case.toml --methods seisav,savf --h 1/16,1/32 --json");
+  ASSERT_EQ(result.exit, 0) << result.err;
+  const json rows = json::parse(result.out)["rows"];
+  ASSERT_EQ(rows.size(), 4U);
+  for (const json& row : rows) {
+    if (row["h"] == 1.0 / 16) {
+      EXPECT_TRUE(row["order"].is_null());
+    } else {
+      EXPECT_NEAR(row["order"].get<double>(), 2.0, 0.1) << row;
+    }
+  }
+}
+
+class CliSlow : public Cli {};
+
+TEST_F(CliSlow, ThePaperLeavesDataFiguresAndAReport) {
+  const Result result = seiche("paper --quick --out paper --json");
+  const json document = json::parse(result.out);
+  EXPECT_FALSE(document["verdicts"].empty());
+  EXPECT_TRUE(fs::exists(directory / "paper/report.html"));
+  EXPECT_TRUE(fs::exists(directory / "paper/verdicts.csv"));
+  if (result.exit == 0) {
+    EXPECT_FALSE(fs::is_empty(directory / "paper/figures"));
+  } else {
+    EXPECT_EQ(result.exit, 1);
+    EXPECT_THAT(result.err, HasSubstr("gnuplot")) << "the only excuse";
+  }
+}
+
+TEST_F(Cli, MeasuredPlansAreKeptAndUsedAgain) {
+  write_case();
+  const std::string run = "run case.toml --out out --set backend.name=modal backend.plan=measure";
+  ASSERT_EQ(seiche(run).exit, 0);
+  EXPECT_THAT(text("out/fftw_wisdom"), HasSubstr("fftw"));
+  const std::string first = text("out/final.txt");
+  ASSERT_EQ(seiche(run).exit, 0);
+  EXPECT_EQ(text("out/final.txt"), first);
+}
+
+}  // namespace
+}  // namespace seiche

@@ -1,0 +1,68 @@
+// What the documentation shows is what is compiled, run and listed.
+#include <seiche/backend/backends.hpp>
+#include <seiche/config/case_file.hpp>
+#include <seiche/config/simulation.hpp>
+#include <seiche/problem/problems.hpp>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+namespace seiche::test {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(std::string(SEICHE_SOURCE_DIR) + "/" + path);
+  EXPECT_TRUE(file) << path;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string block(const std::string& text, const std::string& language) {
+  const std::string fence = "```" + language + "\n";
+  const std::size_t begin = text.find(fence);
+  if (begin == std::string::npos) return "";
+  const std::size_t from = begin + fence.size();
+  return text.substr(from, text.find("```", from) - from);
+}
+
+TEST(Documentation, TheProgramOfTheReadmeIsTheOneThatThePackageTestBuilds) {
+  EXPECT_EQ(block(text_of("README.md"), "cpp"), text_of("test/package/main.cpp"));
+}
+
+TEST(Documentation, TheCaseOfTheReadmeRuns) {
+  const RunSpec spec = parse_case(block(text_of("README.md"), "toml"), "README.md");
+  Simulation simulation(make_problem(spec), simulation_options(spec));
+  for (int n = 0; n < 100; ++n) ASSERT_TRUE(simulation.step(spec.h).solved());
+  EXPECT_LT(simulation.energy().modified, simulation.problem().initial.squaredNorm() * 1e3);
+}
+
+TEST(Documentation, EveryTestAndFileThatTheMapOfThePaperNamesExists) {
+  const std::string map = text_of("docs/paper_map.md");
+  std::string tests;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(SEICHE_SOURCE_DIR) + "/test"))
+    if (entry.path().extension() == ".cpp") tests += text_of("test/" + entry.path().filename().string());
+  const std::regex file("`((?:core|method|backend|study|problem|cases|docs)/[a-z_]+\\.(?:hpp|cpp|toml|md))");
+  int files = 0;
+  for (std::sregex_iterator i(map.begin(), map.end(), file), end; i != end; ++i, ++files) {
+    const std::string path = (*i)[1];
+    const bool ours = std::filesystem::exists(std::string(SEICHE_SOURCE_DIR) + "/seiche/" + path) ||
+                      std::filesystem::exists(std::string(SEICHE_SOURCE_DIR) + "/" + path);
+    EXPECT_TRUE(ours) << path;
+  }
+  EXPECT_GT(files, 10);
+  const std::regex claim("`([A-Z][A-Za-z]+)\\.([A-Za-z]+)[…`]");
+  int claims = 0;
+  for (std::sregex_iterator i(map.begin(), map.end(), claim), end; i != end; ++i, ++claims) {
+    const std::regex written("TEST(_P)?\\(" + (*i)[1].str() + ",\\s+" + (*i)[2].str());
+    EXPECT_TRUE(std::regex_search(tests, written)) << (*i)[0];
+  }
+  EXPECT_GT(claims, 8);
+}
+
+}  // namespace
+}  // namespace seiche::test
