@@ -25,11 +25,21 @@ struct ConvergeArguments {
   bool json = false;
 };
 
+std::string without_blanks(std::string text) {
+  std::erase(text, ' ');
+  return text;
+}
+
 double step_size(const std::string& text) {
   CaseValue value;
   value.kind = CaseValue::Kind::text;
   value.text = text;
-  const double h = read_number("--h", value);
+  double h = 0;
+  try {
+    h = read_number("--h", value);
+  } catch (const Error&) {
+    throw Error("--h {} must be finite numbers or fractions, with commas between: --h 1/32,1/64", text);
+  }
   if (!(h > 0) || !std::isfinite(h)) throw Error("--h {} must be a finite number > 0", text);
   return h;
 }
@@ -46,8 +56,9 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
   const std::atomic<bool>& stop = stop_on_signal();
   const RunSpec spec = load_case(arguments.case_argument);
   const Problem problem = make_problem(spec);
-  const std::vector<std::string> methods =
-      arguments.methods.empty() ? std::vector<std::string>{spec.method} : arguments.methods;
+  std::vector<std::string> methods = arguments.methods;
+  for (std::string& name : methods) name = without_blanks(name);
+  if (methods.empty()) methods = {spec.method};
   std::vector<double> step_sizes;
   for (const std::string& text : arguments.step_sizes) step_sizes.push_back(step_size(text));
   if (step_sizes.empty()) step_sizes = {spec.h, spec.h / 2, spec.h / 4};

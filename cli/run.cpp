@@ -115,7 +115,8 @@ ExitCode run(const RunArguments& arguments) {
 
 void add_run(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command = app.add_subcommand("run", "Run one case");
+  CLI::App* command =
+      app.add_subcommand("run", "Run one case; its report goes to stderr, with --json its summary to stdout");
   add_case(*command, arguments->case_argument);
   command->add_option("--out", arguments->directory, "Where the files go, instead of output.directory")
       ->type_name("DIR");

@@ -175,6 +175,17 @@ TEST_F(Cli, WrongCaseFilesAreRefusedWithTheValueAndWhatIsAllowed) {
   EXPECT_THAT(refused("run broken.toml --out out"), HasSubstr("broken.toml:1"));
 }
 
+TEST_F(Cli, ForgottenQuotesAreShownInTheLineWithAHint) {
+  write_case("", "h = 1/64");
+  const std::string message = refused("run case.toml --out out");
+  EXPECT_THAT(message, AllOf(HasSubstr("case.toml:"), HasSubstr("h = 1/64\n"), HasSubstr("^"), HasSubstr("in quotes")));
+}
+
+TEST_F(Cli, AStepSizeThatWouldFillTheDiskIsRefused) {
+  write_case();
+  EXPECT_THAT(refused("run case.toml --out out --set method.h=1e-12"), HasSubstr("energy_every"));
+}
+
 TEST_F(Cli, InitialFilesAreRefusedWithLineOrCounts) {
   write_case("initial = { file = \"z0.txt\" }");
   EXPECT_THAT(refused("run case.toml --out out"), HasSubstr("z0.txt"));

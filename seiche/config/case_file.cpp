@@ -221,6 +221,20 @@ class Reader {
     });
   }
 
+  // A step size typed wrong must not fill the disk.
+  void refuse_endless_files() {
+    constexpr double most_records = 1e8;  // some gigabytes of energy.csv
+    const double records = spec_.t_end / spec_.h / static_cast<double>(spec_.energy_every);
+    if (!(records > most_records)) return;
+    const CaseValue* h = table_.value("method", "h");
+    complain(
+        h ? h->order : at_the_end, h ? h->place : name_,
+        fmt::format("h = {} makes {:.3g} steps, and output.energy_every = {} would record {:.3g} energies; set it to "
+                    "at least {:.0f}, or choose a larger h",
+                    spec_.h, spec_.t_end / spec_.h, spec_.energy_every, records,
+                    std::ceil(spec_.t_end / spec_.h / most_records)));
+  }
+
   void read_output() {
     spec_.output_directory = "out/" + spec_.problem;
     on("output", "directory", [&](const std::string& key, const CaseValue& value) {
@@ -229,6 +243,7 @@ class Reader {
     });
     on("output", "energy_every",
        [&](const std::string& key, const CaseValue& value) { spec_.energy_every = read_whole(key, value, 1); });
+    refuse_endless_files();
     on("output", "snapshot_every",
        [&](const std::string& key, const CaseValue& value) { spec_.snapshot_every = read_whole(key, value, 0); });
   }

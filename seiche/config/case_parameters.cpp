@@ -99,7 +99,14 @@ void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& v
 
 InitialData read_initial(std::string_view key, const CaseValue& value, const ProblemEntry& problem,
                          const std::filesystem::path& folder) {
-  if (value.kind == CaseValue::Kind::text) return PresetData{read_name(key, value, problem.presets)};
+  if (value.kind == CaseValue::Kind::text) {
+    try {
+      return PresetData{read_name(key, value, problem.presets)};
+    } catch (const Error& error) {
+      throw Error("{}; or {{ file = \"…\" }}, or formulas {{ {} = \"…\" }}", error.what(),
+                  fmt::join(problem.fields, " = \"…\", "));
+    }
+  }
   if (value.kind != CaseValue::Kind::table) {
     throw Error("{} = {} must be a preset ({}), {{ file = \"…\" }}, or formulas {{ {} = \"…\" }}", key, value.shown(),
                 fmt::join(problem.presets, ", "), fmt::join(problem.fields, " = \"…\", "));

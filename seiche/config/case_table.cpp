@@ -138,6 +138,17 @@ void apply_override(CaseTable& table, const std::string& given, std::size_t numb
   section->entries.push_back(std::move(entry));
 }
 
+// The offending line with a caret below it, and what is behind most mistakes of this kind.
+std::string pointer_into(std::string_view text, toml::source_position at) {
+  for (toml::source_index line = 1; line < at.line && !text.empty(); ++line)
+    text.remove_prefix(std::min(text.size(), text.find('\n') + 1));
+  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
+  constexpr std::size_t longest = 160;
+  if (line.empty() || line.size() > longest || at.column < 1) return "";
+  return fmt::format("\n  {}\n  {}^\nnames, fractions and formulas stand in quotes, for example h = \"1/256\"", line,
+                     std::string(at.column - 1, ' '));
+}
+
 }  // namespace
 
 const CaseSection* CaseTable::section(std::string_view name) const {
@@ -160,7 +171,8 @@ CaseTable read_case_table(std::string_view text, std::string_view name, const st
     const Source file{.name = std::string(name)};
     table = convert(toml::parse(text), file);
   } catch (const toml::parse_error& error) {
-    throw Error("{}:{}:{}: {}", name, error.source().begin.line, error.source().begin.column, error.description());
+    const toml::source_position at = error.source().begin;
+    throw Error("{}:{}:{}: {}{}", name, at.line, at.column, error.description(), pointer_into(text, at));
   }
   for (std::size_t i = 0; i < overrides.size(); ++i) apply_override(table, overrides[i], i);
   return table;

@@ -146,7 +146,7 @@ class Run {
 
   void interrupt() {
     report_.status = RunReport::Status::interrupted;
-    report_.message = fmt::format("interrupted at t = {:.9g} (step {}) of {:.9g}", state_.t, state_.n, grid_.end);
+    report_.message = fmt::format("stopped at t = {:.9g} (step {}) of {:.9g}", state_.t, state_.n, grid_.end);
   }
 
   void complete_message() {

@@ -40,9 +40,13 @@ std::string RunReport::full() const {
   text += fmt::format("{:<10} {:.9g} after {} steps in {:.3g} s\n", "t", t, steps, wall_seconds);
   text += energy_line("H", energy);
   if (has_modified_energy) text += energy_line("H modified", modified);
-  text += fmt::format("{:<10} {} ({})\n", "energy law", to_string(law), law_reason);
-  text += fmt::format("{:<10} {} gradients, {} potentials, {} scalar iterations, {} fallbacks, {} unresolved\n", "work",
-                      potential_counts.gradients, potential_counts.values, scalar_iterations, fallbacks, unresolved);
+  const char* of = has_modified_energy ? "H modified" : "H";
+  const std::string until = status == Status::failed ? fmt::format(" up to t = {:.9g}", t) : "";
+  const std::string why = law == LawVerdict::not_promised ? "" : fmt::format(" ({})", law_reason);  // else in `message`
+  text += fmt::format("{:<10} {} for {}{}{}\n", "energy law", to_string(law), of, until, why);
+  text +=
+      fmt::format("{:<10} {} gradients, {} potentials, {} scalar iterations, fallbacks: {}, unresolved: {}\n", "work",
+                  potential_counts.gradients, potential_counts.values, scalar_iterations, fallbacks, unresolved);
   return text;
 }
 
