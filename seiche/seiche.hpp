@@ -19,5 +19,6 @@
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
+#include <seiche/problem/sine_gordon.hpp>
 #include <seiche/run/integrate.hpp>
 #include <seiche/version.hpp>

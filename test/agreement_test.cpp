@@ -49,10 +49,10 @@ TEST(Agreement, TheRightHandSideIsTheSameOnEveryBackend) {
 
 TEST(Agreement, CoordinatesAreOrthonormalAndInvertible) {
   for (const Index points : {1, 2, 3, 4, 7, 20, 33}) {
-    for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet}) {
+    for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet, Boundary::neumann}) {
       if (boundary == Boundary::dirichlet && points < 2) continue;
       Problem p = duffing_case();
-      p.grid = {points, 1.0, boundary};
+      p.grid.axes = {{points, 1.0, boundary}};
       p.initial = Vector::Random(p.size());
       for (const BackendEntry& backend : backends()) {
         const System system = backend.system(p, {});

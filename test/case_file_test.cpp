@@ -114,8 +114,8 @@ energy_every = 3
 snapshot_every = 0
 )toml",
                                   "x.toml");
-  EXPECT_EQ(spec.parameters.real("length"), 2 * std::numbers::pi);
-  EXPECT_EQ(spec.parameters.integer("points"), 40);
+  EXPECT_EQ(spec.parameters.reals("length"), std::vector<double>{2 * std::numbers::pi});
+  EXPECT_EQ(spec.parameters.integers("points"), std::vector<long>{40});
   EXPECT_EQ(spec.parameters.real("kappa"), 1.0);
   EXPECT_EQ(spec.parameters.real("omega_squared"), 1.0 / 3);
   EXPECT_EQ(spec.parameters.real("alpha"), 0.25);
@@ -246,8 +246,8 @@ TEST(CaseFile, ValuesOutOfBoundsAreRefusedWithTheBound) {
   EXPECT_THAT(complaint_of_override("output.energy_every=0"), HasSubstr("must be ≥ 1"));
   EXPECT_THAT(complaint_of_override("output.snapshot_every=-1"), HasSubstr("must be ≥ 0"));
   EXPECT_THAT(complaint_of_override("time.end=0"), HasSubstr("time.end = 0 must be > 0"));
-  EXPECT_EQ(parse_case(minimal + "points = \"40/2\"\n", "x.toml").parameters.integer("points"), 20);
-  EXPECT_EQ(parse_case(minimal + "points = 20.0\n", "x.toml").parameters.integer("points"), 20);
+  EXPECT_EQ(parse_case(minimal + "points = \"40/2\"\n", "x.toml").parameters.integers("points"), std::vector<long>{20});
+  EXPECT_EQ(parse_case(minimal + "points = 20.0\n", "x.toml").parameters.integers("points"), std::vector<long>{20});
 }
 
 TEST(CaseFile, ValuesOfTheWrongTypeAreNamed) {

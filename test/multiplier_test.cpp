@@ -1,9 +1,9 @@
 // The scalar equation of the multiplier methods, and the fallbacks of its robust solver.
 #include "support/convergence.hpp"
-#include "support/cosine.hpp"
 #include "support/paper_cases.hpp"
 
 #include <seiche/method/multiplier.hpp>
+#include <seiche/potential/cosine.hpp>
 #include <seiche/potential/nodal.hpp>
 
 #include <gtest/gtest.h>

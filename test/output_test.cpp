@@ -140,7 +140,7 @@ class HalvingSpace : public Space {
 TEST_F(Output, SnapshotsHoldPhysicalValuesUnderTheNamesOfTheirFields) {
   Problem problem;
   problem.fields = {"u", "v"};
-  problem.grid = {.intervals = 2, .length = 1.0, .boundary = Boundary::periodic};
+  problem.grid.axes = {{.intervals = 2, .length = 1.0, .boundary = Boundary::periodic}};
   const HalvingSpace space;
   Snapshots snapshots(directory / "snapshots.csv", problem, space, {.every_steps = 2});
   State state{.z = Vector::LinSpaced(4, 2.0, 8.0)};

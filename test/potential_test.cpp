@@ -1,10 +1,10 @@
 // The contracts of potentials, pointwise and in the coordinates of every backend.
-#include "support/cosine.hpp"
 #include "support/paper_cases.hpp"
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/potential/bond.hpp>
+#include <seiche/potential/cosine.hpp>
 #include <seiche/potential/nodal.hpp>
 #include <seiche/potential/polynomials.hpp>
 

@@ -29,13 +29,13 @@ class ModalPropagator final : public Propagator {
 class ModalLinear final : public LinearPart {
  public:
   explicit ModalLinear(const Problem& problem)
-      : grid_(problem.grid),
+      : modes_(problem.grid),
         S_symbol_(problem.S),
         M_symbol_(problem.M),
-        S_(map([this](Index k, Index period) { return S_symbol_.symbol(k, period); })),
-        M_(map([this](Index k, Index period) { return M_symbol_.symbol(k, period); })),
-        absolute_M_(map([this](Index k, Index period) -> Block {
-          return M_symbol_.symbol(k, period).cwiseAbs().cast<std::complex<double>>();
+        S_(map([this](Index k) { return S_symbol_.symbol(modes_[k]); })),
+        M_(map([this](Index k) { return M_symbol_.symbol(modes_[k]); })),
+        absolute_M_(map([this](Index k) -> Block {
+          return M_symbol_.symbol(modes_[k]).cwiseAbs().cast<std::complex<double>>();
         })) {}
 
   void apply_S(const Vector& z, Vector& out) const override { S_.apply(z, out); }
@@ -71,24 +71,23 @@ class ModalLinear final : public LinearPart {
       SizedBlock F, FM, Q, QM;
     };
     std::vector<Maps> maps;
-    const Modes range = modes(grid_);
-    maps.reserve(static_cast<std::size_t>(range.count));
-    for (Index k = range.first; k < range.first + range.count; ++k) {
-      const SizedBlock S = S_symbol_.symbol(k, range.period);
-      const SizedBlock M = M_symbol_.symbol(k, range.period);
+    maps.reserve(static_cast<std::size_t>(modes_.count()));
+    for (Index k = 0; k < modes_.count(); ++k) {
+      const SizedBlock S = S_symbol_.symbol(modes_[k]);
+      const SizedBlock M = M_symbol_.symbol(modes_[k]);
       const ForceMaps<SizedBlock> block = force_maps<SizedBlock>(kind, S, M, h);
       maps.push_back({block.F, block.F * M, block.Q, block.Q * M});
     }
-    const auto at = [&](Index k) -> const Maps& { return maps[static_cast<std::size_t>(k - range.first)]; };
-    return std::make_unique<ModalPropagator>(map([&](Index k, Index) -> Block { return at(k).F; }),
-                                             map([&](Index k, Index) -> Block { return at(k).FM; }),
-                                             map([&](Index k, Index) -> Block { return at(k).Q; }),
-                                             map([&](Index k, Index) -> Block { return at(k).QM; }));
+    const auto at = [&](Index k) -> const Maps& { return maps[static_cast<std::size_t>(k)]; };
+    return std::make_unique<ModalPropagator>(map([&](Index k) -> Block { return at(k).F; }),
+                                             map([&](Index k) -> Block { return at(k).FM; }),
+                                             map([&](Index k) -> Block { return at(k).Q; }),
+                                             map([&](Index k) -> Block { return at(k).QM; }));
   }
 
-  ModeMap map(const ModeMap::Block& block) const { return ModeMap(grid_, M_symbol_.fields(), block); }
+  ModeMap map(const ModeMap::Block& block) const { return ModeMap(modes_, M_symbol_.fields(), block); }
 
-  Grid grid_;
+  Modes modes_;
   BlockStencil S_symbol_, M_symbol_;
   ModeMap S_, M_, absolute_M_;
   mutable Vector scratch_, absolute_;
@@ -98,14 +97,14 @@ void require_symmetric(const BlockStencil& a, std::string_view name) {
   for (Index i = 0; i < a.fields(); ++i)
     for (Index j = 0; j < a.fields(); ++j)
       if (!a(i, j).is_symmetric())
-        throw Error("the modal backend needs symmetric stencils at Dirichlet ends, but {}({}, {}) is not; use dense",
+        throw Error("the modal backend needs every axis periodic where {}({}, {}) has a first derivative; use dense",
                     name, i, j);
 }
 
 }  // namespace
 
 System modal_system(const Problem& problem, const BackendOptions& options) {
-  if (problem.grid.boundary == Boundary::dirichlet) {
+  if (!problem.grid.is_periodic()) {
     require_symmetric(problem.S, "S");
     require_symmetric(problem.M, "M");
     require_symmetric(problem.damping.constant, "D");
@@ -119,12 +118,11 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;
   if (!problem.damping.constant.is_zero()) {
-    const auto symbol = [D = problem.damping.constant](Index k, Index period) { return D.symbol(k, period); };
-    constant = std::make_unique<ModeMap>(problem.grid, problem.field_count(), symbol);
-    make_flow = [grid = problem.grid, m = problem.field_count(), symbol](double h) {
-      return std::make_unique<ModeMap>(grid, m, [&](Index k, Index period) {
-        return damping_exponential<Block>(symbol(k, period), h);
-      });
+    const Modes modes(problem.grid);
+    const auto symbol = [modes, D = problem.damping.constant](Index k) { return D.symbol(modes[k]); };
+    constant = std::make_unique<ModeMap>(modes, problem.field_count(), symbol);
+    make_flow = [modes, m = problem.field_count(), symbol](double h) {
+      return std::make_unique<ModeMap>(modes, m, [&](Index k) { return damping_exponential<Block>(symbol(k), h); });
     };
   }
   system.damping =

@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-// Throws Error where a stencil that is not symmetric meets a Dirichlet end: sines do not diagonalise it.
+// Throws Error where a first derivative stands on a grid that is not periodic along every axis.
 System modal_system(const Problem& problem, const BackendOptions& options = {});
 
 }  // namespace seiche

@@ -2,14 +2,11 @@
 
 namespace seiche {
 
-ModeMap::ModeMap(const Grid& grid, Index fields, const Block& block) : fields_(fields) {
-  const Modes range = modes(grid);
-  const bool paired = grid.boundary == Boundary::periodic;
-  slots_ = paired ? 2 * range.count : range.count;
-
+ModeMap::ModeMap(const Modes& modes, Index fields, const Block& block) : fields_(fields), slots_(modes.slots()) {
+  const bool paired = modes.are_pairs();
   std::vector<Eigen::MatrixXcd> blocks;
-  blocks.reserve(static_cast<std::size_t>(range.count));
-  for (Index k = 0; k < range.count; ++k) blocks.push_back(block(range.first + k, range.period));
+  blocks.reserve(static_cast<std::size_t>(modes.count()));
+  for (Index k = 0; k < modes.count(); ++k) blocks.push_back(block(k));
 
   for (Index i = 0; i < fields; ++i) {
     for (Index j = 0; j < fields; ++j) {
@@ -21,7 +18,7 @@ ModeMap::ModeMap(const Grid& grid, Index fields, const Block& block) : fields_(f
       }
       if (zero) continue;
       Entry entry{i, j, real, Vector(slots_)};
-      for (Index k = 0; k < range.count; ++k) {
+      for (Index k = 0; k < modes.count(); ++k) {
         const std::complex<double> c = blocks[static_cast<std::size_t>(k)](i, j);
         if (paired) {
           entry.factors[2 * k] = c.real();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/backend/linear_map.hpp>
-#include <seiche/core/stencil.hpp>
+#include <seiche/core/modes.hpp>
 
 #include <Eigen/Dense>
 
@@ -11,12 +11,12 @@
 
 namespace seiche {
 
-// Blocks are complex on periodic grids, where a mode is a pair of slots, and real for sines. Entries that vanish for
+// Blocks are complex where a mode is a pair of slots, and real otherwise. Entries that vanish for
 // every mode are not stored, and those that are real for every mode multiply slot by slot.
 class ModeMap final : public LinearMap {
  public:
-  using Block = std::function<Eigen::MatrixXcd(Index mode, Index period)>;
-  ModeMap(const Grid& grid, Index fields, const Block& block);
+  using Block = std::function<Eigen::MatrixXcd(Index index)>;  // of the mode with this index in Modes
+  ModeMap(const Modes& modes, Index fields, const Block& block);
 
   void apply(const Vector& in, Vector& out) const override;
   void add(const Vector& in, Vector& out) const;  // out += A in

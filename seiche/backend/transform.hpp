@@ -19,8 +19,9 @@ class FieldTransform {
 
 std::unique_ptr<FieldTransform> identity_transform(Index unknowns);
 
-// Fourier on periodic grids: slots (Re â_0, Im â_0, Re â_1, …), ⌊N/2⌋ + 1 pairs. Sine (DST-I) where the field vanishes
-// at the ends: N − 1 slots. `measure_plan` lets FFTW try plans, which then differ from run to run in the last bits.
+// Fourier on grids that are periodic along every axis, in the order of Modes: pairs of slots (Re â, Im â). Sines, cosines
+// and half-complex Fourier coefficients, axis by axis, on the others: one slot per unknown. `measure_plan` lets FFTW try
+// plans, which then differ from run to run in the last bits.
 std::unique_ptr<FieldTransform> modal_transform(const Grid& grid, bool measure_plan);
 
 }  // namespace seiche

@@ -66,35 +66,61 @@ FormulaData read_formulas(std::string_view key, const CaseValue& value, const Pr
   return data;
 }
 
+// A number or name, checked, and how a case file writes it: 2 and 2.0 are one case.
+std::pair<ParameterValue, std::string> read_parameter(const std::string& key, const Parameter& parameter,
+                                                      const CaseValue& value) {
+  if (parameter.kind == ParameterKind::choice) {
+    const std::string name = read_name(key, value, parameter.choices);
+    return {name, name};
+  }
+  const double number = read_number(key, value);
+  require(out_of_bounds(parameter, number));
+  if (parameter.kind == ParameterKind::real)
+    return {number, is_toml_number(value.text) ? toml_real(number) : value.text};
+  const long whole = read_whole(key, value, std::numeric_limits<long>::min());
+  return {whole, fmt::format("{}", whole)};
+}
+
+template <class T>
+std::vector<T> gathered(const std::vector<ParameterValue>& values) {
+  std::vector<T> list;
+  for (const ParameterValue& value : values) list.push_back(std::get<T>(value));
+  return list;
+}
+
 }  // namespace
 
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value) {
   const std::string key = "problem." + parameter.name;
-  std::string text = value.text;
-  switch (parameter.kind) {
-    case ParameterKind::real: {
-      const double number = read_number(key, value);
-      require(out_of_bounds(parameter, number));
-      spec.parameters.set(parameter.name, number);
-      break;
-    }
-    case ParameterKind::integer: {
-      const double number = read_number(key, value);
-      require(out_of_bounds(parameter, number));
-      const long whole = read_whole(key, value, std::numeric_limits<long>::min());
-      spec.parameters.set(parameter.name, whole);
-      text = fmt::format("{}", whole);
-      break;
-    }
-    case ParameterKind::rate: spec.parameters.set(parameter.name, read_rate(parameter, value, spec.t_end)); break;
-    case ParameterKind::choice:
-      text = read_name(key, value, parameter.choices);
-      spec.parameters.set(parameter.name, text);
-      break;
+  if (parameter.kind == ParameterKind::rate) {
+    spec.parameters.set(parameter.name, read_rate(parameter, value, spec.t_end));
+    spec.parameter_texts[parameter.name] = is_toml_number(value.text) ? toml_real(read_number(key, value)) : value.text;
+    return;
   }
-  const bool is_real = parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::rate;
-  if (is_real && is_toml_number(text)) text = toml_real(read_number(key, value));  // 2 and 2.0 are one case
-  spec.parameter_texts[parameter.name] = text;
+  if (!parameter.per_axis) {
+    const auto [number, text] = read_parameter(key, parameter, value);
+    spec.parameters.set(parameter.name, number);
+    spec.parameter_texts[parameter.name] = text;
+    return;
+  }
+  constexpr std::size_t most_axes = 3;
+  const bool is_list = value.kind == CaseValue::Kind::list;
+  if (is_list && (value.entries.empty() || value.entries.size() > most_axes))
+    throw Error("{} has {} entries; give one value, or a list with one for each of 1 to {} axes", key,
+                value.entries.size(), most_axes);
+  std::vector<ParameterValue> values;
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < (is_list ? value.entries.size() : 1); ++i) {
+    const auto [entry, text] = read_parameter(key, parameter, is_list ? value.entries[i].second : value);
+    values.push_back(entry);
+    texts.push_back(parameter.kind == ParameterKind::choice && is_list ? toml_string(text) : text);
+  }
+  switch (parameter.kind) {
+    case ParameterKind::real: spec.parameters.set(parameter.name, gathered<double>(values)); break;
+    case ParameterKind::integer: spec.parameters.set(parameter.name, gathered<long>(values)); break;
+    default: spec.parameters.set(parameter.name, gathered<std::string>(values)); break;
+  }
+  spec.parameter_texts[parameter.name] = is_list ? fmt::format("[{}]", fmt::join(texts, ", ")) : texts.front();
 }
 
 InitialData read_initial(std::string_view key, const CaseValue& value, const ProblemEntry& problem,

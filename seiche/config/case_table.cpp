@@ -70,6 +70,9 @@ CaseValue convert(const toml::node& node, const Source& source) {
       value.kind = Kind::table;
       for (const auto& [key, entry] : in_source_order(*table))
         value.entries.emplace_back(std::string(key->str()), convert(*entry, source));
+    } else if (const auto* list = node.as_array()) {
+      value.kind = Kind::list;
+      for (const toml::node& entry : *list) value.entries.emplace_back("", convert(entry, source));
     }
   }
   return value;

@@ -11,14 +11,14 @@
 namespace seiche {
 
 struct CaseValue {
-  enum class Kind { number, boolean, text, table, other };
+  enum class Kind { number, boolean, text, table, list, other };
   Kind kind = Kind::other;
   std::string text;       // a number or boolean as written, a text without its quotes, else what it is: "a list"
   double number = 0.0;    // of a number
   std::string given;      // after the = of --set, where names and file names need no quotes; else empty
   std::string place;      // "case.toml:3:5" or "--set method.h=1/64"
   std::size_t order = 0;  // of the place among all places
-  std::vector<std::pair<std::string, CaseValue>> entries = {};  // of a table, in source order
+  std::vector<std::pair<std::string, CaseValue>> entries = {};  // of a table, in source order; of a list, without names
 
   std::string shown() const;  // to be named in a sentence: 3.5, true, "abc", a list
 };

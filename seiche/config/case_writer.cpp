@@ -46,10 +46,12 @@ std::string bounds(const Parameter& p) {
   if (std::isfinite(p.minimum)) parts.push_back(fmt::format("{} {}", p.minimum_excluded ? ">" : "≥", p.minimum));
   if (std::isfinite(p.maximum)) parts.push_back(fmt::format("≤ {}", p.maximum));
   if (p.kind == ParameterKind::choice) parts.push_back(fmt::format("\"{}\"", fmt::join(p.choices, "\" | \"")));
+  if (p.per_axis) parts.emplace_back("one, or a list for several axes");
   return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, ", "));
 }
 
 std::string parameter_literal(const Parameter& parameter, const std::string& text) {
+  if (parameter.per_axis && text.starts_with('[')) return text;
   return parameter.kind == ParameterKind::choice ? toml_string(text) : number_or_string(text);
 }
 
@@ -94,7 +96,7 @@ std::string example_case(const std::string& problem) {
   std::vector<std::string> formulas;
   for (const std::string& field : entry.fields) formulas.push_back(fmt::format("{} = \"0\"", field));
   text += line("initial", toml_string(entry.presets.front()),
-               fmt::format("{}; or {{ file = \"z0.txt\" }}; or formulas in x, j: {{ {} }}",
+               fmt::format("{}; or {{ file = \"z0.txt\" }}; or formulas in x (y, z), j: {{ {} }}",
                            fmt::join(entry.presets, " | "), fmt::join(formulas, ", ")));
 
   text += "\n[method]\n";

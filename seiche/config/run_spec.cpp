@@ -4,6 +4,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/problem/problems.hpp>
 
+#include <array>
 #include <cmath>
 
 namespace seiche {
@@ -13,14 +14,36 @@ bool is_constant_in_formulas(const Parameter& parameter) {
   return parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::integer;
 }
 
+// Of a parameter per axis, that of the first.
+double constant_in_formulas(const ParameterValues& values, const Parameter& p) {
+  if (p.kind == ParameterKind::real) return p.per_axis ? values.reals(p.name).front() : values.real(p.name);
+  return static_cast<double>(p.per_axis ? values.integers(p.name).front() : values.integer(p.name));
+}
+
+constexpr std::array axis_names = {"x", "y", "z"};
+
+std::string place(const Grid& grid, Index point) {
+  std::string text;
+  for (Index a = 0; a < grid.dimension(); ++a)
+    text +=
+        fmt::format("{}{} = {}", a > 0 ? ", " : "", axis_names[static_cast<std::size_t>(a)], grid.coordinate(point, a));
+  return fmt::format("{} (j = {})", text, point + 1);
+}
+
+std::vector<std::string> variables_of(const std::string& problem, std::size_t dimension) {
+  std::vector<std::string> names(axis_names.begin(), axis_names.begin() + dimension);
+  names.emplace_back("j");
+  for (const Parameter& parameter : find_problem(problem).parameters)
+    if (is_constant_in_formulas(parameter)) names.push_back(parameter.name);
+  return names;
+}
+
 Vector from_formulas(const RunSpec& spec, const FormulaData& data, const Problem& problem) {
-  const std::vector<std::string> variables = initial_variables(spec.problem);
-  std::vector<double> arguments(2);  // x, j
-  for (const Parameter& parameter : find_problem(spec.problem).parameters) {
-    if (parameter.kind == ParameterKind::real) arguments.push_back(spec.parameters.real(parameter.name));
-    if (parameter.kind == ParameterKind::integer)
-      arguments.push_back(static_cast<double>(spec.parameters.integer(parameter.name)));
-  }
+  const Index dimension = problem.grid.dimension();
+  const std::vector<std::string> variables = variables_of(spec.problem, static_cast<std::size_t>(dimension));
+  std::vector<double> arguments(static_cast<std::size_t>(dimension) + 1, 0.0);  // x, y, …, j
+  for (const Parameter& parameter : find_problem(spec.problem).parameters)
+    if (is_constant_in_formulas(parameter)) arguments.push_back(constant_in_formulas(spec.parameters, parameter));
 
   Vector z(problem.size());
   Index at = 0;
@@ -29,12 +52,11 @@ Vector from_formulas(const RunSpec& spec, const FormulaData& data, const Problem
     if (text == data.formulas.end()) throw Error("problem.initial has no formula for the field {}", field);
     const FormulaPointer formula = compile_formula(text->second, variables);
     for (Index i = 0; i < problem.grid.unknowns(); ++i) {
-      arguments[0] = problem.grid.x(i);
-      arguments[1] = static_cast<double>(i + 1);
+      for (Index a = 0; a < dimension; ++a) arguments[static_cast<std::size_t>(a)] = problem.grid.coordinate(i, a);
+      arguments[static_cast<std::size_t>(dimension)] = static_cast<double>(i + 1);
       z[at] = (*formula)(arguments);
       if (!std::isfinite(z[at]))
-        throw Error("problem.initial: {} = {} is {} at x = {} (j = {})", field, text->second, z[at], arguments[0],
-                    i + 1);
+        throw Error("problem.initial: {} = {} is {} at {}", field, text->second, z[at], place(problem.grid, i));
       ++at;
     }
   }
@@ -44,10 +66,7 @@ Vector from_formulas(const RunSpec& spec, const FormulaData& data, const Problem
 }  // namespace
 
 std::vector<std::string> initial_variables(const std::string& problem) {
-  std::vector<std::string> names = {"x", "j"};
-  for (const Parameter& parameter : find_problem(problem).parameters)
-    if (is_constant_in_formulas(parameter)) names.push_back(parameter.name);
-  return names;
+  return variables_of(problem, axis_names.size());
 }
 
 Problem make_problem(const RunSpec& spec) {

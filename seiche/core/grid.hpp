@@ -1,24 +1,38 @@
-// A uniform grid in one dimension.
+// A uniform grid in one, two or three dimensions.
 #pragma once
 
 #include <seiche/core/vector.hpp>
 
-#include <cmath>
+#include <vector>
 
 namespace seiche {
 
-enum class Boundary { periodic, dirichlet };
+enum class Boundary { periodic, dirichlet, neumann };
 
-// `intervals` cells of width Δx = length / intervals. Unknowns sit at x_j = jΔx: j = 1 … N when periodic
-// (x_N ≡ x_0), j = 1 … N−1 where the field vanishes at both ends.
-struct Grid {
+// `intervals` cells of width Δx = length / intervals. Unknowns sit at x = jΔx: j = 1 … N when periodic (x_N ≡ x_0),
+// j = 1 … N−1 where the field vanishes at both ends, and at the middles x = (j − ½)Δx, j = 1 … N, where its derivative
+// does: then the mirror lies half a cell outside, and differences stay symmetric.
+struct GridAxis {
   Index intervals = 1;
   double length = 1.0;
   Boundary boundary = Boundary::periodic;
 
   double dx() const { return length / static_cast<double>(intervals); }
-  Index unknowns() const { return boundary == Boundary::periodic ? intervals : intervals - 1; }
-  double x(Index i) const { return static_cast<double>(i + 1) * dx(); }  // of unknown i = 0, 1, …
+  Index unknowns() const { return boundary == Boundary::dirichlet ? intervals - 1 : intervals; }
+  double x(Index i) const {  // of unknown i = 0, 1, …
+    return (static_cast<double>(i) + (boundary == Boundary::neumann ? 0.5 : 1.0)) * dx();
+  }
+};
+
+// Points are numbered with the last axis running fastest.
+struct Grid {
+  std::vector<GridAxis> axes = {GridAxis{}};
+
+  Index dimension() const { return static_cast<Index>(axes.size()); }
+  const GridAxis& axis(Index a) const { return axes[static_cast<std::size_t>(a)]; }
+  Index unknowns() const;
+  double coordinate(Index point, Index a) const;  // of unknown `point` along axis a
+  bool is_periodic() const;                       // along every axis
 };
 
 }  // namespace seiche

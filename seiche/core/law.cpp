@@ -22,9 +22,9 @@ struct Extreme {
 template <class Symbol>
 Extreme hermitian_extremes(const Grid& grid, const Symbol& symbol) {
   Extreme extreme{0, 0, 0};
-  const Modes range = modes(grid);
-  for (Index k = range.first; k < range.first + range.count; ++k) {
-    const Eigen::MatrixXcd a = symbol(k, range.period);
+  const Modes modes(grid);
+  for (Index k = 0; k < modes.count(); ++k) {
+    const Eigen::MatrixXcd a = symbol(modes[k]);
     const Eigen::MatrixXcd hermitian = 0.5 * (a + a.adjoint());
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(hermitian, Eigen::EigenvaluesOnly).eigenvalues();
@@ -44,13 +44,12 @@ Eigen::MatrixXcd rate_projection(const Problem& problem) {
 }  // namespace
 
 LawPromise promise_energy_law(const Problem& problem, double t_end) {
-  const auto m = [&](Index k, Index period) { return problem.M.symbol(k, period); };
+  const auto m = [&](const Mode& mode) { return problem.M.symbol(mode); };
   const Extreme metric = hermitian_extremes(problem.grid, m);
   if (!metric.is_nonnegative()) {
     return {false, fmt::format("M is not positive semidefinite (eigenvalue {:.3g})", metric.smallest)};
   }
-  const Extreme structure =
-      hermitian_extremes(problem.grid, [&](Index k, Index period) { return problem.S.symbol(k, period); });
+  const Extreme structure = hermitian_extremes(problem.grid, [&](const Mode& mode) { return problem.S.symbol(mode); });
   if (!structure.is_nonpositive()) {
     return {false, fmt::format("sym(S) is not negative semidefinite (eigenvalue {:.3g})", structure.largest)};
   }
@@ -61,15 +60,15 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
     const double t_bad = damping.rate->first_negative_time(t_end);
     if (t_bad >= 0) return {false, fmt::format("the rate {} is negative at t = {:.6g}", damping.rate->text(), t_bad)};
   }
-  const Extreme constant = hermitian_extremes(problem.grid, [&](Index k, Index period) -> Eigen::MatrixXcd {
-    return problem.M.symbol(k, period) * problem.damping.constant.symbol(k, period);
+  const Extreme constant = hermitian_extremes(problem.grid, [&](const Mode& mode) -> Eigen::MatrixXcd {
+    return problem.M.symbol(mode) * problem.damping.constant.symbol(mode);
   });
-  const Extreme varying = damping.rate
-                              ? hermitian_extremes(problem.grid,
-                                                   [&](Index k, Index period) -> Eigen::MatrixXcd {
-                                                     return problem.M.symbol(k, period) * rate_projection(problem);
-                                                   })
-                              : Extreme{0, 0, 0};
+  Extreme varying{0, 0, 0};
+  if (damping.rate) {
+    varying = hermitian_extremes(problem.grid, [&](const Mode& mode) -> Eigen::MatrixXcd {
+      return problem.M.symbol(mode) * rate_projection(problem);
+    });
+  }
   if (!constant.is_nonnegative() || !varying.is_nonnegative()) {
     return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
   }

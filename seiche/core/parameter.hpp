@@ -23,9 +23,11 @@ struct Parameter {
   double maximum = std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
   std::vector<std::string> choices = {};
+  bool per_axis = false;  // one value for every axis, or a list with one for each
 };
 
-using ParameterValue = std::variant<double, long, RatePointer, std::string>;
+using ParameterValue = std::variant<double, long, RatePointer, std::string, std::vector<double>, std::vector<long>,
+                                    std::vector<std::string>>;
 
 // Checked values, one for every Parameter of a problem. get<T> throws Error on a name the problem did not declare.
 class ParameterValues {
@@ -39,6 +41,10 @@ class ParameterValues {
   long integer(const std::string& name) const { return get<long>(name); }
   const RatePointer& rate(const std::string& name) const { return get<RatePointer>(name); }
   const std::string& choice(const std::string& name) const { return get<std::string>(name); }
+  // Of parameters that are per_axis: what the user wrote, one entry or one for each axis.
+  const std::vector<double>& reals(const std::string& name) const { return get<std::vector<double>>(name); }
+  const std::vector<long>& integers(const std::string& name) const { return get<std::vector<long>>(name); }
+  const std::vector<std::string>& choices(const std::string& name) const { return get<std::vector<std::string>>(name); }
 
  private:
   const ParameterValue& at(const std::string& name) const;

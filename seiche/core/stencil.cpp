@@ -1,7 +1,9 @@
+#include <seiche/core/error.hpp>
 #include <seiche/core/stencil.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <map>
 #include <numbers>
 
 namespace seiche {
@@ -18,93 +20,177 @@ double sin_pi(Index p, Index q) {
   return sign * std::sin(std::numbers::pi * static_cast<double>(p) / static_cast<double>(q));
 }
 
+// Coefficients of a central difference, by offset.
+std::map<Index, double> taps(int order, Discretisation discretisation, double dx) {
+  if (order == 1) {
+    if (discretisation == Discretisation::fd2) return {{-1, -1 / (2 * dx)}, {1, 1 / (2 * dx)}};
+    const double c = 1 / (12 * dx);
+    return {{-2, c}, {-1, -8 * c}, {1, 8 * c}, {2, -c}};
+  }
+  if (discretisation == Discretisation::fd2) {
+    const double c = 1 / (dx * dx);
+    return {{-1, c}, {0, -2 * c}, {1, c}};
+  }
+  const double c = 1 / (12 * dx * dx);
+  return {{-2, -c}, {-1, 16 * c}, {0, -30 * c}, {1, 16 * c}, {2, -c}};
+}
+
 struct Reflected {
   Index index;
   double sign;
 };
 
-// Where u_{i} of unknown number i lies on the grid, and with which sign; index −1: at an end, where u = 0.
-Reflected locate(Index i, const Grid& grid) {
-  const Index n = grid.intervals;
-  if (grid.boundary == Boundary::periodic) return {((i % n) + n) % n, 1.0};
-  Index j = ((i + 1) % (2 * n) + 2 * n) % (2 * n);  // odd about 0 and n, period 2n
-  if (j % n == 0) return {-1, 0.0};
-  if (j > n) return {2 * n - j - 1, -1.0};
-  return {j - 1, 1.0};
+// Which unknown stands for point i of the continued field, and with which sign; sign 0: an end where the field vanishes.
+Reflected locate(Index i, const GridAxis& axis) {
+  const Index n = axis.intervals;
+  const auto wrap = [](Index j, Index period) { return ((j % period) + period) % period; };
+  switch (axis.boundary) {
+    case Boundary::periodic: return {wrap(i, n), 1.0};
+    case Boundary::neumann: {
+      const Index j = wrap(i, 2 * n);
+      return {j < n ? j : 2 * n - 1 - j, 1.0};
+    }
+    case Boundary::dirichlet: break;
+  }
+  const Index j = wrap(i + 1, 2 * n);
+  if (j % n == 0) return {0, 0.0};
+  return j < n ? Reflected{j - 1, 1.0} : Reflected{2 * n - j - 1, -1.0};
+}
+
+// Orthonormal real modes of one axis as columns, in the order of Modes for an axis that is not periodic.
+Eigen::MatrixXd line_modes(const GridAxis& axis) {
+  const Index n = axis.unknowns();
+  const Index N = axis.intervals;
+  Eigen::MatrixXd modes(n, n);
+  for (Index k = 0; k < n; ++k)
+    for (Index j = 0; j < n; ++j)
+      modes(j, k) =
+          axis.boundary == Boundary::dirichlet ? sin_pi((j + 1) * (k + 1), N) : sin_pi((2 * j + 1) * k + N, 2 * N);
+  modes.colwise().normalize();
+  return modes;
 }
 
 }  // namespace
 
 Stencil Stencil::identity(double factor) {
   Stencil s;
-  if (factor != 0) s.taps_[0] = factor;
+  s.identity_ = factor;
   return s;
 }
 
-Stencil Stencil::laplacian(double dx) {
-  const double c = 1 / (dx * dx);
+Stencil Stencil::laplacian(const Grid& grid, Discretisation discretisation) {
   Stencil s;
-  s.taps_ = {{-1, c}, {0, -2 * c}, {1, c}};
+  for (Index a = 0; a < grid.dimension(); ++a) s.terms_.push_back({a, 2, discretisation, grid.axis(a).dx(), 1.0});
   return s;
 }
 
-Stencil Stencil::central_difference(double dx) {
-  const double c = 1 / (2 * dx);
+Stencil Stencil::derivative(const Grid& grid, Index axis, Discretisation discretisation) {
+  if (grid.axis(axis).boundary != Boundary::periodic)
+    throw Error("a first derivative along axis {} needs a periodic grid", axis);
   Stencil s;
-  s.taps_ = {{-1, -c}, {1, c}};
+  s.terms_.push_back({axis, 1, discretisation, grid.axis(axis).dx(), 1.0});
   return s;
 }
 
 Stencil& Stencil::operator+=(const Stencil& other) {
-  for (const auto& [offset, c] : other.taps_) taps_[offset] += c;
-  drop_zeros();
+  identity_ += other.identity_;
+  for (const Term& term : other.terms_) {
+    const auto same = std::find_if(terms_.begin(), terms_.end(), [&](const Term& t) {
+      return t.axis == term.axis && t.order == term.order && t.discretisation == term.discretisation && t.dx == term.dx;
+    });
+    if (same == terms_.end()) {
+      terms_.push_back(term);
+    } else {
+      same->factor += term.factor;
+    }
+  }
+  std::erase_if(terms_, [](const Term& t) { return t.factor == 0; });
   return *this;
 }
 
 Stencil& Stencil::operator*=(double factor) {
-  for (auto& [offset, c] : taps_) c *= factor;
-  drop_zeros();
+  identity_ *= factor;
+  for (Term& term : terms_) term.factor *= factor;
+  std::erase_if(terms_, [](const Term& t) { return t.factor == 0; });
   return *this;
 }
 
-void Stencil::drop_zeros() {
-  std::erase_if(taps_, [](const auto& tap) { return tap.second == 0; });
-}
-
-double Stencil::coefficient(int offset) const {
-  const auto found = taps_.find(offset);
-  return found == taps_.end() ? 0.0 : found->second;
-}
-
 bool Stencil::is_symmetric() const {
-  for (const auto& [offset, c] : taps_)
-    if (coefficient(-offset) != c) return false;
-  return true;
+  return std::all_of(terms_.begin(), terms_.end(), [](const Term& t) { return t.order == 2; });
 }
 
-bool Stencil::is_identity() const { return taps_.size() == 1 && coefficient(0) == 1; }
-
-std::complex<double> Stencil::symbol(Index mode, Index period) const {
-  // Σ c_k e^{ikθ} = Σ c_k − 2 Σ c_k sin²(kθ/2) + i Σ c_k sin(kθ): the first sum is exactly 0 for differences.
-  double sum = 0;
-  for (const auto& [offset, c] : taps_) sum += c;
-  double real = 0;
-  double imaginary = 0;
-  for (const auto& [offset, c] : taps_) {
-    real -= 2 * c * square(sin_pi(offset * mode, period));
-    imaginary += c * sin_pi(2 * offset * mode, period);
+// With θ = 2πk/period the phase from point to point and s = sin(θ/2):
+//   second derivative  −4s²/Δx²,  −4s²(1 + s²/3)/Δx²,  −κ²;      first  i sin θ/Δx,  i sin θ (1 + 2s²/3)/Δx,  iκ
+std::complex<double> Stencil::symbol(const Term& term, Index k, Index period) {
+  if (2 * k > period) k -= period;
+  const double kappa = 2 * std::numbers::pi * static_cast<double>(k) / (static_cast<double>(period) * term.dx);
+  const double s2 = square(sin_pi(k, period));
+  const double theta_sine = sin_pi(2 * k, period);
+  if (term.order == 1) {
+    switch (term.discretisation) {
+      case Discretisation::fd2: return {0, term.factor * theta_sine / term.dx};
+      case Discretisation::fd4: return {0, term.factor * theta_sine * (1 + 2 * s2 / 3) / term.dx};
+      case Discretisation::spectral: return {0, 2 * k == period ? 0.0 : term.factor * kappa};  // no sine at Nyquist
+    }
   }
-  return {sum + real, imaginary};
+  switch (term.discretisation) {
+    case Discretisation::fd2: return -4 * term.factor * s2 / square(term.dx);
+    case Discretisation::fd4: return -4 * term.factor * s2 * (1 + s2 / 3) / square(term.dx);
+    case Discretisation::spectral: return -term.factor * square(kappa);
+  }
+  return 0;
+}
+
+std::complex<double> Stencil::symbol(const Mode& mode) const {
+  std::complex<double> sum = identity_;
+  for (const Term& term : terms_) {
+    const auto a = static_cast<std::size_t>(term.axis);
+    sum += symbol(term, mode.k[a], mode.period[a]);
+  }
+  return sum;
+}
+
+Eigen::MatrixXd Stencil::line_matrix(const Term& term, const GridAxis& axis) {
+  const Index n = axis.unknowns();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+  if (term.discretisation != Discretisation::spectral) {
+    for (Index i = 0; i < n; ++i)
+      for (const auto& [offset, c] : taps(term.order, term.discretisation, term.dx)) {
+        const Reflected at = locate(i + offset, axis);
+        a(i, at.index) += at.sign * term.factor * c;
+      }
+    return a;
+  }
+  if (axis.boundary != Boundary::periodic) {
+    const Eigen::MatrixXd modes = line_modes(axis);
+    Vector values(n);
+    for (Index k = 0; k < n; ++k)
+      values[k] = symbol(term, k + (axis.boundary == Boundary::dirichlet ? 1 : 0), 2 * axis.intervals).real();
+    return modes * values.asDiagonal() * modes.transpose();
+  }
+  for (Index d = 0; d < n; ++d) {  // a(i, j) depends on i − j
+    double sum = 0;
+    for (Index k = 0; k < n; ++k) {
+      const std::complex<double> c = symbol(term, k, n);
+      sum += c.real() * sin_pi(4 * k * d + n, 2 * n) - c.imag() * sin_pi(2 * k * d, n);
+    }
+    for (Index j = 0; j < n; ++j) a((j + d) % n, j) = sum / static_cast<double>(n);
+  }
+  return a;
 }
 
 Eigen::MatrixXd Stencil::matrix(const Grid& grid) const {
   const Index n = grid.unknowns();
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
-  for (Index i = 0; i < n; ++i)
-    for (const auto& [offset, c] : taps_) {
-      const Reflected at = locate(i + offset, grid);
-      if (at.index >= 0) a(i, at.index) += at.sign * c;
+  Eigen::MatrixXd a = identity_ * Eigen::MatrixXd::Identity(n, n);
+  for (const Term& term : terms_) {
+    const Eigen::MatrixXd line = line_matrix(term, grid.axis(term.axis));
+    Index stride = 1;
+    for (Index b = grid.dimension() - 1; b > term.axis; --b) stride *= grid.axis(b).unknowns();
+    for (Index i = 0; i < n; ++i) {
+      const Index here = i / stride % line.rows();
+      for (Index j = 0; j < line.cols(); ++j) a(i, i + (j - here) * stride) += line(here, j);
     }
+  }
   return a;
 }
 
@@ -119,15 +205,13 @@ const Stencil& BlockStencil::operator()(Index row, Index column) const {
 }
 
 bool BlockStencil::is_zero() const {
-  for (const Stencil& s : entries_)
-    if (!s.is_zero()) return false;
-  return true;
+  return std::all_of(entries_.begin(), entries_.end(), [](const Stencil& s) { return s.is_zero(); });
 }
 
-Eigen::MatrixXcd BlockStencil::symbol(Index mode, Index period) const {
+Eigen::MatrixXcd BlockStencil::symbol(const Mode& mode) const {
   Eigen::MatrixXcd block(fields_, fields_);
   for (Index i = 0; i < fields_; ++i)
-    for (Index j = 0; j < fields_; ++j) block(i, j) = (*this)(i, j).symbol(mode, period);
+    for (Index j = 0; j < fields_; ++j) block(i, j) = (*this)(i, j).symbol(mode);
   return block;
 }
 
@@ -137,11 +221,6 @@ Eigen::MatrixXd BlockStencil::matrix(const Grid& grid) const {
   for (Index i = 0; i < fields_; ++i)
     for (Index j = 0; j < fields_; ++j) a.block(i * n, j * n, n, n) = (*this)(i, j).matrix(grid);
   return a;
-}
-
-Modes modes(const Grid& grid) {
-  if (grid.boundary == Boundary::periodic) return {0, grid.intervals / 2 + 1, grid.intervals};
-  return {1, grid.intervals - 1, 2 * grid.intervals};
 }
 
 }  // namespace seiche

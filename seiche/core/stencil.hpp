@@ -2,42 +2,53 @@
 #pragma once
 
 #include <seiche/core/grid.hpp>
+#include <seiche/core/modes.hpp>
 
 #include <Eigen/Dense>
 
 #include <complex>
-#include <map>
 #include <vector>
 
 namespace seiche {
 
-// (Au)_j = Σ_k c_k u_{j+k}. Where the field vanishes at the ends it is continued as an odd function, so only
-// symmetric stencils act there within the sines.
+// How derivatives are taken: central differences of order two or four, or exactly on the modes of the grid.
+enum class Discretisation { fd2, fd4, spectral };
+
+// A multiple of the identity plus first and second derivatives along the axes. Beyond a Dirichlet end a field is
+// continued as an odd function, beyond a Neumann end as an even one; first derivatives need periodic axes.
 class Stencil {
  public:
   Stencil() = default;  // the zero operator
   static Stencil identity(double factor = 1.0);
-  static Stencil laplacian(double dx);           // R: (u_{j+1} − 2u_j + u_{j−1}) / Δx²
-  static Stencil central_difference(double dx);  // (u_{j+1} − u_{j−1}) / 2Δx
+  static Stencil laplacian(const Grid& grid, Discretisation discretisation = Discretisation::fd2);
+  static Stencil derivative(const Grid& grid, Index axis = 0, Discretisation discretisation = Discretisation::fd2);
 
   Stencil& operator+=(const Stencil& other);
   Stencil& operator*=(double factor);
   friend Stencil operator+(Stencil a, const Stencil& b) { return a += b; }
   friend Stencil operator*(double factor, Stencil a) { return a *= factor; }
 
-  bool is_zero() const { return taps_.empty(); }
-  bool is_symmetric() const;
-  bool is_identity() const;
-  double coefficient(int offset) const;
-  const std::map<int, double>& taps() const { return taps_; }  // offset k → c_k
+  bool is_zero() const { return identity_ == 0 && terms_.empty(); }
+  bool is_identity() const { return identity_ == 1 && terms_.empty(); }
+  bool is_symmetric() const;  // no first derivatives
 
-  // Eigenvalue on e^{2πi j mode / period}: exact zeros where the sines vanish, no cancellation near mode 0.
-  std::complex<double> symbol(Index mode, Index period) const;
+  // Eigenvalue on a mode: exact zeros where the sines vanish, no cancellation near the mean.
+  std::complex<double> symbol(const Mode& mode) const;
   Eigen::MatrixXd matrix(const Grid& grid) const;
 
  private:
-  void drop_zeros();
-  std::map<int, double> taps_;
+  struct Term {  // factor · (∂/∂x_axis)^order
+    Index axis;
+    int order;
+    Discretisation discretisation;
+    double dx;
+    double factor;
+  };
+  static std::complex<double> symbol(const Term& term, Index k, Index period);
+  static Eigen::MatrixXd line_matrix(const Term& term, const GridAxis& axis);
+
+  double identity_ = 0.0;
+  std::vector<Term> terms_;
 };
 
 // An m × m block of stencils acting on m fields: the S, M or D of a problem.
@@ -51,21 +62,12 @@ class BlockStencil {
   const Stencil& operator()(Index row, Index column) const;
   bool is_zero() const;
 
-  Eigen::MatrixXcd symbol(Index mode, Index period) const;  // m × m
-  Eigen::MatrixXd matrix(const Grid& grid) const;           // field-major: all of field 0, then field 1, …
+  Eigen::MatrixXcd symbol(const Mode& mode) const;  // m × m
+  Eigen::MatrixXd matrix(const Grid& grid) const;   // field-major: all of field 0, then field 1, …
 
  private:
   Index fields_ = 0;
   std::vector<Stencil> entries_;
 };
-
-// The modes of a grid and the period of their phases: mode k has the symbol at angle 2πk / period.
-// Periodic: k = 0 … ⌊N/2⌋ of N; Dirichlet: k = 1 … N−1 of 2N.
-struct Modes {
-  Index first;
-  Index count;
-  Index period;
-};
-Modes modes(const Grid& grid);
 
 }  // namespace seiche

@@ -21,9 +21,9 @@ double paper_displacement(Index j) {
 }  // namespace
 
 Problem alpha_fpu(const AlphaFpu& options) {
-  const Grid grid{options.points, options.length, Boundary::dirichlet};
-  const double dx = grid.dx();
-  const Stencil R = Stencil::laplacian(dx);
+  const Grid grid{.axes = {{options.points, options.length, Boundary::dirichlet}}};
+  const double dx = grid.axis(0).dx();
+  const Stencil R = Stencil::laplacian(grid);
   Problem p = wave_problem("alpha_fpu", grid, Stencil::identity(square(options.mass)) + -1.0 * R, options.gamma);
   p.damping.constant(1, 1) = -options.beta * R;
 
@@ -40,7 +40,7 @@ Problem alpha_fpu(const AlphaFpu& options) {
 
   const int k = options.exponent;
   const double strength = options.epsilon / (std::pow(dx, k + 2) * (k + 1) * (k + 2));
-  p.potential = bond_polynomial(monomial(strength, k + 2), grid.boundary);
+  p.potential = bond_polynomial(monomial(strength, k + 2), grid.axis(0).boundary);
 
   for (Index i = 0; i < grid.unknowns(); ++i) p.initial[i] = paper_displacement(i + 1);
   return p;

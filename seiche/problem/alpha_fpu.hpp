@@ -13,8 +13,8 @@ struct AlphaFpu {
   Index points = 20;  // N intervals, N − 1 unknowns per field
   int exponent = 1;   // k
   double epsilon = 0.005;
-  double beta = 0.01;  // Kelvin–Voigt damping
-  RatePointer gamma;   // 1/time; null: none
+  double beta = 0.01;           // Kelvin–Voigt damping
+  RatePointer gamma = nullptr;  // 1/time; null: none
   double mass = 1.0;
   Formulation formulation = Formulation::conservative;
 };

@@ -1,5 +1,6 @@
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/gkdv.hpp>
+#include <seiche/problem/grid_options.hpp>
 #include <seiche/problem/wave.hpp>
 
 #include <cmath>
@@ -9,12 +10,12 @@ namespace seiche {
 Problem gkdv(const Gkdv& options) {
   Problem p;
   p.name = "gkdv";
-  p.grid = {options.points, options.length, Boundary::periodic};
+  p.grid.axes = {{options.points, options.length, Boundary::periodic}};
   p.fields = {"u"};
   p.S = BlockStencil(1);
-  p.S(0, 0) = Stencil::central_difference(p.grid.dx());
+  p.S(0, 0) = Stencil::derivative(p.grid, 0, options.discretisation);
   p.M = BlockStencil(1);
-  p.M(0, 0) = -options.epsilon * Stencil::laplacian(p.grid.dx());
+  p.M(0, 0) = -options.epsilon * Stencil::laplacian(p.grid, options.discretisation);
   const bool undamped = !options.mu || (options.mu->is_constant() && options.mu->value(0) == 0);
   p.damping = {.constant = BlockStencil(1), .rate = undamped ? nullptr : options.mu, .rate_fields = {true}};
   const int k = options.exponent;
@@ -42,6 +43,7 @@ ProblemEntry gkdv_entry() {
                .meaning = "N, grid points in one period",
                .minimum = 3,
                .maximum = 1 << 26},
+              discretisation_parameter(),
               {.name = "exponent",
                .kind = ParameterKind::integer,
                .default_value = "2",
@@ -59,6 +61,7 @@ ProblemEntry gkdv_entry() {
           [](const ParameterValues& v, const std::string&) {
             return gkdv({.length = v.real("length"),
                          .points = v.integer("points"),
+                         .discretisation = discretisation_of(v),
                          .exponent = static_cast<int>(v.integer("exponent")),
                          .sigma = v.real("sigma"),
                          .epsilon = v.real("epsilon"),

@@ -9,13 +9,14 @@ namespace seiche {
 struct Gkdv {
   double length = 10.0;
   Index points = 20;
+  Discretisation discretisation = Discretisation::fd2;
   int exponent = 2;  // k
   double sigma = 0.001;
   double epsilon = 1.0;
-  RatePointer mu;  // 1/time; null: undamped
+  RatePointer mu = nullptr;  // 1/time; null: undamped
 };
 
-// H = −ε/2 zᵀRz − σ/(k+2) Σz^{k+2}, S = ∂_x by central differences, D = μI. The damping moves what V depends on, and
+// H = −ε/2 zᵀRz − σ/(k+2) Σz^{k+2}, S = ∂_x, D = μI. The damping moves what V depends on, and
 // for σ > 0 the exact H may rise.
 Problem gkdv(const Gkdv& options = {});
 

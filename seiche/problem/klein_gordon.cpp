@@ -9,9 +9,10 @@
 namespace seiche {
 
 Problem klein_gordon(const KleinGordon& options) {
-  const Grid grid{options.points, options.length, Boundary::periodic};
+  const Grid grid = make_grid(options.grid);
   const double bound = std::max(options.omega_squared, 0.0);
-  const Stencil stiffness = Stencil::identity(bound) + -options.kappa * Stencil::laplacian(grid.dx());
+  const Stencil stiffness =
+      Stencil::identity(bound) + -options.kappa * Stencil::laplacian(grid, options.grid.discretisation);
   Problem p = wave_problem("klein_gordon", grid, stiffness, options.gamma);
 
   std::vector<double> w = monomial(options.alpha / 4, 4);
@@ -30,41 +31,29 @@ Problem klein_gordon(const KleinGordon& options) {
 }
 
 ProblemEntry klein_gordon_entry() {
+  std::vector<Parameter> parameters = grid_parameters("20", "2.0");
+  parameters.insert(
+      parameters.end(),
+      {
+          {.name = "kappa", .default_value = "0.04", .meaning = "κ, wave speed squared", .minimum = 0},
+          {.name = "omega_squared",
+           .default_value = "0.2",
+           .meaning = "ω², frequency squared of the mean; negative: a double well"},
+          {.name = "alpha",
+           .default_value = "-1.0",
+           .meaning = "α, strength of the cubic force; negative: focusing, V unbounded below"},
+          {.name = "gamma", .kind = ParameterKind::rate, .default_value = "0.1", .meaning = "γ, damping rate, 1/time"},
+      });
   return {
       .name = "klein_gordon",
-      .equation = "u_tt + γu_t − κu_xx + ω²u + αu³ = 0, periodic",
+      .equation = "u_tt + γu_t − κΔu + ω²u + αu³ = 0",
       .reference = "Li, Li, Shang, Xu, Example 1; Côte et al. (2021)",
       .fields = {"u", "v"},
-      .parameters =
-          {
-              {.name = "length",
-               .default_value = "2.0",
-               .meaning = "L, the period in x",
-               .minimum = 0,
-               .minimum_excluded = true},
-              {.name = "points",
-               .kind = ParameterKind::integer,
-               .default_value = "20",
-               .meaning = "N, grid points in one period",
-               .minimum = 3,
-               .maximum = 1 << 26},
-              {.name = "kappa", .default_value = "0.04", .meaning = "κ, wave speed squared", .minimum = 0},
-              {.name = "omega_squared",
-               .default_value = "0.2",
-               .meaning = "ω², frequency squared of the mean; negative: a double well"},
-              {.name = "alpha",
-               .default_value = "-1.0",
-               .meaning = "α, strength of the cubic force; negative: focusing, V unbounded below"},
-              {.name = "gamma",
-               .kind = ParameterKind::rate,
-               .default_value = "0.1",
-               .meaning = "γ, damping rate, 1/time"},
-          },
+      .parameters = std::move(parameters),
       .presets = {"paper"},
       .make =
           [](const ParameterValues& v, const std::string&) {
-            return klein_gordon({.length = v.real("length"),
-                                 .points = v.integer("points"),
+            return klein_gordon({.grid = grid_options(v),
                                  .kappa = v.real("kappa"),
                                  .omega_squared = v.real("omega_squared"),
                                  .alpha = v.real("alpha"),

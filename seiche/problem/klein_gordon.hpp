@@ -1,20 +1,22 @@
-// Damped nonlinear Klein–Gordon equation, u_tt + γu_t − κu_xx + ω²u + αu³ = 0, periodic (paper Example 1).
+// Damped nonlinear Klein–Gordon equation, u_tt + γu_t − κΔu + ω²u + αu³ = 0, in one to three dimensions (paper
+// Example 1).
 #pragma once
 
+#include <seiche/problem/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 
 namespace seiche {
 
 struct KleinGordon {
-  double length = 2.0;
-  Index points = 20;
-  double kappa = 0.04;         // wave speed squared
-  double omega_squared = 0.2;  // if negative it is moved into V, so that M ⪰ 0
-  double alpha = -1.0;         // < 0 focusing: V is unbounded below
-  RatePointer gamma;           // 1/time; null: undamped
+  GridOptions grid = {.points = {20}, .length = {2.0}};
+  double kappa = 0.04;          // wave speed squared
+  double omega_squared = 0.2;   // if negative it is moved into V, so that M ⪰ 0
+  double alpha = -1.0;          // < 0 focusing: V is unbounded below
+  RatePointer gamma = nullptr;  // 1/time; null: undamped
 };
 
-// H = ½vᵀv + ½uᵀ(ω²I − κR)u + α/4 Σu⁴, S = [[0, I], [−I, 0]], D = diag(0, γI); the paper's initial data.
+// H = ½vᵀv + ½uᵀ(ω²I − κR)u + α/4 Σu⁴, S = [[0, I], [−I, 0]], D = diag(0, γI); the paper's initial data,
+// functions of the first coordinate.
 Problem klein_gordon(const KleinGordon& options = {});
 
 ProblemEntry klein_gordon_entry();

@@ -8,7 +8,7 @@
 namespace seiche {
 
 Problem oscillator(const Oscillator& options) {
-  const Grid grid{options.points, static_cast<double>(options.points), Boundary::periodic};  // Δx = 1
+  const Grid grid{.axes = {{options.points, static_cast<double>(options.points), Boundary::periodic}}};  // Δx = 1
   Problem p = wave_problem("oscillator", grid, Stencil::identity(std::max(options.omega_squared, 0.0)), options.gamma);
   p.fields = {"q", "p"};
   std::vector<double> w = monomial(options.alpha / 4, 4);

@@ -4,15 +4,13 @@
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/problems.hpp>
+#include <seiche/problem/sine_gordon.hpp>
 
 namespace seiche {
 
 std::span<const ProblemEntry> problems() {
   static const std::vector<ProblemEntry> list = {
-      klein_gordon_entry(),
-      alpha_fpu_entry(),
-      gkdv_entry(),
-      oscillator_entry(),
+      klein_gordon_entry(), alpha_fpu_entry(), gkdv_entry(), sine_gordon_entry(), oscillator_entry(),
   };
   return list;
 }

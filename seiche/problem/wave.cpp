@@ -23,7 +23,7 @@ Problem wave_problem(std::string name, const Grid& grid, const Stencil& stiffnes
 
 Vector sample(const Grid& grid, const std::function<double(double)>& f) {
   Vector values(grid.unknowns());
-  for (Index i = 0; i < values.size(); ++i) values[i] = f(grid.x(i));
+  for (Index i = 0; i < values.size(); ++i) values[i] = f(grid.coordinate(i, 0));
   return values;
 }
 

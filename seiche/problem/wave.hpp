@@ -11,6 +11,6 @@ namespace seiche {
 Problem wave_problem(std::string name, const Grid& grid, const Stencil& stiffness, RatePointer gamma);
 
 // Values of f(x_j) on the grid.
-Vector sample(const Grid& grid, const std::function<double(double x)>& f);
+Vector sample(const Grid& grid, const std::function<double(double x)>& f);  // of the first axis
 
 }  // namespace seiche

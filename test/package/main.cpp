@@ -3,7 +3,8 @@
 #include <cstdio>
 
 int main() {
-  const auto wave = seiche::klein_gordon({.points = 64, .alpha = 1.0, .gamma = seiche::constant_rate(0.1)});
+  const auto wave = seiche::klein_gordon(
+      {.grid = {.points = {64}, .length = {2.0}}, .alpha = 1.0, .gamma = seiche::constant_rate(0.1)});
   seiche::Simulation simulation(wave, {.method = "seisav"});
   for (int n = 0; n < 1000; ++n) {
     if (!simulation.step(0.01).solved()) return 1;

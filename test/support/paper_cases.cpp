@@ -7,6 +7,12 @@
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
+#include <seiche/problem/sine_gordon.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace seiche::test {
 
@@ -37,8 +43,41 @@ std::vector<NamedProblem> golden_cases() {
           {"paper_gKdV", gkdv_case()}};
 }
 
+std::vector<NamedProblem> grid_cases() {
+  using enum Boundary;
+  const auto wave = [](GridOptions grid) {
+    const std::size_t axes = std::max(grid.points.size(), grid.boundary.size());
+    Problem p = klein_gordon({.grid = std::move(grid), .alpha = 1.0, .gamma = constant_rate(0.2)});
+    for (Index i = 0; i < p.size(); ++i) p.initial[i] = std::sin(1.3 * static_cast<double>(i + 1));
+    p.name = fmt::format("{}_{}d", p.name, axes);
+    return p;
+  };
+  std::vector<NamedProblem> cases = {
+      {"KG_neumann", wave({.points = {12}, .length = {2.0}, .boundary = {neumann}})},
+      {"KG_dirichlet_fd4",
+       wave({.points = {12}, .length = {2.0}, .boundary = {dirichlet}, .discretisation = Discretisation::fd4})},
+      {"KG_2d_periodic", wave({.points = {6, 5}, .length = {1.0, 2.0}})},
+      {"KG_2d_even_spectral",
+       wave({.points = {4, 6}, .length = {1.0, 2.0}, .discretisation = Discretisation::spectral})},
+      {"KG_2d_mixed", wave({.points = {6, 5}, .length = {1.0, 2.0}, .boundary = {periodic, dirichlet}})},
+      {"KG_3d_periodic", wave({.points = {3, 4, 2}, .length = {1.0}})},
+      {"KG_3d_mixed_spectral", wave({.points = {3, 4, 4},
+                                     .length = {1.0},
+                                     .boundary = {neumann, periodic, dirichlet},
+                                     .discretisation = Discretisation::spectral})},
+  };
+  for (const Discretisation d : {Discretisation::fd4, Discretisation::spectral}) {
+    cases.push_back({d == Discretisation::fd4 ? "gKdV_fd4" : "gKdV_spectral",
+                     gkdv({.points = 10, .discretisation = d, .sigma = -0.5, .mu = constant_rate(0.3)})});
+  }
+  cases.push_back(
+      {"sine_Gordon", sine_gordon({.grid = {.points = {24}, .length = {12.0}}, .gamma = constant_rate(0.1)})});
+  return cases;
+}
+
 std::vector<NamedProblem> all_cases() {
   std::vector<NamedProblem> cases = golden_cases();
+  for (NamedProblem& c : grid_cases()) cases.push_back(std::move(c));
   cases.push_back({"KG_defocusing", klein_gordon_case(0.1, 1.0)});
   cases.push_back({"gKdV_sigma_1", gkdv_case(0.5, 1.0, 1.0)});
   cases.push_back({"Duffing", duffing_case()});

@@ -22,7 +22,9 @@ struct NamedProblem {
 
 // The paper's four cases, by the names that golden.json has for them.
 std::vector<NamedProblem> golden_cases();
-// Every problem, each method is to be tried on.
+// Small grids of every dimension, boundary and discretisation.
+std::vector<NamedProblem> grid_cases();
+// Every problem that each method is to be tried on: all of the above and a few more.
 std::vector<NamedProblem> all_cases();
 
 // Does the method apply (whole methods need the damping in S)?

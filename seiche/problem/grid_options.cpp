@@ -1,0 +1,105 @@
+#include <seiche/core/error.hpp>
+#include <seiche/problem/grid_options.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace seiche {
+namespace {
+
+template <class T>
+T of_axis(const std::vector<T>& list, std::size_t axis) {
+  return list.size() == 1 ? list.front() : list[axis];
+}
+
+Boundary boundary_named(const std::string& name) {
+  if (name == "dirichlet") return Boundary::dirichlet;
+  return name == "neumann" ? Boundary::neumann : Boundary::periodic;
+}
+
+double physical_memory() {  // bytes
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+}
+
+// Before anything is allocated. The modal backend peaks at about a kilobyte per point while it builds the propagators of
+// two fields.
+void require_memory(const Grid& grid) {
+  constexpr double bytes_per_point = 1000;
+  double points = 1;
+  for (const GridAxis& axis : grid.axes) points *= static_cast<double>(axis.unknowns());
+  const double needed = bytes_per_point * points;
+  if (needed > physical_memory())
+    throw Error("a grid of {:.0f} points needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points",
+                points, needed, physical_memory());
+}
+
+}  // namespace
+
+Grid make_grid(const GridOptions& options) {
+  constexpr std::size_t most_axes = 3;
+  const std::size_t axes = std::max({options.points.size(), options.length.size(), options.boundary.size()});
+  const auto fits = [axes](std::size_t size) { return size == 1 || size == axes; };
+  if (axes > most_axes || !fits(options.points.size()) || !fits(options.length.size()) ||
+      !fits(options.boundary.size())) {
+    throw Error("points has {} entries, length {} and boundary {}: each needs one, or one for each of at most {} axes",
+                options.points.size(), options.length.size(), options.boundary.size(), most_axes);
+  }
+  Grid grid;
+  grid.axes.clear();
+  for (std::size_t a = 0; a < axes; ++a) {
+    const GridAxis axis{of_axis(options.points, a), of_axis(options.length, a), of_axis(options.boundary, a)};
+    if (axis.unknowns() < 1) throw Error("points = {} leaves no unknown along axis {}", axis.intervals, a + 1);
+    grid.axes.push_back(axis);
+  }
+  require_memory(grid);
+  return grid;
+}
+
+std::vector<Parameter> grid_parameters(const std::string& default_points, const std::string& default_length) {
+  return {
+      {.name = "length",
+       .default_value = default_length,
+       .meaning = "L, size of the domain",
+       .minimum = 0,
+       .minimum_excluded = true,
+       .per_axis = true},
+      {.name = "points",
+       .kind = ParameterKind::integer,
+       .default_value = default_points,
+       .meaning = "N, grid intervals",
+       .minimum = 2,
+       .maximum = 1 << 26,
+       .per_axis = true},
+      {.name = "boundary",
+       .kind = ParameterKind::choice,
+       .default_value = "periodic",
+       .meaning = "what happens at the ends",
+       .choices = {"periodic", "dirichlet", "neumann"},
+       .per_axis = true},
+      discretisation_parameter(),
+  };
+}
+
+GridOptions grid_options(const ParameterValues& values) {
+  GridOptions options{.points = values.integers("points"), .length = values.reals("length"), .boundary = {}};
+  for (const std::string& name : values.choices("boundary")) options.boundary.push_back(boundary_named(name));
+  options.discretisation = discretisation_of(values);
+  return options;
+}
+
+Parameter discretisation_parameter() {
+  return {.name = "discretisation",
+          .kind = ParameterKind::choice,
+          .default_value = "fd2",
+          .meaning = "derivatives: finite differences of order 2 or 4, or spectral",
+          .choices = {"fd2", "fd4", "spectral"}};
+}
+
+Discretisation discretisation_of(const ParameterValues& values) {
+  const std::string& name = values.choice("discretisation");
+  if (name == "spectral") return Discretisation::spectral;
+  return name == "fd4" ? Discretisation::fd4 : Discretisation::fd2;
+}
+
+}  // namespace seiche

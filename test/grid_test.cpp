@@ -1,0 +1,138 @@
+// Grids: operators, modes and coordinates in every dimension, boundary and discretisation; exact solutions.
+#include "support/matrices.hpp"
+#include "support/paper_cases.hpp"
+
+#include <seiche/backend/backends.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/problem/gkdv.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/sine_gordon.hpp>
+#include <seiche/study/reference.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace seiche::test {
+namespace {
+
+using enum Boundary;
+constexpr std::array discretisations = {Discretisation::fd2, Discretisation::fd4, Discretisation::spectral};
+
+TEST(Grid, PointsAreNumberedWithTheLastAxisFastest) {
+  const Grid grid{.axes = {{2, 2.0, periodic}, {3, 3.0, dirichlet}, {2, 1.0, neumann}}};
+  EXPECT_EQ(grid.unknowns(), 2 * 2 * 2);
+  EXPECT_DOUBLE_EQ(grid.coordinate(5, 0), 2.0);
+  EXPECT_DOUBLE_EQ(grid.coordinate(5, 1), 1.0);
+  EXPECT_DOUBLE_EQ(grid.coordinate(5, 2), 0.75);
+}
+
+// S and M of the modal backend, brought back to the grid, are the matrices of the dense one.
+TEST(Grid, SymbolsAreTheEigenvaluesOfTheMatrices) {
+  for (const auto& [name, problem] : grid_cases()) {
+    const System modal = find_backend("modal").system(problem, {});
+    for (const auto& [operator_name, stencil] : {std::pair("S", &problem.S), std::pair("M", &problem.M)}) {
+      const bool is_S = stencil == &problem.S;
+      const Matrix found = matrix_of(modal, [&](const Vector& x, Vector& y) {
+        is_S ? modal.linear->apply_S(x, y) : modal.linear->apply_M(x, y);
+      });
+      const Matrix expected = stencil->matrix(problem.grid);
+      EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), 2e-14 * (1 + expected.cwiseAbs().maxCoeff()))
+          << name << " " << operator_name;
+    }
+  }
+}
+
+TEST(Grid, DerivativesConvergeAtTheOrderOfTheirDiscretisation) {
+  const double k = 2 * std::numbers::pi;
+  for (const Discretisation d : discretisations) {
+    std::vector<double> errors;
+    for (const Index n : {16, 32}) {
+      const Grid grid{.axes = {{n, 1.0, periodic}}};
+      Vector u(n), first(n), second(n);
+      for (Index i = 0; i < n; ++i) {
+        const double x = grid.coordinate(i, 0);
+        u[i] = std::exp(std::sin(k * x));
+        first[i] = k * std::cos(k * x) * u[i];
+        second[i] = k * k * (square(std::cos(k * x)) - std::sin(k * x)) * u[i];
+      }
+      errors.push_back((Stencil::derivative(grid, 0, d).matrix(grid) * u - first).lpNorm<Eigen::Infinity>() / k +
+                       (Stencil::laplacian(grid, d).matrix(grid) * u - second).lpNorm<Eigen::Infinity>() / (k * k));
+    }
+    const double order = std::log2(errors[0] / errors[1]);
+    if (d == Discretisation::fd2) {
+      EXPECT_NEAR(order, 2, 0.3);
+    }
+    if (d == Discretisation::fd4) {
+      EXPECT_NEAR(order, 4, 0.6);
+    }
+    if (d == Discretisation::spectral) {
+      EXPECT_LE(errors[1], 1e-12);
+    }
+  }
+}
+
+TEST(Grid, EigenfunctionsOfEveryBoundaryAreEigenfunctions) {
+  for (const Boundary boundary : {periodic, dirichlet, neumann}) {
+    const Grid grid{.axes = {{12, 3.0, boundary}}};
+    const double kappa = boundary == periodic ? 2 * std::numbers::pi / 3 : std::numbers::pi / 3;
+    Vector u(grid.unknowns());
+    for (Index i = 0; i < u.size(); ++i) {
+      const double x = grid.coordinate(i, 0);
+      u[i] = boundary == dirichlet ? std::sin(kappa * x) : std::cos(kappa * x);
+    }
+    const Vector image = Stencil::laplacian(grid, Discretisation::spectral).matrix(grid) * u;
+    EXPECT_LE((image + square(kappa) * u).norm(), 1e-12) << static_cast<int>(boundary);
+  }
+}
+
+double distance_from(const Problem& p, double t_end, const std::function<double(double x)>& exact) {
+  const Reference solution = make_reference(p, {0.0, t_end});
+  const std::span<const double> z = solution.state(1);
+  double distance = 0;
+  for (Index i = 0; i < p.grid.unknowns(); ++i)
+    distance = std::max(distance, std::abs(z[static_cast<std::size_t>(i)] - exact(p.grid.coordinate(i, 0))));
+  return distance;
+}
+
+TEST(Grid, SpectralSineGordonFollowsTheBreather) {
+  const double length = 60;
+  const auto breather = [&](double x) { return sine_gordon_breather(0.5, x - length / 2, 3.0); };
+  SineGordon options{.grid = {.points = {256}, .length = {length}, .discretisation = Discretisation::spectral}};
+  EXPECT_LE(distance_from(sine_gordon(options), 3.0, breather), 1e-8);
+  options.grid.discretisation = Discretisation::fd2;  // the same number of points, or this could not fail
+  EXPECT_GE(distance_from(sine_gordon(options), 3.0, breather), 1e-3);
+}
+
+TEST(Grid, SpectralKdvFollowsTheSoliton) {
+  const double length = 40;
+  const double c = 1.5;
+  const auto soliton = [&](double x) {  // u_t + u_xxx + 3(u²)_x = 0
+    return c / 2 / square(std::cosh(std::sqrt(c) / 2 * (x - length / 2)));
+  };
+  const double t = 2.0;
+  Problem p =
+      gkdv({.length = length, .points = 128, .discretisation = Discretisation::spectral, .exponent = 1, .sigma = 3.0});
+  for (Index i = 0; i < p.size(); ++i) p.initial[i] = soliton(p.grid.coordinate(i, 0));
+  EXPECT_LE(distance_from(p, t, [&](double x) { return soliton(x - c * t); }), 1e-7);
+}
+
+TEST(Grid, AGridThatDoesNotFitIntoMemoryIsRefusedBeforeItIsAllocated) {
+  try {
+    klein_gordon({.grid = {.points = {1 << 26, 1 << 26}}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("4.5e+18 bytes"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Grid, ListsThatDoNotFitAreRefused) {
+  EXPECT_THROW(klein_gordon({.grid = {.points = {8, 8}, .length = {1.0, 1.0, 1.0}}}), Error);
+  EXPECT_THROW(klein_gordon({.grid = {.points = {8, 8, 8, 8}}}), Error);
+  EXPECT_THROW(klein_gordon({.grid = {.points = {1}, .boundary = {dirichlet}}}), Error);
+  EXPECT_THROW(Stencil::derivative({.axes = {{8, 1.0, dirichlet}}}), Error);
+}
+
+}  // namespace
+}  // namespace seiche::test
