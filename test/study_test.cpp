@@ -255,6 +255,29 @@ TEST(Verdicts, LawsAreJudgedByTheRuns) {
   EXPECT_EQ(laws_without_damping(drifting, false).outcome, Outcome::holds);
 }
 
+TEST(Verdicts, WordsFitTheNumbers) {
+  const std::vector<LawCheck> falling = {{.scheme = "s", .runs = 8, .held = 8}};
+  EXPECT_EQ(laws_without_damping(falling, false).measured, "no rise in 8 runs");
+  Evidence evidence;
+  for (const char* key : {"klein_gordon", "gkdv"}) {
+    ExampleEvidence example;
+    example.key = key;
+    evidence.examples.push_back(example);
+  }
+  evidence.examples[1].refused = {"avf", "sav"};
+  EXPECT_EQ(only_where_a_gradient_form_exists(evidence).measured,
+            "all accept both, except gkdv, which refuses avf and sav");
+  EXPECT_EQ(only_where_a_gradient_form_exists(evidence).outcome, Outcome::holds);
+  evidence.examples[1].refused = {};
+  EXPECT_EQ(only_where_a_gradient_form_exists(evidence).measured, "all accept both");
+  EXPECT_EQ(only_where_a_gradient_form_exists(evidence).outcome, Outcome::does_not_hold);
+  evidence.without_ecld_exact_rise = 1;
+  evidence.without_ecld = {synthetic("seilm", 1, 2, 1).front()};
+  const Finding finding = law_of_seilm(evidence);
+  EXPECT_NE(finding.measured.find("by 100 % of |H(z₀)|"), std::string::npos) << finding.measured;
+  EXPECT_EQ(finding.measured.find("ECLD"), std::string::npos) << finding.measured;
+}
+
 TEST(Verdicts, TheMultiplierTheoremNeedsMoreThanTheMetric) {
   Evidence evidence;
   evidence.seilm_laws = {{.scheme = "s", .runs = 3, .held = 3}};

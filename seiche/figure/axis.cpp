@@ -95,6 +95,25 @@ Axis fitted_axis(bool logarithmic, std::span<const double> values, double margin
 
 Axis axis_between(bool logarithmic, double low, double high) { return with_ticks(logarithmic, low, high); }
 
+AxisWithZero with_zero_line(const Axis& axis) {
+  const double span = axis.high / axis.low;
+  AxisWithZero result{axis, axis.low / std::pow(span, 0.08)};
+  result.axis.low = result.zero / std::pow(span, 0.06);
+  std::string zero;
+  add_tick(zero, "0", result.zero, false);
+  result.axis.ticks = "(" + zero + ", " + axis.ticks.substr(1);
+  return result;
+}
+
+Axis axis_from_zero(double high) {
+  // Steps of 1, 2 or 5 times a power of ten, as gnuplot's.
+  const double rough = high / 5;
+  const double decade = std::pow(10.0, std::floor(std::log10(rough)));
+  const double step = decade * (rough < 2 * decade ? 1 : rough < 5 * decade ? 2 : 5);
+  const double round = std::ceil(high / step) * step;
+  return axis_between(false, 0, round <= 1.03 * high ? round : high);
+}
+
 bool all_powers_of_two(std::span<const double> values) {
   return !values.empty() && std::all_of(values.begin(), values.end(), is_power_of_two);
 }

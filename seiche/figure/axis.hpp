@@ -22,6 +22,14 @@ struct Axis {
 // Around the values that can be shown, with a margin at both ends as a part of the span.
 Axis fitted_axis(bool logarithmic, std::span<const double> values, double margin = 0.06);
 Axis axis_between(bool logarithmic, double low, double high);
+// A logarithmic one with a line "0" below its smallest value, where `zero` is drawn.
+struct AxisWithZero {
+  Axis axis;
+  double zero;
+};
+AxisWithZero with_zero_line(const Axis& axis);
+// From zero to `high`, or to a round number that lies only a little beyond.
+Axis axis_from_zero(double high);
 // Labels 2⁻ⁿ if all values are powers of two, otherwise as fitted_axis.
 Axis step_size_axis(std::span<const double> step_sizes);
 

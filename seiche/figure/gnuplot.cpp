@@ -112,13 +112,14 @@ class Gnuplot {
   int status_ = 0;
 };
 
-// In double quotes with everything but letters, digits and blanks by its octal code: gnuplot runs what stands between
-// backquotes, and takes a doubled single quote at the start of a string for its end.
+// In double quotes with everything but letters and blanks by its octal code: gnuplot runs what stands between
+// backquotes, and takes a doubled single quote at the start of a string for its end. A digit after such a code would be
+// read as part of it, so that digits have theirs too.
 std::string literal(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool plain = byte >= 0x80 || std::isalnum(byte) != 0 || c == ' ';
+    const bool plain = byte >= 0x80 || std::isalpha(byte) != 0 || c == ' ';
     result += plain ? std::string(1, c) : fmt::format("\\{:03o}", byte);
   }
   return result + "\"";

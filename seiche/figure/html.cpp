@@ -3,12 +3,52 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
 
 namespace seiche {
+namespace {
+
+// "-1.42e-05" as −1.42·10⁻⁵, "1e-15" as 10⁻¹⁵.
+std::string power_of_ten(const std::string& scientific) {
+  const std::size_t e = scientific.find('e');
+  std::string mantissa = scientific.substr(0, e);
+  const int exponent = std::stoi(scientific.substr(e + 1));
+  if (mantissa.front() == '-') mantissa.replace(0, 1, "−");
+  const std::string factor = mantissa == "1" ? "" : mantissa + "·";
+  return fmt::format("{}10<sup>{}{}</sup>", factor, exponent < 0 ? "−" : "", std::abs(exponent));
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_part_of_a_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; }
+
+// Length of the number in scientific notation that begins at `begin`; 0 if there is none, or if it is part of a word.
+std::size_t scientific_number(std::string_view text, std::size_t begin) {
+  if (begin > 0 && (is_part_of_a_word(text[begin - 1]) || text[begin - 1] == '-')) return 0;
+  std::size_t at = begin;
+  const auto digits = [&] {
+    const std::size_t first = at;
+    while (at < text.size() && is_digit(text[at])) ++at;
+    return at > first;
+  };
+  const auto skip = [&](std::string_view any) {
+    const bool found = at < text.size() && any.find(text[at]) != std::string_view::npos;
+    if (found) ++at;
+    return found;
+  };
+  skip("-");
+  if (!digits() || (skip(".") && !digits()) || !skip("e")) return 0;
+  skip("+-");
+  const std::size_t exponent = at;
+  if (!digits() || at - exponent > 3) return 0;
+  const bool ends = at == text.size() || !is_part_of_a_word(text[at]) || text[at] == '.';
+  return ends ? at - begin : 0;
+}
+
+}  // namespace
 
 std::string html_escaped(std::string_view text) {
   std::string escaped;
@@ -29,12 +69,23 @@ std::string html_escaped(std::string_view text) {
 std::string html_number(double value) {
   if (!std::isfinite(value)) return "—";
   if (value == 0) return "0";
-  const std::string text = fmt::format("{:.2e}", value);
-  const std::size_t e = text.find('e');
-  std::string mantissa = text.substr(0, e);
-  if (mantissa.front() == '-') mantissa.replace(0, 1, "−");
-  const int exponent = std::stoi(text.substr(e + 1));
-  return fmt::format("{}·10<sup>{}{}</sup>", mantissa, exponent < 0 ? "−" : "", std::abs(exponent));
+  return power_of_ten(fmt::format("{:.2e}", value));
+}
+
+std::string html_text(std::string_view text) {
+  std::string result;
+  std::size_t done = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = scientific_number(text, at);
+    if (length == 0) {
+      ++at;
+      continue;
+    }
+    result += html_escaped(text.substr(done, at - done));
+    result += "<span class=\"number\">" + power_of_ten(std::string(text.substr(at, length))) + "</span>";
+    done = at += length;
+  }
+  return result + html_escaped(text.substr(done));
 }
 
 std::string base64(std::string_view bytes) {

@@ -12,6 +12,9 @@ std::string html_escaped(std::string_view text);  // also safe inside attribute 
 // 1.42·10⁻⁵ with a raised exponent, "0", "—" for what is not a finite number.
 std::string html_number(double value);
 
+// Text with its numbers like 7.3e-06 written as html_number does, each kept on one line.
+std::string html_text(std::string_view text);
+
 struct PngPicture {
   std::string data_uri;
   unsigned width = 0, height = 0;  // pixels

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/figure/coincide.hpp>
 #include <seiche/figure/curves.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/panels.hpp>
@@ -34,7 +35,7 @@ std::string panel_title(const std::string& what, const std::string& which, bool 
 
 int layer_of(const std::string& method) {
   const MethodStyle* style = find_method_style(method);
-  return style && style->proposed ? 1 : 0;
+  return style && style->proposed ? proposed_layer : 0;
 }
 
 // One series per method, from the runs that reached the end.
@@ -71,7 +72,7 @@ std::vector<Series> series_of_curves(const std::vector<Curve>& curves) {
     Series series{.label = method_label(curve.name), .style = method_line(curve.name), .x = thin.t, .y = thin.value};
     if (curve.name == "reference") {
       series.style = reference_line();
-      series.layer = 2;
+      series.layer = reference_layer;
     } else {
       series.marked = staggered(thin.t, index++, methods);
       series.layer = layer_of(curve.name);
@@ -81,49 +82,73 @@ std::vector<Series> series_of_curves(const std::vector<Curve>& curves) {
   return all;
 }
 
+// Without the series that have no point to show, which would only fill the legend; coinciding ones told apart and named.
+Panel finished(std::string caption, Plot plot) {
+  std::erase_if(plot.series, [&](const Series& series) {
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      if (plot.x.shows(series.x[i]) && plot.y.shows(series.y[i])) return false;
+    }
+    return true;
+  });
+  const auto groups = coinciding_series(plot);
+  for (const std::string& sentence : {coincidence_sentence(plot, groups), separate(plot, groups)}) {
+    if (!sentence.empty()) caption += " " + sentence;
+  }
+  return {std::move(caption), std::move(plot)};
+}
+
+// The words of a study's axis as the main figures set them.
+std::string axis_label(const std::string& words) {
+  if (words == "time step h") return step_label;
+  if (words == "t") return time_label;
+  return gnuplot_text(words);
+}
+
 Axis time_axis(const ExampleResult& example) { return axis_between(false, 0, example.t_end > 0 ? example.t_end : 1); }
 
 Panel order_panel(const ExampleResult& example, bool quick) {
   std::vector<Series> series = series_of_rows(example, [](const StudyRow& row) { return row.h; });
   const Axis y = fitted_axis(true, all_values(series, &Series::y), 0.1);
-  return {fmt::format("Largest error up to T = {:g} against the time step. The triangle has slope 2.", example.t_end),
-          Plot{.stem = example.key + "_order",
-               .title = panel_title(short_title(example.title), "order", quick),
-               .x_label = step_label,
-               .y_label = error_label,
-               .x = step_size_axis(example.step_sizes),
-               .y = y,
-               .series = std::move(series),
-               .slope_two = true}};
+  return finished(fmt::format("Largest error up to T = {:g} against the time step. The triangle has slope 2.",
+                              example.t_end),
+                  Plot{.stem = example.key + "_order",
+                       .title = panel_title(short_title(example.title), "order", quick),
+                       .x_label = step_label,
+                       .y_label = error_label,
+                       .x = step_size_axis(example.step_sizes),
+                       .y = y,
+                       .series = std::move(series),
+                       .slope_two = true});
 }
 
 Panel efficiency_panel(const ExampleResult& example, bool quick) {
   std::vector<Series> series = series_of_rows(example, [](const StudyRow& row) { return row.cpu_seconds; });
   const Axis x = fitted_axis(true, all_values(series, &Series::x), 0.08);
   const Axis y = fitted_axis(true, all_values(series, &Series::y), 0.1);
-  return {"Largest error against the CPU time of the run. Further left and further down is better.",
-          Plot{.stem = example.key + "_efficiency",
-               .title = panel_title(short_title(example.title), "efficiency", quick),
-               .x_label = cpu_label,
-               .y_label = error_label,
-               .x = x,
-               .y = y,
-               .series = std::move(series)}};
+  return finished("Largest error against the CPU time of the run. Further left and further down is better.",
+                  Plot{.stem = example.key + "_efficiency",
+                       .title = panel_title(short_title(example.title), "efficiency", quick),
+                       .x_label = cpu_label,
+                       .y_label = error_label,
+                       .x = x,
+                       .y = y,
+                       .series = std::move(series)});
 }
 
 Panel energy_panel(const ExampleResult& example, bool quick) {
   std::vector<Series> series = series_of_curves(example.energy);
   const Axis y = fitted_axis(falls_by_decades(example.energy), all_values(series, &Series::y));
-  return {fmt::format("Energy H(zⁿ) at h = {}, and the reference as a thin black line. Each method has its markers at "
-                      "times of its own, because the curves lie on top of each other.",
-                      step_text(example.curve_h)),
-          Plot{.stem = example.key + "_energy",
-               .title = panel_title(short_title(example.title), "energy", quick),
-               .x_label = time_label,
-               .y_label = energy_label,
-               .x = time_axis(example),
-               .y = y,
-               .series = std::move(series)}};
+  return finished(
+      fmt::format("Energy H(zⁿ) at h = {}, and the reference as a thin black line. Each method has its markers at "
+                  "times of its own.",
+                  step_text(example.curve_h)),
+      Plot{.stem = example.key + "_energy",
+           .title = panel_title(short_title(example.title), "energy", quick),
+           .x_label = time_label,
+           .y_label = energy_label,
+           .x = time_axis(example),
+           .y = y,
+           .series = std::move(series)});
 }
 
 Panel energy_error_panel(const ExampleResult& example, bool quick) {
@@ -131,7 +156,7 @@ Panel energy_error_panel(const ExampleResult& example, bool quick) {
   for (const Curve& curve : example.energy_errors) envelopes.push_back(upper_envelope(curve));
   std::vector<Series> series = series_of_curves(envelopes);
   const Axis y = fitted_axis(true, all_values(series, &Series::y));
-  return {
+  return finished(
       fmt::format("|H(zⁿ) − H(z(tₙ))| at h = {}: the largest value in each of {} stretches of time, because the error "
                   "passes through zero again and again.",
                   step_text(example.curve_h), envelope_stretches),
@@ -141,14 +166,29 @@ Panel energy_error_panel(const ExampleResult& example, bool quick) {
            .y_label = energy_error_label,
            .x = time_axis(example),
            .y = y,
-           .series = std::move(series)}};
+           .series = std::move(series)});
 }
 
 // A linear one that nearly begins at zero begins there.
 Axis abscissa_axis(bool logarithmic, const std::vector<double>& x) {
   const Axis tight = fitted_axis(logarithmic, x, logarithmic ? 0.06 : 0);
   const bool from_zero = !logarithmic && !tight.empty && tight.low > 0 && tight.low < 0.05 * tight.high;
-  return from_zero ? axis_between(false, 0, tight.high) : tight;
+  return from_zero ? axis_from_zero(tight.high) : tight;
+}
+
+// Moves zeros, which a logarithmic axis cannot show, to a line of their own; false if there are none.
+bool draw_zeros(std::vector<Series>& all, Axis& y) {
+  const AxisWithZero extended = with_zero_line(y);
+  bool any = false;
+  for (Series& series : all) {
+    for (double& value : series.y) {
+      if (value != 0) continue;
+      value = extended.zero;
+      any = true;
+    }
+  }
+  if (any) y = extended.axis;
+  return any;
 }
 
 const ExampleResult* find_example(const PaperResults& results, const std::string& key) {
@@ -237,17 +277,21 @@ Panel side_panel(const SideStudy& study, bool quick) {
   }
   const std::vector<double> x = all_values(all, &Series::x);
   const bool halved = study.log_x && all_powers_of_two(x);
-  const Axis y_axis = fitted_axis(study.log_y, all_values(all, &Series::y), 0.1);
-  return {study.explanation,
-          Plot{.stem = study.key,
-               .title = study.title + (quick ? " (quick run)" : ""),
-               .x_label = gnuplot_text(study.x_label),
-               .y_label = gnuplot_text(study.y_label),
-               .x = halved ? step_size_axis(x) : abscissa_axis(study.log_x, x),
-               .y = y_axis,
-               .series = std::move(all),
-               // Other quantities have no order to compare with.
-               .slope_two = halved && study.log_y && study.y_label.find("error") != std::string::npos}};
+  Axis y_axis = fitted_axis(study.log_y, all_values(all, &Series::y), 0.1);
+  std::string caption = study.explanation;
+  if (study.log_y && !y_axis.empty && draw_zeros(all, y_axis)) {
+    caption += " What is exactly zero stands on the line 0 at the bottom, below the logarithmic axis.";
+  }
+  return finished(std::move(caption),
+                  Plot{.stem = study.key,
+                       .title = study.title + (quick ? " (quick run)" : ""),
+                       .x_label = axis_label(study.x_label),
+                       .y_label = axis_label(study.y_label),
+                       .x = halved ? step_size_axis(x) : abscissa_axis(study.log_x, x),
+                       .y = y_axis,
+                       .series = std::move(all),
+                       // Other quantities have no order to compare with.
+                       .slope_two = halved && study.log_y && study.y_label.find("error") != std::string::npos});
 }
 
 std::vector<Panel> paper_panels(const PaperResults& results) {

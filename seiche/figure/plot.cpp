@@ -14,13 +14,11 @@ namespace seiche {
 namespace {
 
 // Inches.
-constexpr double panel_width = 3.4;
-constexpr double left = 0.58;
-constexpr double right = 0.10;
+constexpr double panel_width = axes_left + axes_width + axes_right;
+constexpr double left = axes_left;
+constexpr double right = axes_right;
 constexpr double top = 0.22;
 constexpr double below_axis = 0.35;  // tick labels and the axis label
-constexpr double axes_height = 1.78;
-constexpr double axes_width = panel_width - left - right;
 constexpr double bottom_margin = 0.05;
 
 constexpr double dots_per_inch = 300;
@@ -41,10 +39,10 @@ std::string terminals(const std::string& stem, double height, const std::string&
 
 // Above the left end of the axes; a long one begins further left.
 std::string title_script(const std::string& title, double y) {
-  constexpr double edge = 0.06;
-  const double widest = panel_width - 2 * edge;
+  constexpr double edge = 0.16;
+  const double widest = panel_width - edge - right;
   const double size = font_size * std::min(1.0, widest / text_width(title, font_size));
-  const double x = std::clamp(panel_width - edge - text_width(title, size), edge, left);
+  const double x = std::clamp(panel_width - right - text_width(title, size), edge, left);
   return fmt::format("set label {} at screen {:.5f},{:.5f} left font ',{:.2f}'\n", gnuplot_text(title), x / panel_width,
                      y, size);
 }
@@ -58,10 +56,10 @@ std::string axis_script(char name, const Axis& axis) {
   return text;
 }
 
-// A data block $name, and the part of the plot command that draws it; "" if nothing of it can be shown.
+// Data blocks $name…, and the parts of the plot command that draw them; "" if nothing of it can be shown.
 struct Drawing {
   std::string data;
-  std::string command;
+  std::string line, markers;
 };
 
 void append_point(std::string& text, double x, double y) {
@@ -81,11 +79,14 @@ Drawing drawing(const Plot& plot, const Series& series, const std::string& block
   }
   if (!line.empty()) {
     result.data += fmt::format("${}l << EOD\n{}EOD\n", block, line);
-    result.command += fmt::format("${}l using 1:2 with lines {}, ", block, gnuplot_line(series.style));
+    result.line = fmt::format("${}l using 1:2 with lines {}, ", block, gnuplot_line(series.style));
   }
   if (!marks.empty() && series.style.marker != Marker::none) {
     result.data += fmt::format("${}m << EOD\n{}EOD\n", block, marks);
-    result.command += fmt::format("${}m using 1:2 with points lc rgb '{}' lw {} {}, ", block, series.style.colour,
+    if (series.style.filled) {
+      result.markers += fmt::format("${}m using 1:2 with points lc rgb 'white' {}, ", block, gnuplot_rim(series.style));
+    }
+    result.markers += fmt::format("${}m using 1:2 with points lc rgb '{}' lw {} {}, ", block, series.style.colour,
                                   std::min(series.style.width, 0.65), gnuplot_marker(series.style));
   }
   return result;
@@ -126,12 +127,19 @@ std::string plot_script(const Plot& plot) {
   std::vector<const Series*> drawn;
   for (const Series& series : plot.series) drawn.push_back(&series);
   std::stable_sort(drawn.begin(), drawn.end(), [](const Series* a, const Series* b) { return a->layer < b->layer; });
-  std::string command;
+  std::vector<Drawing> drawings;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const Drawing one = drawing(plot, *drawn[i], fmt::format("s{}", i));
-    script += one.data;
-    command += one.command;
+    drawings.push_back(drawing(plot, *drawn[i], fmt::format("s{}", i)));
+    script += drawings.back().data;
   }
+  // Markers over all lines, small ones over large ones.
+  std::vector<std::size_t> order(drawn.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return drawn[a]->style.size > drawn[b]->style.size; });
+  std::string command;
+  for (const Drawing& one : drawings) command += one.line;
+  for (const std::size_t i : order) command += drawings[i].markers;
   if (command.empty()) {
     script += "set label 'nothing to show' at graph 0.5,0.5 center textcolor rgb '#707070'\n";
     command = "NaN";

@@ -10,6 +10,17 @@
 
 namespace seiche {
 
+// Of the axes area, and the margins beside it; inches.
+inline constexpr double axes_width = 2.72;
+inline constexpr double axes_height = 1.78;
+inline constexpr double axes_left = 0.58;
+inline constexpr double axes_right = 0.10;
+
+// Layers: the methods, those that the paper proposes, what would vanish under these, references.
+inline constexpr int proposed_layer = 1;
+inline constexpr int coinciding_layer = 2;
+inline constexpr int reference_layer = 3;
+
 struct Series {
   std::string label;  // "" keeps it out of the legend
   LineStyle style;

@@ -46,7 +46,7 @@ std::string links(const Page& page, const std::vector<std::string>& files) {
 
 std::string figure(const Page& page, const Panel& panel) {
   const std::string stem = panel.plot.stem;
-  const std::string caption = "<figcaption>" + html_escaped(panel.caption) + "</figcaption></figure>\n";
+  const std::string caption = "<figcaption>" + html_text(panel.caption) + "</figcaption></figure>\n";
   try {
     const PngPicture png = read_png(page.directory / "figures" / (stem + ".png"));
     return fmt::format(
@@ -68,13 +68,11 @@ std::string page_head(const Page& page) {
 
 std::string summary(const Page& page) {
   const PaperResults& results = page.results;
-  std::vector<std::string> methods;
-  std::size_t runs = 0;
+  std::size_t runs = 0, most = 0, fewest = std::numeric_limits<std::size_t>::max();
   for (const ExampleResult& example : results.examples) {
     runs += example.rows.size();
-    for (const std::string& method : example.methods) {
-      if (std::find(methods.begin(), methods.end(), method) == methods.end()) methods.push_back(method);
-    }
+    most = std::max(most, example.methods.size());
+    fewest = std::min(fewest, example.methods.size());
   }
   std::string text =
       "<h1>The paper’s numerical experiments</h1>\n<p class=\"of\">A unified framework of energy-stable splitting "
@@ -90,10 +88,10 @@ std::string summary(const Page& page) {
             ". Data and verdicts are complete.</p>\n";
   }
   text += fmt::format(
-      "<p>{} with {} were integrated in {} and compared with an independent reference; further studies ({}) look at "
+      "<p>{} with {}{} were integrated in {} and compared with an independent reference; further studies ({}) look at "
       "single points more closely. Of the {} that the paper makes about its experiments:</p>\n",
-      plural(results.examples.size(), "example"), plural(methods.size(), "method"), plural(runs, "run"),
-      results.side_studies.size(), plural(results.verdicts.size(), "claim"));
+      plural(results.examples.size(), "example"), fewest < most ? "up to " : "", plural(most, "method"),
+      plural(runs, "run"), results.side_studies.size(), plural(results.verdicts.size(), "claim"));
   text += "<ul class=\"counts\">";
   for (const Outcome outcome : {Outcome::holds, Outcome::does_not_hold, Outcome::depends}) {
     text += fmt::format("<li><b>{}</b>{}</li>", count_of(results, outcome), outcome_mark(outcome));
@@ -131,7 +129,7 @@ std::string how_measured(const PaperResults& results) {
   for (const ExampleResult& example : results.examples) {
     text += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"words\">{}</td><td>{}</td><td>{}</td></tr>\n",
                         html_escaped(example.title.substr(0, example.title.find_first_of(":,"))),
-                        html_escaped(example.reference), html_number(example.reference_error),
+                        html_text(example.reference), html_number(example.reference_error),
                         html_number(smallest_error(example)));
   }
   return text + "</tbody></table></div>\n";

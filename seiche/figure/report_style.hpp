@@ -37,6 +37,8 @@ nav { display: flex; flex-wrap: wrap; gap: .2rem 1.1rem; }
 .holds { color: var(--holds); background: var(--holds-tint); }
 .fails { color: var(--fails); background: var(--fails-tint); }
 .depends { color: var(--depends); background: var(--depends-tint); }
+.number { white-space: nowrap; }
+.number sup { font-size: .75em; line-height: 0; }
 .scroll { overflow-x: auto; margin: .8rem 0; }
 table { border-collapse: collapse; font-size: .92rem; font-variant-numeric: tabular-nums lining-nums; width: 100%; }
 th, td { padding: .35rem .6rem; text-align: left; vertical-align: top; border-bottom: 1px solid var(--line); }

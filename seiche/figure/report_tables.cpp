@@ -89,7 +89,7 @@ std::string notes(const ExampleResult& example) {
   for (const StudyRow& row : example.rows) {
     const std::string who = fmt::format("{} at h = {}", html_escaped(method_label(row.method)), step_text(row.h));
     if (!row.failure.empty()) {
-      text += fmt::format("<li>{} did not reach the end: {}</li>", who, html_escaped(row.failure));
+      text += fmt::format("<li>{} did not reach the end: {}</li>", who, html_text(row.failure));
     } else if (row.unresolved > 0) {
       text += fmt::format("<li><sup>†</sup> {}: in {} of {} steps the scalar equation was not solved</li>", who,
                           row.unresolved, row.steps);
@@ -130,9 +130,9 @@ std::string verdict_table(const std::vector<Verdict>& verdicts) {
       if (verdict.example != group) continue;
       text +=
           fmt::format("<tr><td>{}</td><td>{}<div class=\"source\">{}</div></td><td>{}{}</td></tr>\n",
-                      outcome_mark(verdict.outcome), html_escaped(verdict.claim), html_escaped(verdict.source),
-                      html_escaped(verdict.measured),
-                      verdict.remark.empty() ? "" : "<div class=\"remark\">" + html_escaped(verdict.remark) + "</div>");
+                      outcome_mark(verdict.outcome), html_text(verdict.claim), html_text(verdict.source),
+                      html_text(verdict.measured),
+                      verdict.remark.empty() ? "" : "<div class=\"remark\">" + html_text(verdict.remark) + "</div>");
     }
     text += "</tbody>\n";
   }
@@ -163,7 +163,7 @@ std::string record_table(const ExampleResult& example) {
   std::string text =
       "<div class=\"scroll\"><table class=\"numbers\">\n<thead><tr><th scope=\"col\">Method</th><th scope=\"col\">h</th>"
       "<th scope=\"col\">steps</th><th scope=\"col\">CPU time (s)</th><th scope=\"col\">energy error</th>"
-      "<th scope=\"col\">largest rise of H</th><th scope=\"col\">of its own energy</th>"
+      "<th scope=\"col\">largest change of H in a step</th><th scope=\"col\">of its own energy</th>"
       "<th scope=\"col\">energy law</th><th scope=\"col\">iterations per step</th><th scope=\"col\">fallbacks</th>"
       "<th scope=\"col\">unsolved</th></tr></thead>\n<tbody>\n";
   for (const std::string& method : example.methods) {

@@ -11,13 +11,14 @@ namespace seiche {
 namespace {
 
 constexpr double thin = 0.8;
-constexpr double heavy = 2.0;
-constexpr double heavy_on_top = 1.3;  // leaves an equal curve of the other proposed method visible at its sides
+constexpr double heavy = 2.4;
+constexpr double heavy_on_top = 1.5;  // leaves an equal curve of the other proposed method visible at its sides
 
 const std::vector<MethodStyle>& table() {
   using enum Marker;
   using enum Dash;
-  // Sizes differ on purpose: methods with the same error would hide each other, nested open markers do not.
+  // Sizes differ on purpose: methods with the same error would hide each other, nested markers do not, since open ones
+  // are seen through and filled ones have a white rim.
   // clang-format off
   static const std::vector<MethodStyle> styles = {
       {"avf",    "AVF",    {"#707070", pentagon,      false, dashed,      thin,  2.20}, false},
@@ -29,9 +30,9 @@ const std::vector<MethodStyle>& table() {
       {"eavf",   "EAVF",   {"#999933", pentagon,      true,  solid,       thin,  1.00}, false},
       {"eisav",  "EISAV",  {"#882255", diamond,       true,  solid,       thin,  1.00}, false},
       {"eilm",   "EILM",   {"#332288", triangle_down, true,  solid,       thin,  1.00}, false},
-      {"seavf",  "SEAVF",  {"#117733", circle,        true,  solid,       thin,  1.25}, false},
+      {"seavf",  "SEAVF",  {"#117733", circle,        true,  solid,       thin,  1.75}, false},
       {"seidm",  "SEIDM",  {"#AA4499", star,          true,  solid,       thin,  1.00}, false},
-      {"seisav", "SEISAV", {"#D55E00", square,        true,  solid,       heavy, 1.00}, true},
+      {"seisav", "SEISAV", {"#D55E00", square,        true,  solid,       heavy, 1.35}, true},
       {"seilm",  "SEILM",  {"#0072B2", triangle,      true,  solid,       heavy_on_top, 0.75}, true},
   };
   // clang-format on
@@ -58,9 +59,12 @@ std::string_view dash_type(Dash dash) {
     case Dash::dashed: return "(9,5)";
     case Dash::dash_dotted: return "(10,4,2,4)";
     case Dash::dotted: return "(2,3)";
+    case Dash::long_dashed: return "(12,12)";
   }
   return "solid";
 }
+
+constexpr double unit = 0.55;  // gnuplot's size of a marker of size 1
 
 // For curves that belong to no method.
 LineStyle neutral_line(int index) {
@@ -106,7 +110,7 @@ LineStyle curve_line(std::string_view curve_name, int nth, int index) {
   if (nth == 0) return line;
   line.dash = nth == 1 ? Dash::dashed : Dash::dotted;
   line.filled = line.filled == (nth > 1);
-  line.size *= nth == 1 ? 1.3 : 0.7;
+  line.size *= nth == 1 ? 1.8 : 0.7;
   line.width = 1.0;
   // Three dashes of one colour are too many to tell apart.
   if (nth > 1) line.colour = "#808080";
@@ -120,8 +124,12 @@ std::string gnuplot_line(const LineStyle& style) {
 }
 
 std::string gnuplot_marker(const LineStyle& style) {
-  constexpr double unit = 0.55;
   return fmt::format("pt {} ps {:.3f}", point_type(style.marker, style.filled), unit * style.size);
+}
+
+std::string gnuplot_rim(const LineStyle& style) {
+  constexpr double rim = 0.10;
+  return fmt::format("pt {} ps {:.3f}", point_type(style.marker, style.filled), unit * style.size + rim);
 }
 
 double text_width(std::string_view text, double font_size) {

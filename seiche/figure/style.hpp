@@ -9,7 +9,7 @@
 namespace seiche {
 
 enum class Marker { none, circle, square, triangle, star, pentagon, diamond, triangle_down };
-enum class Dash { solid, dashed, dash_dotted, dotted };
+enum class Dash { solid, dashed, dash_dotted, dotted, long_dashed };  // the last: over a curve that it coincides with
 
 struct LineStyle {
   std::string colour = "#000000";
@@ -39,9 +39,10 @@ LineStyle curve_line(std::string_view curve_name, int nth, int index);
 
 LineStyle reference_line();
 
-// gnuplot's options for a line or a marker: "lc rgb '#0072B2' lw 1.5 dt solid", "pt 7 ps 0.5".
+// gnuplot's options for a line, a marker and the white one under it: "lc rgb '#0072B2' lw 1.5 dt solid", "pt 7 ps 0.5".
 std::string gnuplot_line(const LineStyle& style);
 std::string gnuplot_marker(const LineStyle& style);
+std::string gnuplot_rim(const LineStyle& style);
 
 // Of a text in DejaVu Sans, near enough to lay out legends and titles; inches, the font size in points.
 double text_width(std::string_view text, double font_size);

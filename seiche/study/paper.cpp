@@ -40,10 +40,10 @@ PaperResults run_paper(const PaperOptions& options) {
     }
     if (!stopped()) {
       tell(0.85, "side studies");
-      results.side_studies = side_studies(results.examples, {.quick = options.quick,
-                                                             .reference = {.stop = options.stop},
-                                                             .threads = options.threads,
-                                                             .stop = options.stop});
+      results.side_studies = side_studies({.quick = options.quick,
+                                           .reference = {.stop = options.stop},
+                                           .threads = options.threads,
+                                           .stop = options.stop});
     }
     if (!stopped()) {
       tell(0.95, "energy laws and verdicts");

@@ -66,7 +66,7 @@ std::vector<Curve> curves(const std::vector<StudyRow>& rows, double (*value)(con
   for (const StudyRow& row : rows) {
     if (result.empty() || result.back().name != row.method) result.push_back({row.method, {}, {}});
     const double y = value(row);
-    if (!row.failure.empty() || !std::isfinite(y) || y <= 0) continue;
+    if (!row.failure.empty() || !std::isfinite(y) || y < 0) continue;
     result.back().t.push_back(row.h);
     result.back().value.push_back(y);
   }
@@ -90,8 +90,8 @@ SideStudy strong_nonlinearity(double mu, const char* key, const char* value_of_m
               "variable unchanged there and so converge to another equation, or to none: their error stops "
               "falling as h falls. Carried along with V across the damping, they are of order two. At the "
               "paper's σ = 0.001 this is nearly hidden.",
-          .x_label = "step size h",
-          .y_label = "max error",
+          .x_label = "time step h",
+          .y_label = "maximal error",
           .curves = curves(rows, error)};
 }
 
@@ -106,22 +106,21 @@ std::vector<SideStudy> fragile_solver(const SideStudyOptions& options) {
            .explanation =
                "As printed, the error of SEILM grows as h falls. With V carried across the damping it falls; "
                "plain Newton still takes roots far from η = 1 now and then, the robust solve does not.",
-           .x_label = "step size h",
-           .y_label = "max error",
+           .x_label = "time step h",
+           .y_label = "maximal error",
            .curves = curves(rows, error)},
           {.key = "gkdv_mu01_seilm_energy_error",
            .title = where + ": energy error of SEILM",
            .explanation = "The same runs, max |H(zⁿ) − H(z(tₙ))|.",
-           .x_label = "step size h",
-           .y_label = "max energy error",
+           .x_label = "time step h",
+           .y_label = "maximal energy error",
            .curves = curves(rows, energy_error)},
           {.key = "gkdv_mu01_seilm_solver",
-           .title = where + ": steps without a root near η = 1",
+           .title = where + ": steps that left the first choice",
            .explanation =
                "Share of the steps in which plain Newton found no root, or in which the robust solve turned to the "
-               "directed multiplier, since near a turning point of V the equation for η is ill-conditioned. A "
-               "curve that is missing is zero at every h.",
-           .x_label = "step size h",
+               "directed multiplier, since near a turning point of V the equation for η is ill-conditioned.",
+           .x_label = "time step h",
            .y_label = "share of steps",
            .curves = curves(rows, unsolved_share)}};
 }
@@ -157,7 +156,7 @@ SideStudy multiplier_over_time(const SideStudyOptions& options) {
                       "conditioned. As printed, η also has to make up for the V that the damping took away. With V "
                       "carried along it leaves 1 only at the turning points of V, where the robust solve takes "
                       "another direction instead.",
-                  .x_label = "time t",
+                  .x_label = "t",
                   .y_label = "|η − 1|",
                   .log_x = false,
                   .curves = {}};
@@ -167,33 +166,10 @@ SideStudy multiplier_over_time(const SideStudyOptions& options) {
   return study;
 }
 
-// CPU time against error of the splitting schemes in both formulations of Example 2.
-SideStudy two_formulations(const std::vector<ExampleResult>& examples) {
-  SideStudy study{.key = "alpha_fpu_formulations",
-                  .title = "Examples 2.1 and 2.2: efficiency of the splitting schemes",
-                  .explanation =
-                      "CPU time against error for both formulations; the exponential schemes gain from γ in S.",
-                  .x_label = "max error",
-                  .y_label = "CPU time [s]",
-                  .curves = {}};
-  for (const ExampleResult& example : examples) {
-    const bool conservative = example.key == "alpha_fpu_conservative";
-    if (!conservative && example.key != "alpha_fpu_dissipative") continue;
-    for (const StudyRow& row : example.rows) {
-      if (row.method == "avf" || row.method == "sav" || !row.failure.empty()) continue;
-      const std::string name = row.method + (conservative ? ", 2.1" : ", 2.2");
-      if (study.curves.empty() || study.curves.back().name != name) study.curves.push_back({name, {}, {}});
-      study.curves.back().t.push_back(row.error);
-      study.curves.back().value.push_back(row.cpu_seconds);
-    }
-  }
-  return study;
-}
-
 }  // namespace
 
-std::vector<SideStudy> side_studies(const std::vector<ExampleResult>& examples, const SideStudyOptions& options) {
-  std::vector<SideStudy> studies{two_formulations(examples)};
+std::vector<SideStudy> side_studies(const SideStudyOptions& options) {
+  std::vector<SideStudy> studies;
   const auto stopped = [&] { return options.stop && options.stop->load(); };
   const auto add = [&](const std::function<std::vector<SideStudy>()>& study) {
     if (stopped()) return;

@@ -14,6 +14,6 @@ struct SideStudyOptions {
 };
 
 // When stopped, returns what was finished.
-std::vector<SideStudy> side_studies(const std::vector<ExampleResult>& examples, const SideStudyOptions& options);
+std::vector<SideStudy> side_studies(const SideStudyOptions& options);
 
 }  // namespace seiche

@@ -95,10 +95,10 @@ void Judge::overall() {
   example_ = "all";
   say("The exact energy decays in every example, as the energy-compatible damping condition says.", "Sections 1 and 5",
       exact_energy_decays(evidence_));
-  say("SEISAV never raises its modified energy, whatever the step size.", "Abstract; Theorem 4.2; Section 6",
-      law_of_seisav(evidence_));
+  say("SEISAV never raises its modified energy, whatever the step size.",
+      "Abstract; Theorem on SEISAV, Section 4.3; Section 6", law_of_seisav(evidence_));
   say("SEILM never raises the energy H itself, whatever the step size, if sym(MD) ⪰ 0.",
-      "Abstract; Theorem 4.3; Section 6", law_of_seilm(evidence_));
+      "Abstract; Theorem on SEILM, Section 4.3; Section 6", law_of_seilm(evidence_));
   say("Without damping the SAV and multiplier schemes conserve their energy exactly if S is skew.", "Propositions 1–6",
       laws_without_damping(evidence_.conserved, true));
   say("Without damping flow they dissipate their energy if S ⪯ 0.", "Propositions 1–6",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace seiche {
 namespace {
@@ -65,10 +66,10 @@ Finding law_of_seisav(const Evidence& evidence) {
   if (repaired && printed && evidence.without_ecld_exact_rise > 0) {
     finding.remark = fmt::format(
         "Where sym(MD) ⪰ 0 but the energy-compatible damping condition fails (gKdV with σ = 1 near a constant state) "
-        "the exact H rises by {:.2g} |H(z₀)|. There the printed H̃ {}, with error {:.2g}; the repaired scheme follows "
+        "the exact H rises by {:.3g} % of |H(z₀)|. There the printed H̃ {}, with error {:.2g}; the repaired scheme follows "
         "the exact energy, with error {:.2g}.",
-        evidence.without_ecld_exact_rise, printed->energy_law_held ? "still falls" : "rises as well", printed->error,
-        repaired->error);
+        100 * evidence.without_ecld_exact_rise, printed->energy_law_held ? "still falls" : "rises as well",
+        printed->error, repaired->error);
     if (!printed->energy_law_held) finding.outcome = Outcome::does_not_hold;
   }
   return finding;
@@ -86,14 +87,15 @@ Finding law_of_seilm(const Evidence& evidence) {
   const StudyRow* repaired = find(evidence.without_ecld, "seilm");
   if (!repaired || evidence.without_ecld_exact_rise <= 0) return finding;
   append(finding.measured,
-         fmt::format("without ECLD the exact H rises by {:.2g} |H(z₀)|, and SEILM (error {:.1e}) follows",
-                     evidence.without_ecld_exact_rise, repaired->error));
+         fmt::format("where the energy-compatible damping condition fails the exact H rises by {:.3g} % of |H(z₀)|, "
+                     "and SEILM (error {:.1e}) follows",
+                     100 * evidence.without_ecld_exact_rise, repaired->error));
   if (finding.outcome == Outcome::holds && !repaired->energy_law_held) finding.outcome = Outcome::depends;
   finding.remark =
       "sym(MD) ⪰ 0 alone is not enough: where D moves what V depends on, the exact H can rise, and then so "
       "does that of any scheme that converges. The energy-compatible damping condition is what is needed.";
   if (const StudyRow* printed = find(evidence.without_ecld, "seilm frozen newton")) {
-    finding.remark += fmt::format(" The printed scheme there: largest rise {:.1e}, error {:.2g}.",
+    finding.remark += fmt::format(" The printed scheme there: largest change of H in a step {:.1e}, error {:.2g}.",
                                   printed->max_energy_increase, printed->error);
   }
   return finding;
@@ -113,8 +115,10 @@ Finding laws_without_damping(const std::vector<LawCheck>& checks, bool conserved
     finding.outcome = Outcome::does_not_hold;
     finding.remark += fmt::format("{}Not: {}.", finding.remark.empty() ? "" : " ", check.scheme);
   }
-  finding.measured = conserved ? fmt::format("largest relative drift {:.1e} in {} runs", drift, runs)
-                               : fmt::format("largest relative rise {:.1e} in {} runs", rise, runs);
+  const double largest = conserved ? drift : rise;
+  const char* what = conserved ? "drift" : "rise";
+  finding.measured = largest > 0 ? fmt::format("largest relative {} {:.1e} in {} runs", what, largest, runs)
+                                 : fmt::format("no {} in {} runs", what, runs);
   return finding;
 }
 
@@ -135,12 +139,21 @@ Finding exact_energy_decays(const Evidence& evidence) {
 
 Finding only_where_a_gradient_form_exists(const Evidence& evidence) {
   Finding finding{Outcome::holds, "", "gKdV has no such form: D acts on a field whose ∇H is not that field."};
+  std::map<std::string, std::string> refusing;  // what is refused, by whom
   for (const ExampleEvidence& example : evidence.examples) {
     std::string names;
-    for (const std::string& name : example.refused) names += (names.empty() ? "" : " ") + name;
-    append(finding.measured, fmt::format("{} refuses {}", example.key, names.empty() ? "none" : names));
+    for (const std::string& name : example.refused) names += (names.empty() ? "" : " and ") + name;
     const bool is_gkdv = example.key.starts_with("gkdv");
-    if ((names == "avf sav") != is_gkdv || (!is_gkdv && !names.empty())) finding.outcome = Outcome::does_not_hold;
+    if ((names == "avf and sav") != is_gkdv || (!is_gkdv && !names.empty())) finding.outcome = Outcome::does_not_hold;
+    if (names.empty()) continue;
+    std::string& who = refusing[names];
+    who += (who.empty() ? "" : " and ") + example.key;
+  }
+  finding.measured = "all accept both";
+  for (const auto& [names, who] : refusing) {
+    finding.measured +=
+        fmt::format("{} {}, which refuse{} {}", finding.measured.ends_with("both") ? ", except" : "; and", who,
+                    who.find(" and ") == std::string::npos ? "s" : "", names);
   }
   return finding;
 }
