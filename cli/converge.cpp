@@ -59,6 +59,8 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
   std::vector<std::string> methods = arguments.methods;
   for (std::string& name : methods) name = without_blanks(name);
   if (methods.empty()) methods = {spec.method};
+  for (auto name = methods.begin(); name != methods.end(); ++name)
+    if (std::find(methods.begin(), name, *name) != name) throw Error("--methods names {} twice", *name);
   std::vector<double> step_sizes;
   for (const std::string& text : arguments.step_sizes) step_sizes.push_back(step_size(text));
   if (step_sizes.empty()) step_sizes = {spec.h, spec.h / 2, spec.h / 4};

@@ -28,6 +28,7 @@ namespace {
 struct RunArguments {
   CaseArgument case_argument;
   std::string directory;
+  bool directory_given = false;
   int threads = 1;
   bool json = false;
   bool quiet = false;
@@ -38,8 +39,10 @@ LawPromise promise(const Simulation& simulation, const RunSpec& spec) {
   if (spec.method_options.auxiliary == AuxiliaryMode::refresh) {
     return {false, "auxiliary = \"refresh\" resets r after the damping, and the modified energy may rise there"};
   }
-  if (spec.method_options.scalar_solver == ScalarSolver::newton) {
-    return {false, "scalar_solver = \"newton\" accepts steps whose scalar equation it did not solve"};
+  const bool lm = simulation.method().closure == ClosureKind::lm;
+  const bool frozen = spec.method_options.auxiliary == AuxiliaryMode::frozen;
+  if (spec.method_options.scalar_solver == ScalarSolver::newton || (lm && frozen)) {
+    return {false, "plain Newton accepts steps whose scalar equation it did not solve"};
   }
   return promise_energy_law(simulation.problem(), spec.t_end);
 }
@@ -47,6 +50,13 @@ LawPromise promise(const Simulation& simulation, const RunSpec& spec) {
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// γ ≥ 0 was sampled before the run; the run itself looks closer.
+std::string negative_rate(const Problem& problem) {
+  const RatePointer& rate = problem.damping.rate;
+  if (!rate || rate->negative_seen() < 0) return "";
+  return fmt::format("the rate {} is negative at t = {:.6g}", rate->text(), rate->negative_seen());
 }
 
 ExitCode exit_code(const RunReport& report) {
@@ -59,9 +69,9 @@ ExitCode exit_code(const RunReport& report) {
 }
 
 ExitCode run(const RunArguments& arguments) {
-  const std::atomic<bool>& stop = stop_on_signal();
   RunSpec spec = load_case(arguments.case_argument);
-  if (!arguments.directory.empty()) spec.output_directory = arguments.directory;
+  if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
+  if (arguments.directory_given) spec.output_directory = arguments.directory;
   if (arguments.threads > 1) {
     print_note(fmt::format("--threads {}: a single run uses one thread in this version", arguments.threads));
   }
@@ -71,6 +81,7 @@ ExitCode run(const RunArguments& arguments) {
   const Problem problem = make_problem(spec);
   Simulation simulation(problem, simulation_options(spec));
   const LawPromise law = promise(simulation, spec);
+  const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
   const std::string remarks = notes(spec, problem);
   if (!remarks.empty() && !arguments.quiet) print_note(remarks);
 
@@ -85,7 +96,11 @@ ExitCode run(const RunArguments& arguments) {
   std::vector<Observer*> observers = {&trace, &snapshots};
   if (ProgressBar::is_wanted(arguments.quiet)) observers.push_back(&progress);
 
-  const IntegrateOptions options{.h = spec.h, .t_end = spec.t_end, .law = law, .stop = &stop};
+  const IntegrateOptions options{.h = spec.h,
+                                 .t_end = spec.t_end,
+                                 .law = law,
+                                 .objection = [&] { return negative_rate(simulation.problem()); },
+                                 .stop = &stop};
   RunReport report = integrate(simulation.system(), simulation.stepper(), simulation.state(), options, observers);
   if (!remarks.empty()) report.message += "; " + remarks;
 
@@ -118,14 +133,18 @@ void add_run(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("run", "Run one case; its report goes to stderr, with --json its summary to stdout");
   add_case(*command, arguments->case_argument);
-  command->add_option("--out", arguments->directory, "Where the files go, instead of output.directory")
-      ->type_name("DIR");
+  CLI::Option* out =
+      command->add_option("--out", arguments->directory, "Where the files go, instead of output.directory")
+          ->type_name("DIR");
   command->add_option("--threads", arguments->threads, "Threads (a single run uses one)")
       ->type_name("N")
       ->check(CLI::Range(1, 65536));
   command->add_flag("--json", arguments->json, "Print summary.json on stdout");
   command->add_flag("--quiet", arguments->quiet, "No progress bar, and a word only when something went wrong");
-  command->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+  command->callback([arguments, out, &action] {
+    arguments->directory_given = out->count() > 0;
+    action = [arguments] { return run(*arguments); };
+  });
 }
 
 }  // namespace seiche::cli

@@ -1,9 +1,9 @@
 // The program as its users meet it: exit codes, sentences, files and stdout.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <seiche/backend/backends.hpp>
 #include <seiche/method/methods.hpp>
@@ -34,13 +34,15 @@ struct Result {
 };
 
 class Cli : public testing::Test {
+ public:
+  ~Cli() override { fs::remove_all(directory); }
+
  protected:
   Cli() {
     std::string name = (fs::temp_directory_path() / "seiche_cli_XXXXXX").string();
     if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory " + name);
     directory = name;
   }
-  ~Cli() override { fs::remove_all(directory); }
 
   // `arguments` as a shell would split them, in the temporary directory.
   Result seiche(const std::string& arguments, const std::string& before = "") const {
@@ -184,6 +186,28 @@ TEST_F(Cli, ForgottenQuotesAreShownInTheLineWithAHint) {
 TEST_F(Cli, AStepSizeThatWouldFillTheDiskIsRefused) {
   write_case();
   EXPECT_THAT(refused("run case.toml --out out --set method.h=1e-12"), HasSubstr("energy_every"));
+}
+
+TEST_F(Cli, ARateThatDipsBelowZeroBetweenSamplesIsNoViolation) {
+  write_case("gamma = \"0.1-50*exp(-(t-0.5123)^2*1e8)\"\nalpha = 1.0");
+  const Result result = seiche("run case.toml --out out");
+  EXPECT_EQ(result.exit, 0) << result.err;
+  EXPECT_THAT(result.err, AllOf(HasSubstr("is negative at t = 0.512"), Not(HasSubstr("violated"))));
+}
+
+TEST_F(Cli, APoleOfTheRateFailsTheRun) {
+  write_case("gamma = \"1/(t-0.5031)^2\"");
+  const Result result = seiche("run case.toml --out out");
+  EXPECT_EQ(result.exit, 1);
+  EXPECT_THAT(result.err, HasSubstr("after t = 0.5"));
+}
+
+TEST_F(Cli, WhatIsNoFileOfNumbersAndWhatDrownsTheEnergyIsRefused) {
+  write_case();
+  EXPECT_THAT(refused("run case.toml --out out --set 'problem.initial={file=\"/dev/zero\"}'"), HasSubstr("/dev/zero"));
+  EXPECT_THAT(refused("run case.toml --out out --set method.C=1e300"), HasSubstr("round-off"));
+  EXPECT_THAT(refused("run case.toml --out ''"), HasSubstr("--out"));
+  EXPECT_THAT(refused("converge case.toml --methods seisav,seisav --h 1/8"), HasSubstr("twice"));
 }
 
 TEST_F(Cli, InitialFilesAreRefusedWithLineOrCounts) {

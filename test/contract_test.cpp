@@ -25,6 +25,12 @@ std::vector<Setting> settings() {
   return list;
 }
 
+// The largest entry of F + Fᵀ + FᵀMF in units of the terms: 0 for skew S.
+double skew_defect(const Matrix& F, const Matrix& M) {
+  const Matrix FMF = F.transpose() * M * F;
+  return (F + F.transpose() + FMF).cwiseAbs().maxCoeff() / (F.cwiseAbs().maxCoeff() + FMF.cwiseAbs().maxCoeff());
+}
+
 template <class Check>
 void for_every_propagator(const Check& check) {
   for (const Setting& setting : settings()) {
@@ -46,12 +52,12 @@ TEST(Contract, FPlusItsAdjointPlusFMFVanishesForSkewSAndIsNegativeOtherwise) {
   for_every_propagator([](const Setting& setting, const System& system, const Propagator& propagator, double) {
     const Matrix F = matrix_of(system, [&](const Vector& x, Vector& y) { propagator.force(x, y); });
     const Matrix M = matrix_of(system, [&](const Vector& x, Vector& y) { system.linear->apply_M(x, y); });
-    const Matrix FMF = F.transpose() * M * F;
-    const Matrix defect = F + F.transpose() + FMF;
-    const double size = F.cwiseAbs().maxCoeff() + FMF.cwiseAbs().maxCoeff();
     if (setting.skew) {
-      EXPECT_LE(defect.cwiseAbs().maxCoeff(), 1e-13 * size);
+      EXPECT_LE(skew_defect(F, M), 1e-13);
     } else {
+      const Matrix FMF = F.transpose() * M * F;
+      const Matrix defect = F + F.transpose() + FMF;
+      const double size = F.cwiseAbs().maxCoeff() + FMF.cwiseAbs().maxCoeff();
       const double largest =
           Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (defect + defect.transpose())).eigenvalues().maxCoeff();
       EXPECT_LE(largest, 1e-13 * size);
@@ -107,13 +113,32 @@ TEST(Contract, PhiOneOnTheImaginaryAxisIsThatOfSineAndCosine) {
   }
 }
 
-TEST(Contract, TheMatrixCheckSeesAWrongPhi) {
-  // The same check on F with the real part of φ₁ alone (a classic mistake) must fail.
+TEST(Contract, TheCheckOfTheContractSeesAWrongPhi) {
+  // Re φ₁ alone, a classic mistake, and φ₁ with one wrong coefficient.
   const Problem p = duffing_case(0.0);
   const Matrix S = p.S.matrix(p.grid);
+  const Matrix M = p.M.matrix(p.grid);
   const double h = 0.5;
-  const Matrix wrong = std::sin(h) * S;  // Re φ₁(ih) h S
-  EXPECT_GT((wrong + wrong.transpose() + wrong.transpose() * wrong).cwiseAbs().maxCoeff(), 1e-2);
+  EXPECT_GT(skew_defect(std::sin(h) * S, M), 1e-2);
+  EXPECT_GT(skew_defect(h * S + h * h / 2.1 * S * M * S, M), 1e-3);
+}
+
+TEST(Contract, TheCayleyPropagatorIsCrankNicolson) {
+  for (const Setting& setting : settings()) {
+    const Matrix A = setting.problem.S.matrix(setting.problem.grid) * setting.problem.M.matrix(setting.problem.grid);
+    const Matrix I = Matrix::Identity(A.rows(), A.cols());
+    for (const BackendEntry& backend : backends()) {
+      const System system = backend.system(setting.problem, {});
+      for (const double h : {1.0 / 64, 0.1, 1.0, 10.0}) {
+        const auto propagator = system.linear->propagator(PropagatorKind::cayley, h);
+        const Matrix E = I + matrix_of(system, [&](const Vector& x, Vector& y) { propagator->increment(x, y); });
+        const Matrix left = (I - h / 2 * A) * E;
+        EXPECT_LE((left - (I + h / 2 * A)).cwiseAbs().maxCoeff(),
+                  1e-13 * (1 + h * A.cwiseAbs().maxCoeff()) * E.cwiseAbs().maxCoeff())
+            << setting.name << backend.name << h;
+      }
+    }
+  }
 }
 
 }  // namespace

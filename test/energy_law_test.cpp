@@ -60,7 +60,7 @@ TEST(EnergyLaw, NoStepOfAnyMethodRaisesItsEnergyAtAnyStepSize) {
   }
   RecordProperty("runs", runs);
   RecordProperty("finished", finished);
-  EXPECT_GT(finished, runs * 3 / 4);
+  EXPECT_GE(finished, runs - runs / 50);  // a few of avf and lm at h = 10 say that they did not solve
 }
 
 TEST(EnergyLaw, WithoutDampingEveryMethodKeepsItsEnergyToTwelveDigits) {

@@ -10,7 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
+#include <cstdlib>
 
 #include <cmath>
 #include <fstream>
@@ -118,13 +118,15 @@ bool have_gnuplot() {
 }
 
 class Figures : public testing::Test {
+ public:
+  ~Figures() override { fs::remove_all(directory); }
+
  protected:
   Figures() {
     std::string name = (fs::temp_directory_path() / "seiche_figure_XXXXXX").string();
     if (!mkdtemp(name.data())) throw Error("no temporary directory {}", name);
     directory = name;
   }
-  ~Figures() override { fs::remove_all(directory); }
 
   std::string report() const { return text_of(directory / "report.html"); }
 

@@ -48,6 +48,7 @@ TEST(Order, IsTwoWithRefreshedAuxiliaryAndWithDampingThatVariesInTime) {
     }
     bool is_constant() const override { return false; }
     double first_negative_time(double) const override { return -1; }
+    double negative_seen() const override { return -1; }
     std::string text() const override { return "0.4 + 0.3*sin(3*t)"; }
   };
   p.damping.rate = std::make_shared<Wave>();

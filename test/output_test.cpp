@@ -26,13 +26,15 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 class Output : public testing::Test {
+ public:
+  ~Output() override { fs::remove_all(directory); }
+
  protected:
   Output() {
     std::string name = (fs::temp_directory_path() / "seiche_output_XXXXXX").string();
     if (!mkdtemp(name.data())) throw Error("no temporary directory {}", name);
     directory = name;
   }
-  ~Output() override { fs::remove_all(directory); }
 
   std::string text(const char* name) const {
     std::ifstream in(directory / name);

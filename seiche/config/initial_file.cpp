@@ -23,8 +23,9 @@ double read_token(const std::string& token, const std::filesystem::path& file, s
 }  // namespace
 
 Vector read_initial_file(const std::filesystem::path& file, const Problem& problem) {
+  if (!std::filesystem::is_regular_file(file)) throw Error("{} is not a file of numbers", file.string());
   std::ifstream input(file);
-  if (!input || std::filesystem::is_directory(file)) throw Error("{} cannot be read", file.string());
+  if (!input) throw Error("{} cannot be read", file.string());
   Vector z(problem.size());
   Index count = 0;
   std::string text;

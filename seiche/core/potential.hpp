@@ -50,7 +50,6 @@ class Potential {
 
   void gradient(const Vector& z, Vector& out) const { value_and_gradient(z, out); }
   const Counts& counts() const { return counts_; }
-  void reset_counts() const { counts_ = {}; }
 
  protected:
   mutable Counts counts_;  // work done, for reports; not part of the value of V

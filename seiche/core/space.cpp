@@ -8,6 +8,4 @@ Vector Space::physical(const Vector& z) const {
   return values;
 }
 
-double Space::norm_inf(const Vector& z) const { return physical(z).lpNorm<Eigen::Infinity>(); }
-
 }  // namespace seiche

@@ -14,9 +14,7 @@ class Space {
   virtual void to_physical(const Vector& z, Vector& values) const = 0;
   virtual void from_physical(const Vector& values, Vector& z) const = 0;
 
-  double dot(const Vector& a, const Vector& b) const { return a.dot(b); }
   Vector physical(const Vector& z) const;
-  double norm_inf(const Vector& z) const;  // of the physical values
 };
 
 }  // namespace seiche

@@ -27,12 +27,13 @@ struct EnergyReading {
   double modified_round_off = 0.0;
 };
 
+// `step` allocates nothing for an h seen before, unless an implicit equation needs its Newton–Krylov fallback.
 // Contract: a step that reports success obeys the method's energy law; a step that fails leaves the state as it was.
 class Stepper {
  public:
   virtual ~Stepper() = default;
   virtual void begin(State& state) = 0;                 // fills what the method keeps beside z and t
-  virtual StepReport step(State& state, double h) = 0;  // from t to t + h; allocates nothing for an h seen before
+  virtual StepReport step(State& state, double h) = 0;  // from t to t + h
   virtual EnergyReading energy(const State& state) const = 0;
   virtual bool has_modified_energy() const = 0;
 };

@@ -4,7 +4,10 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace seiche {
@@ -30,6 +33,7 @@ class AdaptiveIntegral {
 
  private:
   static constexpr double tolerance = 1e-14;
+  static constexpr double loose = 1e-8;
   struct Estimate {
     double value, error, magnitude;  // magnitude: ∫|f|, so that a change of sign is no reason to refine
   };
@@ -46,7 +50,13 @@ class AdaptiveIntegral {
 
   double refined(const Estimate& e, double a, double b, int depth) {
     const bool good = !(e.error > tolerance * e.magnitude && e.error > allowed_error_);  // also for NaN
-    if (good || depth == 0 || --halvings_left_ < 0) return e.value;
+    if (good) return e.value;
+    if (depth == 0 || --halvings_left_ < 0) {
+      // Round-off above the tolerance may end here, a pole does: then there is no integral.
+      return e.error <= loose * std::max(e.magnitude, allowed_error_ / tolerance)
+                 ? e.value
+                 : std::numeric_limits<double>::quiet_NaN();
+    }
     const double middle = (a + b) / 2;
     const double left = refined(estimate(a, middle), a, middle, depth - 1);
     return left + refined(estimate(middle, b), middle, b, depth - 1);
@@ -65,6 +75,7 @@ class ConstantRate final : public Rate {
   double integral(double, double h) const override { return gamma_ * h; }
   bool is_constant() const override { return true; }
   double first_negative_time(double) const override { return gamma_ < 0 ? 0.0 : never; }
+  double negative_seen() const override { return gamma_ < 0 ? 0.0 : never; }
   std::string text() const override { return fmt::format("{}", gamma_); }
 
  private:
@@ -77,12 +88,17 @@ class FormulaRate final : public Rate {
     if (formula_->polynomial()) degree_ = static_cast<int>(formula_->polynomial()->size()) - 1;
   }
 
-  double value(double t) const override { return (*formula_)(t); }
+  double value(double t) const override {
+    const double gamma = (*formula_)(t);
+    if (gamma < 0) negative_seen_.store(t, std::memory_order_relaxed);
+    return gamma;
+  }
 
   // Every rule has positive weights, so that γ ≥ 0 gives ∫γ ≥ 0 to the last bit; the antiderivative of a polynomial
   // would not. On s ∈ [0, 1] with t + sh, since (t + h) − t loses the digits of h once t ≫ h.
   double integral(double t, double h) const override {
-    const auto gamma = [&](double s) { return (*formula_)(std::fma(s, h, t)); };
+    const auto gamma = [&](double s) { return value(std::fma(s, h, t)); };
+    if (!std::isfinite(value(t)) || !std::isfinite(value(t + h))) return std::numeric_limits<double>::quiet_NaN();
     if (degree_ > 0 && degree_ <= 13) return h * gauss<double, 7>::integrate(gamma, 0.0, 1.0);   // exact to 2n − 1
     if (degree_ > 0 && degree_ <= 59) return h * gauss<double, 30>::integrate(gamma, 0.0, 1.0);  // likewise
     return h * AdaptiveIntegral(gamma)();
@@ -99,10 +115,12 @@ class FormulaRate final : public Rate {
     return never;
   }
 
+  double negative_seen() const override { return negative_seen_.load(std::memory_order_relaxed); }
   std::string text() const override { return formula_->text(); }
 
  private:
   FormulaPointer formula_;
+  mutable std::atomic<double> negative_seen_ = never;
   int degree_ = -1;  // −1: not a polynomial
 };
 

@@ -24,8 +24,8 @@ Axis fitted_axis(bool logarithmic, std::span<const double> values, double margin
 Axis axis_between(bool logarithmic, double low, double high);
 // A logarithmic one with a line "0" below its smallest value, where `zero` is drawn.
 struct AxisWithZero {
-  Axis axis;
-  double zero;
+  Axis axis = {};
+  double zero = 0.0;
 };
 AxisWithZero with_zero_line(const Axis& axis);
 // From zero to `high`, or to a round number that lies only a little beyond.

@@ -80,7 +80,7 @@ class Gnuplot {
   std::string finish() {
     wait();
     if (WIFEXITED(status_) && WEXITSTATUS(status_) == 0) return "";
-    const std::string said = message();
+    std::string said = message();
     if (!said.empty()) return said;
     return WIFSIGNALED(status_) ? "ended by signal " + std::to_string(WTERMSIG(status_))
                                 : "exit code " + std::to_string(WEXITSTATUS(status_));

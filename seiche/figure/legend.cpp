@@ -54,7 +54,8 @@ std::string Legend::script(double top, double panel_height) const {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Series& entry = entries_[i];
     const double x = side_margin + pitch * static_cast<double>(i % columns_);
-    const double y = (top - row_height * (static_cast<double>(i / columns_) + 0.5)) / panel_height;
+    const std::size_t row = i / columns_;
+    const double y = (top - row_height * (static_cast<double>(row) + 0.5)) / panel_height;
     const auto across = [&](double inches) { return (x + inches) / panel_width_; };
     text += fmt::format("set arrow from screen {:.4f},{:.4f} to screen {:.4f},{:.4f} nohead front {}\n", across(0), y,
                         across(sample_width), y, gnuplot_line(entry.style));

@@ -33,8 +33,8 @@ std::vector<std::string> method_names();
 const MethodEntry& find_method(std::string_view name);  // throws Error with the nearest name
 
 struct MethodOptions {
-  std::optional<double> C;  // sav: the shift; automatic if not given
-  AuxiliaryMode auxiliary = AuxiliaryMode::transport;
+  std::optional<double> C;                             // sav: the shift; automatic if not given
+  AuxiliaryMode auxiliary = AuxiliaryMode::transport;  // frozen, in the lm family, always solves by plain Newton
   ScalarSolver scalar_solver = ScalarSolver::robust;
 
   // Throws Error where an option other than its default has no meaning for the method, with the reason.

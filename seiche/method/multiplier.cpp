@@ -32,8 +32,10 @@ void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
   const Potential::Support support = potential_.support();
   const double sizes = line.g.norm() * line.delta.segment(support.begin, support.size).norm();
   cosine_ = sizes > 0 ? gd_ / sizes : 0;
-  scales_ = {absolute_dot(mean_, line.delta) + absolute_dot(line.g, line.delta),
-             absolute_dot(mean_, line.q) + absolute_dot(line.g, line.q) + absolute_dot(line.e, line.delta),
+  const double work =
+      measured_at ? (mean_.array() * (end - start).array()).abs().sum() : absolute_dot(mean_, line.delta);
+  scales_ = {work + absolute_dot(line.g, line.delta),
+             absolute_dot(mean_, direction) + absolute_dot(line.g, line.q) + absolute_dot(line.e, line.delta),
              absolute_dot(line.e, line.q)};
 
   if (coefficients_.empty()) {

@@ -33,7 +33,7 @@ class MultiplierEquation {
   struct Value {
     double F;
     double slope;
-    double scale;  // size of the terms that F is the difference of
+    double scale;  // of the terms that F is the difference of: an upper bound, by |δ₁| + |x||q| for |δ(x)|
     bool is_resolved() const { return std::abs(F) <= 4 * epsilon * scale + std::numeric_limits<double>::min(); }
     // The terms themselves underflow: a solution that has decayed to nothing has no multiplier to find.
     bool is_negligible() const { return scale <= std::numeric_limits<double>::min() / epsilon; }

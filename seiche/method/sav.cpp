@@ -39,6 +39,11 @@ void SavClosure::begin(State& s) {
   s.energy_scale = system().linear->quadratic_energy(s.z) + std::abs(v);
   s.shift = given_C_.value_or(s.energy_scale > 0 ? 2 * s.energy_scale : 1.0);
   s.r_squared = v + s.shift;
+  constexpr double largest = 1e10;
+  if (std::abs(s.shift) > largest * std::max(s.energy_scale, 1e-300) && given_C_) {
+    throw Error("C = {} drowns the energy {:.6g} in round-off; at most {:.3g} makes sense, and C = \"auto\" is good",
+                s.shift, s.energy_scale, largest * s.energy_scale);
+  }
   if (!(s.r_squared > 0)) {
     throw Error("C = {} is too small: V(z₀) + C = {:.6g} must be > 0; C = {:.6g} would do, or C = \"auto\"", s.shift,
                 s.r_squared, 2 * s.energy_scale);

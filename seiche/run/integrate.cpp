@@ -63,6 +63,7 @@ class Run {
     report_.steps = state_.n - first_n_;
     report_.t = state_.t;
     book_.write_to(report_);
+    hear_objection();
     const Potential::Counts after = system_.potential->counts();
     report_.potential_counts = {after.gradients - before.gradients, after.values - before.values};
     complete_message();
@@ -147,6 +148,14 @@ class Run {
   void interrupt() {
     report_.status = RunReport::Status::interrupted;
     report_.message = fmt::format("stopped at t = {:.9g} (step {}) of {:.9g}", state_.t, state_.n, grid_.end);
+  }
+
+  void hear_objection() {
+    if (report_.law == LawVerdict::not_promised || !options_.objection) return;
+    const std::string reason = options_.objection();
+    if (reason.empty()) return;
+    report_.law = LawVerdict::not_promised;
+    report_.law_reason = reason;
   }
 
   void complete_message() {

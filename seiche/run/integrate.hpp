@@ -5,7 +5,9 @@
 #include <seiche/core/system.hpp>
 
 #include <atomic>
+#include <functional>
 #include <span>
+#include <string>
 
 namespace seiche {
 
@@ -13,6 +15,8 @@ struct IntegrateOptions {
   double h = 0.0;
   double t_end = 0.0;
   LawPromise law = {};
+  // Asked when the run ends: why the promise is withdrawn after all, or "".
+  std::function<std::string()> objection = {};
   const std::atomic<bool>* stop = nullptr;  // set by a signal handler: the run ends after the current step
 };
 

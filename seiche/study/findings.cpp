@@ -248,20 +248,32 @@ Finding comparable(Rows rows, const Names& methods, Value value, double factor, 
           largest <= factor ? "" : fmt::format("Farther apart than a factor {:g}.", factor)};
 }
 
+// A pair that could not be compared leaves the claim open at best.
+Finding with_missing(Finding finding, const std::vector<std::string>& missing) {
+  if (missing.empty()) return finding;
+  if (finding.outcome == Outcome::holds) finding.outcome = Outcome::depends;
+  finding.remark += fmt::format("{}Not measured: {}.", finding.remark.empty() ? "" : " ", joined(missing, ", "));
+  return finding;
+}
+
 Finding cheaper(Rows rows, const Pairs& cheap_and_dear) {
+  std::vector<std::string> missing;
   std::vector<Judged> judged;
   for (const auto& [cheap, dear] : cheap_and_dear) {
-    if (const std::optional<Ratio> r = ratio(rows, dear, rows, cheap, cpu_of)) judged.push_back({cheap, dear, r->mean});
+    const std::optional<Ratio> r = ratio(rows, dear, rows, cheap, cpu_of);
+    r ? judged.push_back({cheap, dear, r->mean}) : missing.push_back(fmt::format("{}/{}", cheap, dear));
   }
-  return judge_pairs(std::move(judged), clear_ratio, Quantifier::most, "CPU time at equal h");
+  return with_missing(judge_pairs(std::move(judged), clear_ratio, Quantifier::most, "CPU time at equal h"), missing);
 }
 
 Finding more_efficient(Rows rows, const Pairs& fast_and_slow, double factor, Quantifier quantifier) {
+  std::vector<std::string> missing;
   std::vector<Judged> judged;
   for (const auto& [fast, slow] : fast_and_slow) {
-    if (const std::optional<double> r = speed_ratio(rows, slow, fast)) judged.push_back({fast, slow, *r});
+    const std::optional<double> r = speed_ratio(rows, slow, fast);
+    r ? judged.push_back({fast, slow, *r}) : missing.push_back(fmt::format("{}/{}", fast, slow));
   }
-  return judge_pairs(std::move(judged), factor, quantifier, "CPU time to equal error");
+  return with_missing(judge_pairs(std::move(judged), factor, quantifier, "CPU time to equal error"), missing);
 }
 
 Finding monotone(Rows rows, double initial_energy) {

@@ -1,3 +1,4 @@
+#include <seiche/core/error.hpp>
 #include <seiche/study/physical_equation.hpp>
 
 #include <algorithm>
@@ -5,6 +6,10 @@
 namespace seiche {
 
 PhysicalEquation::Rows PhysicalEquation::rows(const BlockStencil& stencil, const Grid& grid) {
+  constexpr Index most = 8192;  // the matrix below is full before its zeros go
+  if (stencil.fields() * grid.unknowns() > most)
+    throw Error("a reference solution is computed for up to {} unknowns, and there are {}; choose fewer points", most,
+                stencil.fields() * grid.unknowns());
   Rows rows;
   const Eigen::MatrixXd matrix = stencil.matrix(grid);
   for (Index i = 0; i < matrix.rows(); ++i) {

@@ -62,6 +62,9 @@ class Judge {
   Finding splitting_helps_the_energy(const ExampleResult& of) const;
   Finding smaller_in_2_2(Value value, double below, double about) const;
   std::string why_times_differ(const ExampleResult& of) const;
+  Finding efficient_with_either_solver(const ExampleResult& of,
+                                       const std::vector<std::pair<std::string, std::string>>& pairs, double factor,
+                                       Quantifier quantifier = Quantifier::every) const;
 
   const PaperResults& results_;
   const Evidence& evidence_;
@@ -89,6 +92,28 @@ std::string Judge::why_times_differ(const ExampleResult& of) const {
     text += fmt::format("; with the paper's plain Newton it takes {:.2f} of that time", r->mean);
   }
   return text + ".";
+}
+
+// The paper solves for η by plain Newton and Seiche by its robust solver: a claim about SEILM's efficiency is refuted only
+// where both refute it.
+Finding Judge::efficient_with_either_solver(const ExampleResult& of,
+                                            const std::vector<std::pair<std::string, std::string>>& pairs,
+                                            double factor, Quantifier quantifier) const {
+  Finding robust = more_efficient(of.rows, pairs, factor, quantifier);
+  std::vector<StudyRow> rows;
+  for (const StudyRow& row : of.rows)
+    if (row.method != "seilm") rows.push_back(row);
+  for (StudyRow row : evidence(of.key).others) {
+    if (row.method != "seilm newton") continue;
+    row.method = "seilm";
+    rows.push_back(std::move(row));
+  }
+  const Finding newton = more_efficient(rows, pairs, factor, quantifier);
+  robust.measured += "; with the paper's plain Newton " + newton.measured;
+  if (robust.outcome == newton.outcome) return robust;
+  robust.remark += fmt::format("{}With plain Newton: {}.", robust.remark.empty() ? "" : " ", to_string(newton.outcome));
+  robust.outcome = Outcome::depends;
+  return robust;
 }
 
 void Judge::overall() {
@@ -148,7 +173,8 @@ void Judge::klein_gordon() {
   say("The SAV- and multiplier-based methods cost less than the others.", "Figure 1, right",
       noted(cheaper(rows, all_pairs(auxiliary_based, averaged)), why_times_differ(of)));
   say("SEISAV and SEILM are substantially more efficient than all others.", "Figure 1, right",
-      noted(more_efficient(rows, all_pairs(proposed, without(of.methods, proposed)), 1.5), why_times_differ(of)));
+      noted(efficient_with_either_solver(of, all_pairs(proposed, without(of.methods, proposed)), 1.5),
+            why_times_differ(of)));
   say("The energy H decays monotonically for all methods.", "Figure 2, left",
       monotone(rows, evidence(of.key).initial_energy));
   say("AVF drifts from the reference energy, and SAVF follows it much more closely.", "Figure 2, right",
@@ -167,9 +193,10 @@ void Judge::alpha_fpu_conservative() {
   say("The exponential methods are more accurate than the others at every step size.", "Figure 3, left",
       more_accurate(rows, exponential, without(of.methods, exponential)));
   say("The SAV- and multiplier-based methods are more efficient, each against its AVF counterpart.", "Figure 3, right",
-      noted(more_efficient(rows, twins, clear_ratio, Quantifier::most), why_times_differ(of)));
+      noted(efficient_with_either_solver(of, twins, clear_ratio, Quantifier::most), why_times_differ(of)));
   say("SEISAV and SEILM are the two most efficient.", "Figure 3, right",
-      noted(more_efficient(rows, all_pairs(proposed, without(of.methods, proposed))), why_times_differ(of)));
+      noted(efficient_with_either_solver(of, all_pairs(proposed, without(of.methods, proposed)), clear_ratio),
+            why_times_differ(of)));
   say("The energy H decays monotonically.", "Figure 4, left", monotone(rows, evidence(of.key).initial_energy));
   say("SEILM, SEISAV and SEAVF have comparable energy errors.", "Figure 4, right",
       comparable(rows, exponential, energy_error_of, 1.5, "energy error"));
@@ -208,7 +235,8 @@ void Judge::alpha_fpu_dissipative() {
   const ExampleResult& first = example("alpha_fpu_conservative");
   const Names splitting = without(of.methods, {"avf", "sav"});
   const auto in_both = [&](const std::vector<std::pair<std::string, std::string>>& pairs) {
-    Finding in_first = more_efficient(first.rows, pairs), in_second = more_efficient(of.rows, pairs);
+    Finding in_first = efficient_with_either_solver(first, pairs, clear_ratio);
+    Finding in_second = efficient_with_either_solver(of, pairs, clear_ratio);
     for (auto [finding, label] : {std::pair(&in_first, "2.1: "), std::pair(&in_second, "2.2: ")}) {
       finding->measured = label + finding->measured;
       if (!finding->remark.empty()) finding->remark = label + finding->remark;
@@ -236,7 +264,8 @@ void Judge::gkdv() {
       noted(more_efficient(rows, all_pairs({"seisav"}, of.methods), 1.5), why_times_differ(of)));
   say("SEILM is less efficient than SEISAV.", "Figure 6, right", more_efficient(rows, {{"seisav", "seilm"}}));
   say("SEILM is more efficient than the other methods.", "Figure 6, right",
-      noted(more_efficient(rows, all_pairs({"seilm"}, without(of.methods, proposed))), why_times_differ(of)));
+      noted(efficient_with_either_solver(of, all_pairs({"seilm"}, without(of.methods, proposed)), clear_ratio),
+            why_times_differ(of)));
   say("All methods show monotone decay of H.", "Figure 7, left", monotone(rows, evidence(of.key).initial_energy));
   say("SEILM tracks the reference energy more closely than SEISAV.", "Figure 7, right",
       smaller(rows, "seilm", "seisav", energy_error_of, "energy error"));

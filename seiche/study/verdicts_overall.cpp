@@ -158,6 +158,8 @@ Finding only_where_a_gradient_form_exists(const Evidence& evidence) {
   return finding;
 }
 
+constexpr double reference_share = 0.01;  // of the smallest error that a reference judges
+
 Finding paper_reference_suffices(const PaperResults& results, const Evidence& evidence) {
   Finding finding{Outcome::holds, "", ""};
   for (const ExampleResult& example : results.examples) {
@@ -168,12 +170,12 @@ Finding paper_reference_suffices(const PaperResults& results, const Evidence& ev
     double judged = std::numeric_limits<double>::infinity();
     for (const StudyRow& row : example.rows)
       if (row.failure.empty() && row.error > 0) judged = std::min(judged, row.error);
-    // Round-off that went on at the same pace to the end: pessimistic where the solution decays.
+    // An extrapolation: as if the distance grew on at the same pace to the end.
     const double at_the_end = own->seavf_reference_distance * example.t_end / own->seavf_reference_end;
     append(finding.measured, fmt::format("{} {:.1e} at t = {:g} (smallest error judged {:.1e})", example.key,
                                          own->seavf_reference_distance, own->seavf_reference_end, judged));
-    const bool enough_at_the_end = at_the_end <= 0.1 * judged;
-    const bool enough_now = own->seavf_reference_distance <= 0.1 * judged;
+    const bool enough_at_the_end = at_the_end <= reference_share * judged;
+    const bool enough_now = own->seavf_reference_distance <= reference_share * judged;
     if (!enough_at_the_end) {
       finding.remark += fmt::format("{}{}: if its round-off grew on at this pace it would be {:.1e} at T.",
                                     finding.remark.empty() ? "" : " ", example.key, at_the_end);
@@ -189,7 +191,8 @@ Finding paper_reference_suffices(const PaperResults& results, const Evidence& ev
 }
 
 Finding absolute_tolerance_is_enough(const Evidence& evidence) {
-  Finding finding{Outcome::holds, "", ""};
+  // The tolerance itself is not run: the share of the run in which it tests nothing is what speaks for or against it.
+  Finding finding{Outcome::depends, "", ""};
   long long unresolved = 0;
   double largest_share = 0;
   for (const ExampleEvidence& example : evidence.examples) {
@@ -199,11 +202,8 @@ Finding absolute_tolerance_is_enough(const Evidence& evidence) {
     append(finding.measured, fmt::format("{}: |V(z₀)| = {:.1e}, |V| < 1e-15 in {:.0f} % of the run", example.key,
                                          std::abs(example.initial_potential), 100 * example.share_of_tiny_potential));
   }
-  append(finding.measured, fmt::format("{} scalar equations unresolved by Newton to round-off", unresolved));
-  if (unresolved > 0)
-    finding.outcome = Outcome::does_not_hold;
-  else if (largest_share > 0)
-    finding.outcome = Outcome::depends;
+  append(finding.measured,
+         fmt::format("{} scalar equations unresolved by plain Newton to round-off, a stricter test", unresolved));
   if (largest_share > 0) {
     finding.remark =
         "Where |V| itself is below 1e-15 every η passes an absolute test, so that it decides nothing. Seiche "

@@ -1,5 +1,6 @@
 #include "paper_cases.hpp"
 
+#include <seiche/config/formula_compiler.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/method/methods.hpp>
@@ -81,6 +82,10 @@ std::vector<NamedProblem> all_cases() {
   cases.push_back({"KG_defocusing", klein_gordon_case(0.1, 1.0)});
   cases.push_back({"gKdV_sigma_1", gkdv_case(0.5, 1.0, 1.0)});
   cases.push_back({"Duffing", duffing_case()});
+  const RatePointer varying = formula_rate(compile_formula("0.3 + 0.2*sin(3*t)", {"t"}));
+  cases.push_back({"KG_varying_damping", klein_gordon({.alpha = 1.0, .gamma = varying})});
+  cases.push_back({"FPU_varying_damping", alpha_fpu({.gamma = varying})});
+  cases.push_back({"gKdV_varying_damping", gkdv({.sigma = -0.5, .mu = varying})});
   return cases;
 }
 
