@@ -41,6 +41,9 @@ std::string complaint_of_override(const std::string& override) { return complain
 
 // A folder of its own for the test, with files in it.
 class CaseFolder : public testing::Test {
+ public:
+  ~CaseFolder() override { fs::remove_all(folder_); }
+
  protected:
   CaseFolder()
       : folder_(fs::path(testing::TempDir()) /
@@ -48,7 +51,6 @@ class CaseFolder : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  ~CaseFolder() override { fs::remove_all(folder_); }
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;

@@ -235,8 +235,8 @@ TEST(Formula, SizeAndDepthAreBounded) {
   std::string powers = "u";
   std::string sines = "u";
   for (int i = 0; i < 300; ++i) {
-    powers = "2^" + powers;
-    sines = "sin(" + sines + ")";
+    powers.insert(0, "2^");
+    sines.insert(0, "sin(").append(")");
   }
   EXPECT_THAT(complaint(powers), HasSubstr("nested more than"));
   EXPECT_THAT(complaint(sines), HasSubstr("nested more than"));
@@ -245,7 +245,7 @@ TEST(Formula, SizeAndDepthAreBounded) {
   for (int i = 0; i < 1900; ++i) sum += "+u";
   EXPECT_EQ((*in_u(sum))(1.0), 1901.0) << "sums do not nest";
   std::string deepest = "u";  // every level keeps as many operands waiting as it can
-  for (int i = 0; i < deepest_nesting / 2; ++i) deepest = "1+2*3^max(1," + deepest + ")";
+  for (int i = 0; i < deepest_nesting / 2; ++i) deepest.insert(0, "1+2*3^max(1,").append(")");
   EXPECT_EQ(complaint(deepest), "accepted");
 }
 
@@ -268,11 +268,11 @@ TEST(Formula, ManyThreadsMayEvaluateAndCompileAtOnce) {
   const FormulaPointer shared = in_u("sin(u)^2 + cos(u)^2");
   std::vector<double> worst(4, 0.0);
   std::vector<std::thread> threads;
-  for (std::size_t k = 0; k < worst.size(); ++k) {
-    threads.emplace_back([&, k] {
+  for (double& distance : worst) {
+    threads.emplace_back([&] {
       for (int i = 0; i < 2000; ++i) {
         const FormulaPointer own = in_u("(u + 1)^3 - u^3");
-        worst[k] = std::max({worst[k], std::abs((*shared)(i)-1), std::abs((*own)(1.0) - 7)});
+        distance = std::max({distance, std::abs((*shared)(i)-1), std::abs((*own)(1.0) - 7)});
         differentiate(*own, "u");
       }
     });

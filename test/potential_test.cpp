@@ -34,9 +34,9 @@ void for_every_potential(const Check& check) {
     for (const BackendEntry& backend : backends()) {
       SCOPED_TRACE(name + " " + std::string(backend.name));
       const System system = backend.system(problem, {});
-      const auto random = [&] {
+      const auto random = [&system] {
         Vector z(system.space->size());
-        system.space->from_physical(0.3 * Vector::Random(problem.size()), z);
+        system.space->from_physical(0.3 * Vector::Random(system.space->physical_size()), z);
         return z;
       };
       check(*system.potential, random(), random());

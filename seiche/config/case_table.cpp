@@ -40,7 +40,7 @@ std::string_view what_it_is(const toml::node& node) {
 // The entries of a table; toml++ keeps them by the alphabet, we by the source.
 std::vector<std::pair<const toml::key*, const toml::node*>> in_source_order(const toml::table& table) {
   std::vector<std::pair<const toml::key*, const toml::node*>> entries;
-  for (auto it = table.begin(); it != table.end(); ++it) entries.emplace_back(&it->first, &it->second);
+  for (const auto& [key, node] : table) entries.emplace_back(&key, &node);
   const auto begin = [](const auto& entry) { return entry.first->source().begin; };
   std::stable_sort(entries.begin(), entries.end(), [&](const auto& a, const auto& b) { return begin(a) < begin(b); });
   return entries;

@@ -71,7 +71,7 @@ std::string read_text(std::string_view key, const CaseValue& value) {
 }
 
 std::string read_name(std::string_view key, const CaseValue& value, const std::vector<std::string>& names) {
-  const std::string name = read_text(key, value);
+  std::string name = read_text(key, value);
   if (std::find(names.begin(), names.end(), name) == names.end()) throw unknown_name(key, name, names);
   return name;
 }
