@@ -1,4 +1,6 @@
 // Case files: what is right is read, what is wrong is refused with its place and what would be right.
+#include "support/temporary_directory.hpp"
+
 #include <seiche/config/case_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/problem/problems.hpp>
@@ -39,21 +41,11 @@ std::string complaint(const std::string& text, const Overrides& overrides = {}) 
 }
 std::string complaint_of_override(const std::string& override) { return complaint(minimal, {override}); }
 
-// A folder of its own for the test, with files in it.
-class CaseFolder : public testing::Test {
- public:
-  ~CaseFolder() override { fs::remove_all(folder_); }
-
+class CaseFolder : public test::InTemporaryDirectory {
  protected:
-  CaseFolder()
-      : folder_(fs::path(testing::TempDir()) /
-                (std::string("seiche_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
   fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
+    std::ofstream(directory / name, std::ios::binary) << text;
+    return directory / name;
   }
   // The problem of a case whose z₀ is in a file.
   Problem duffing_from(const std::string& numbers) const {
@@ -66,7 +58,6 @@ class CaseFolder : public testing::Test {
   std::string complaint_about(const std::string& numbers) const {
     return complaint_of([&] { duffing_from(numbers); });
   }
-  fs::path folder_;
 };
 
 TEST(CaseFile, MissingKeysTakeTheirDefaults) {
@@ -401,8 +392,8 @@ TEST_F(CaseFolder, FileNamesStartAtTheCaseFileAndSurviveACopyOfTheCase) {
 }
 
 TEST_F(CaseFolder, ACaseFileThatCannotBeReadSaysSo) {
-  EXPECT_THAT(complaint_of([&] { read_case(folder_ / "none.toml"); }), HasSubstr("does not exist"));
-  EXPECT_THAT(complaint_of([&] { read_case(folder_); }), HasSubstr("is a folder"));
+  EXPECT_THAT(complaint_of([&] { read_case(directory / "none.toml"); }), HasSubstr("does not exist"));
+  EXPECT_THAT(complaint_of([&] { read_case(directory); }), HasSubstr("is a folder"));
   const fs::path empty = write("empty.toml", "");
   EXPECT_THAT(complaint_of([&] { read_case(empty); }), HasSubstr("has no name"));
 }

@@ -1,4 +1,6 @@
 // The program as its users meet it: exit codes, sentences, files and stdout.
+#include "support/temporary_directory.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -33,17 +35,8 @@ struct Result {
   std::string out, err;
 };
 
-class Cli : public testing::Test {
- public:
-  ~Cli() override { fs::remove_all(directory); }
-
+class Cli : public test::InTemporaryDirectory {
  protected:
-  Cli() {
-    std::string name = (fs::temp_directory_path() / "seiche_cli_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary directory " + name);
-    directory = name;
-  }
-
   // `arguments` as a shell would split them, in the temporary directory.
   Result seiche(const std::string& arguments, const std::string& before = "") const {
     const std::string command = "cd '" + directory.string() + "' && " + before + " '" SEICHE_PROGRAM "' " + arguments +
@@ -79,8 +72,6 @@ class Cli : public testing::Test {
     EXPECT_THAT(result.err, HasSubstr("seiche: "));
     return result.err;
   }
-
-  fs::path directory;
 };
 
 TEST_F(Cli, ARunLeavesItsFiles) {

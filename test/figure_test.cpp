@@ -1,4 +1,6 @@
 // Every panel is drawn, the report holds every verdict and nothing from elsewhere, and bad numbers break neither.
+#include "support/temporary_directory.hpp"
+
 #include <seiche/core/error.hpp>
 #include <seiche/figure/coincide.hpp>
 #include <seiche/figure/gnuplot.hpp>
@@ -117,17 +119,8 @@ bool have_gnuplot() {
   return found;
 }
 
-class Figures : public testing::Test {
- public:
-  ~Figures() override { fs::remove_all(directory); }
-
+class Figures : public test::InTemporaryDirectory {
  protected:
-  Figures() {
-    std::string name = (fs::temp_directory_path() / "seiche_figure_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error("no temporary directory {}", name);
-    directory = name;
-  }
-
   std::string report() const { return text_of(directory / "report.html"); }
 
   void expect_drawn(const PaperResults& paper) const {
@@ -137,8 +130,6 @@ class Figures : public testing::Test {
       EXPECT_TRUE(text_of(stem.string() + ".pdf").starts_with("%PDF-")) << stem;
     }
   }
-
-  fs::path directory;
 };
 
 TEST_F(Figures, EveryPanelBecomesAPngAndAPdf) {

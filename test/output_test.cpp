@@ -1,4 +1,6 @@
 // Files appear whole or not at all, and numbers survive them to the last bit.
+#include "support/temporary_directory.hpp"
+
 #include <seiche/core/error.hpp>
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/output/energy_trace.hpp>
@@ -25,17 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class Output : public testing::Test {
- public:
-  ~Output() override { fs::remove_all(directory); }
-
+class Output : public test::InTemporaryDirectory {
  protected:
-  Output() {
-    std::string name = (fs::temp_directory_path() / "seiche_output_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error("no temporary directory {}", name);
-    directory = name;
-  }
-
   std::string text(const char* name) const {
     std::ifstream in(directory / name);
     std::ostringstream all;
@@ -48,8 +41,6 @@ class Output : public testing::Test {
     for (std::string line; std::getline(in, line);) all.push_back(line);
     return all;
   }
-
-  fs::path directory;
 };
 
 // Doubles that a shorter form would change.

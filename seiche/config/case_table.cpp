@@ -96,12 +96,6 @@ CaseTable convert(const toml::table& root, const Source& source) {
   return table;
 }
 
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  return begin == std::string_view::npos ? ""
-                                         : std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
-}
-
 CaseValue override_value(const std::string& text, const Source& source) {
   try {
     const toml::table parsed = toml::parse("value = " + text);

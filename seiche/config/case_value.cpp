@@ -16,12 +16,6 @@ std::size_t digits_at(std::string_view text, std::size_t at) {
   return count;
 }
 
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  return begin == std::string_view::npos ? ""
-                                         : std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
-}
-
 }  // namespace
 
 std::string CaseValue::shown() const {
@@ -74,6 +68,12 @@ std::string read_name(std::string_view key, const CaseValue& value, const std::v
   std::string name = read_text(key, value);
   if (std::find(names.begin(), names.end(), name) == names.end()) throw unknown_name(key, name, names);
   return name;
+}
+
+std::string trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t");
+  return begin == std::string_view::npos ? ""
+                                         : std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
 }
 
 std::string toml_real(double value) {
