@@ -1,5 +1,7 @@
 #include <seiche/backend/dense.hpp>
 #include <seiche/backend/force_map.hpp>
+#include <seiche/backend/grid_damping.hpp>
+#include <seiche/backend/grid_potential.hpp>
 #include <seiche/backend/grid_space.hpp>
 #include <seiche/core/error.hpp>
 
@@ -69,13 +71,17 @@ System dense_system(const Problem& problem, const BackendOptions&) {
   const std::shared_ptr<const FieldTransform> identity = identity_transform(n);
   System system;
   system.space = std::make_unique<GridSpace>(problem.field_count(), identity);
-  system.linear = std::make_unique<DenseLinear>(problem.S.matrix(problem.grid), problem.M.matrix(problem.grid));
+  const auto matrix = [&](const BlockStencil& stencil, SparseMatrix SparseOperators::*sparse) -> Matrix {
+    return problem.matrices ? Matrix((*problem.matrices).*sparse) : stencil.matrix(problem.grid);
+  };
+  system.linear =
+      std::make_unique<DenseLinear>(matrix(problem.S, &SparseOperators::S), matrix(problem.M, &SparseOperators::M));
   system.potential = std::make_unique<GridPotential>(problem, identity);
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;
-  if (!problem.damping.constant.is_zero()) {
-    const Matrix D = problem.damping.constant.matrix(problem.grid);
+  const Matrix D = matrix(problem.damping.constant, &SparseOperators::D);
+  if (!D.isZero(0)) {
     constant = std::make_unique<DenseMap>(D);
     make_flow = [D](double h) { return std::make_unique<DenseMap>(damping_exponential(D, h)); };
   }

@@ -1,4 +1,6 @@
 #include <seiche/backend/force_map.hpp>
+#include <seiche/backend/grid_damping.hpp>
+#include <seiche/backend/grid_potential.hpp>
 #include <seiche/backend/grid_space.hpp>
 #include <seiche/backend/modal.hpp>
 #include <seiche/backend/mode_map.hpp>
@@ -104,6 +106,11 @@ void require_symmetric(const BlockStencil& a, std::string_view name) {
 }  // namespace
 
 System modal_system(const Problem& problem, const BackendOptions& options) {
+  if (problem.matrices)
+    throw Error(
+        "the modal backend needs coefficients that are the same at every point, and {} has matrices; use "
+        "\"sparse\" or \"dense\"",
+        problem.name);
   if (!problem.grid.is_periodic()) {
     require_symmetric(problem.S, "S");
     require_symmetric(problem.M, "M");

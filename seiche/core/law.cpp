@@ -44,6 +44,8 @@ Eigen::MatrixXcd rate_projection(const Problem& problem) {
 }  // namespace
 
 LawPromise promise_energy_law(const Problem& problem, double t_end) {
+  if (problem.matrices || problem.damping.field_rate)
+    return {false, "the hypotheses are checked for constant coefficients only, and " + problem.name + " has others"};
   const auto m = [&](const Mode& mode) { return problem.M.symbol(mode); };
   const Extreme metric = hermitian_extremes(problem.grid, m);
   if (!metric.is_nonnegative()) {
@@ -54,7 +56,7 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
     return {false, fmt::format("sym(S) is not negative semidefinite (eigenvalue {:.3g})", structure.largest)};
   }
   const LinearDamping& damping = problem.damping;
-  if (damping.is_zero()) return {true, "sym(S) ⪯ 0 and no damping flow"};
+  if (!problem.has_damping()) return {true, "sym(S) ⪯ 0 and no damping flow"};
 
   if (damping.rate) {
     const double t_bad = damping.rate->first_negative_time(t_end);
@@ -72,7 +74,7 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
   if (!constant.is_nonnegative() || !varying.is_nonnegative()) {
     return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
   }
-  if (!problem.potential || !damping.moves(problem.potential_field)) {
+  if (!problem.damping_moves_potential()) {
     return {true, "sym(MD) ⪰ 0 and V does not depend on the damped fields"};
   }
   // Damping moves what V depends on: sym(MD) ⪰ 0 is not enough. D = γI lets V fall where u·∇V(u) ≥ 0.

@@ -9,12 +9,14 @@
 
 namespace seiche {
 
-// V on the physical values u of one field. Contracts, tested for every instance:
+// V on the physical values u of one field, or of several: then u holds them one after the other. Contracts, tested for
+// every instance:
 //   gradient is the gradient of value;   mean_gradient(a, b)·(b − a) = V(b) − V(a), free of cancellation;
 //   along(p, q) gives the Taylor coefficients of x ↦ V(p + xq).
 class PointwisePotential {
  public:
   virtual ~PointwisePotential() = default;
+  virtual Index fields() const { return 1; }  // how many consecutive fields u holds
   virtual double value(std::span<const double> u) const = 0;
   virtual double magnitude(std::span<const double> u) const = 0;  // Σ|V_j|, the scale of round-off in V
   virtual double value_and_gradient(std::span<const double> u, std::span<double> gradient) const = 0;

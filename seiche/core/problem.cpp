@@ -12,7 +12,7 @@ bool any_entry_in_row(const BlockStencil& a, Index row) {
 
 // ∇_vH = v for field v: M acts on it as the identity, alone, and V does not depend on it.
 bool gradient_is_identity(const Problem& p, Index field) {
-  if (field == p.potential_field && p.potential) return false;
+  if (p.potential_depends_on(field)) return false;
   for (Index j = 0; j < p.field_count(); ++j) {
     if (j == field ? !p.M(field, j).is_identity() : !p.M(field, j).is_zero()) return false;
   }
@@ -21,13 +21,40 @@ bool gradient_is_identity(const Problem& p, Index field) {
 
 }  // namespace
 
-bool LinearDamping::moves(Index field) const {
-  return any_entry_in_row(constant, field) || (rate && rate_fields[static_cast<std::size_t>(field)]);
+bool Problem::potential_depends_on(Index field) const {
+  return potential && field >= potential_field && field < potential_field + potential->fields();
+}
+
+bool Problem::has_damping() const {
+  if (damping.rate || damping.field_rate) return true;
+  return matrices ? matrices->D.nonZeros() > 0 : !damping.constant.is_zero();
+}
+
+bool Problem::damping_moves(Index field) const {
+  if ((damping.rate || damping.field_rate) && damping.rate_fields[static_cast<std::size_t>(field)]) return true;
+  if (matrices) return matrices->damping_moves(field * grid.unknowns(), grid.unknowns());
+  return any_entry_in_row(damping.constant, field);
+}
+
+bool Problem::damping_moves_potential() const {
+  for (Index field = 0; field < field_count(); ++field)
+    if (potential_depends_on(field) && damping_moves(field)) return true;
+  return false;
 }
 
 Problem with_damping_merged(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
-  if (damping.is_zero()) return problem;
+  if (!problem.has_damping()) return problem;
+  if (problem.matrices)
+    throw Error(
+        "a method that merges the damping into S is not available for {}, whose S and D are sparse matrices; "
+        "the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) take it",
+        problem.name);
+  if (damping.field_rate)
+    throw Error(
+        "a method that merges the damping into S needs a constant D, but the rate {} changes from point to "
+        "point; the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) take it",
+        damping.field_rate->text());
   if (damping.rate && !damping.rate->is_constant()) {
     throw Error(
         "a method that merges the damping into S needs a constant D, but the rate {} varies with time; "
@@ -52,7 +79,7 @@ Problem with_damping_merged(const Problem& problem) {
       merge(i, i, Stencil::identity(damping.rate->value(0)));
     }
   }
-  merged.damping = LinearDamping{.constant = BlockStencil(problem.field_count()), .rate = nullptr, .rate_fields = {}};
+  merged.damping = LinearDamping{.constant = BlockStencil(problem.field_count())};
   return merged;
 }
 

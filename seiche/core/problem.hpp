@@ -1,9 +1,11 @@
-// An equation ż = S∇H(z) − D(t)z on a grid, stated by stencils, a potential and z₀; it knows no backend.
+// An equation ż = S∇H(z) − D(t)z, stated by stencils on a grid or by sparse matrices, a potential and z₀; it knows no
+// backend.
 #pragma once
 
 #include <seiche/core/grid.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/rate.hpp>
+#include <seiche/core/sparse_operators.hpp>
 #include <seiche/core/stencil.hpp>
 
 #include <memory>
@@ -12,14 +14,12 @@
 
 namespace seiche {
 
-// D(t) = constant + γ(t) P, where P projects on the fields marked in `rate_fields`.
+// D = constant + (γ(t) + γ(x, t)) P, where P projects on the fields marked in `rate_fields`.
 struct LinearDamping {
   BlockStencil constant;
-  RatePointer rate;  // null: no such part
-  std::vector<bool> rate_fields;
-
-  bool is_zero() const { return constant.is_zero() && !rate; }
-  bool moves(Index field) const;  // does field change under Ψ?
+  RatePointer rate = nullptr;             // γ(t); null: no such part
+  FieldRatePointer field_rate = nullptr;  // γ(x, t); null: no such part
+  std::vector<bool> rate_fields = {};
 };
 
 struct Problem {
@@ -28,13 +28,20 @@ struct Problem {
   std::vector<std::string> fields;  // z = (field 0 at all points, field 1 at all points, …)
   BlockStencil S, M;
   LinearDamping damping;
+  // Where coefficients change from point to point: S, M and the constant part of D as matrices. S, M and damping.constant
+  // above are then zero blocks, and `grid` only counts and places the points.
+  std::shared_ptr<const SparseOperators> matrices;
   std::shared_ptr<const PointwisePotential> potential;
-  Index potential_field = 0;
+  Index potential_field = 0;       // the first of the potential->fields() consecutive fields that V depends on
   Vector initial;                  // physical values, fields × unknowns
   std::vector<std::string> notes;  // what was done on the way that the user should know
 
   Index field_count() const { return static_cast<Index>(fields.size()); }
   Index size() const { return field_count() * grid.unknowns(); }
+  bool potential_depends_on(Index field) const;
+  bool has_damping() const;
+  bool damping_moves(Index field) const;  // does the field change under Ψ?
+  bool damping_moves_potential() const;   // does V?
 };
 
 // ż = S'∇H with S' = S − D: the form that the `whole` methods need. Possible where Dz = D∇H(z), that is where a

@@ -1,7 +1,8 @@
-// A scalar damping coefficient γ(t) in 1/time, with its integral.
+// Damping coefficients in 1/time, with their integrals: γ(t), and γ(x, t) on the points of a grid.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 namespace seiche {
@@ -22,5 +23,21 @@ class Rate {
 };
 
 using RatePointer = std::shared_ptr<const Rate>;
+
+// Spans hold one number per unknown of a field, in the order of the grid.
+class FieldRate {
+ public:
+  virtual ~FieldRate() = default;
+  virtual void values(double t, std::span<double> gamma) const = 0;
+  // ∫ₜᵗ⁺ʰ γ(x, s) ds at every point, with the same promises as Rate::integral.
+  virtual void integrals(double t, double h, std::span<double> out) const = 0;
+  virtual bool is_constant() const = 0;  // in time
+  // As for Rate: a time at which some point has γ < 0, or a negative number.
+  virtual double first_negative_time(double t_end) const = 0;
+  virtual double negative_seen() const = 0;
+  virtual std::string text() const = 0;
+};
+
+using FieldRatePointer = std::shared_ptr<const FieldRate>;
 
 }  // namespace seiche

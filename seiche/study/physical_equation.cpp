@@ -24,20 +24,42 @@ PhysicalEquation::Rows PhysicalEquation::rows(const BlockStencil& stencil, const
   return rows;
 }
 
+PhysicalEquation::Rows PhysicalEquation::rows(const SparseMatrix& matrix) {
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = matrix;
+  Rows rows;
+  for (Index i = 0; i < by_rows.rows(); ++i) {
+    rows.begin.push_back(rows.value.size());
+    for (decltype(by_rows)::InnerIterator entry(by_rows, i); entry; ++entry) {
+      rows.column.push_back(static_cast<std::size_t>(entry.col()));
+      rows.value.push_back(entry.value());
+    }
+  }
+  rows.begin.push_back(rows.value.size());
+  return rows;
+}
+
 PhysicalEquation::PhysicalEquation(const Problem& problem)
-    : S_(rows(problem.S, problem.grid)),
-      M_(rows(problem.M, problem.grid)),
-      D_(problem.damping.constant.is_zero() ? Rows{} : rows(problem.damping.constant, problem.grid)),
-      potential_(problem.potential),
-      support_begin_(static_cast<std::size_t>(problem.potential_field * problem.grid.unknowns())),
-      support_size_(static_cast<std::size_t>(problem.grid.unknowns())),
+    : potential_(problem.potential),
+      points_(static_cast<std::size_t>(problem.grid.unknowns())),
+      support_begin_(static_cast<std::size_t>(problem.potential_field) * points_),
+      support_size_(potential_ ? static_cast<std::size_t>(potential_->fields()) * points_ : 0),
       rate_(problem.damping.rate),
+      field_rate_(problem.damping.field_rate),
       initial_(problem.initial.begin(), problem.initial.end()),
       gradient_(initial_.size()),
-      force_(support_size_) {
-  for (std::size_t i = 0; rate_ && i < initial_.size(); ++i) {
-    if (problem.damping.rate_fields[i / support_size_]) rated_.push_back(i);
+      force_(support_size_),
+      gamma_(points_) {
+  if (problem.matrices) {
+    S_ = rows(problem.matrices->S);
+    M_ = rows(problem.matrices->M);
+    D_ = rows(problem.matrices->D);
+  } else {
+    S_ = rows(problem.S, problem.grid);
+    M_ = rows(problem.M, problem.grid);
+    if (!problem.damping.constant.is_zero()) D_ = rows(problem.damping.constant, problem.grid);
   }
+  for (std::size_t field = 0; field < problem.damping.rate_fields.size(); ++field)
+    if (problem.damping.rate_fields[field]) rated_.push_back(field * points_);
 }
 
 template <class Combine>
@@ -60,9 +82,12 @@ void PhysicalEquation::right_hand_side(double t, std::span<const double> z, std:
   gradient(z);
   for_products(S_, gradient_, [&](std::size_t i, double S_gradient) { out[i] = S_gradient; });
   for_products(D_, z, [&](std::size_t i, double Dz) { out[i] -= Dz; });
-  if (!rate_) return;
-  const double gamma = rate_->value(t);
-  for (const std::size_t i : rated_) out[i] -= gamma * z[i];
+  if (!rate_ && !field_rate_) return;
+  std::fill(gamma_.begin(), gamma_.end(), 0.0);
+  if (field_rate_) field_rate_->values(t, gamma_);
+  const double everywhere = rate_ ? rate_->value(t) : 0.0;
+  for (const std::size_t begin : rated_)
+    for (std::size_t j = 0; j < points_; ++j) out[begin + j] -= (everywhere + gamma_[j]) * z[begin + j];
 }
 
 double PhysicalEquation::potential(std::span<const double> z) const {

@@ -1,4 +1,4 @@
-// ż = S∇H(z) − D(t)z on physical values, straight from the stencils: it shares no operator, propagator or transform
+// ż = S∇H(z) − D(t)z on physical values, straight from the stencils or matrices: it shares no operator, propagator or transform
 // with backend/ and method/, so that a reference computed with it can judge them.
 #pragma once
 
@@ -25,17 +25,19 @@ class PhysicalEquation {
     std::vector<double> value;
   };
   static Rows rows(const BlockStencil& stencil, const Grid& grid);
+  static Rows rows(const SparseMatrix& matrix);
   template <class Combine>
   static void for_products(const Rows& a, std::span<const double> z, const Combine& combine);
   void gradient(std::span<const double> z) const;  // ∇H into gradient_
 
   Rows S_, M_, D_;
   std::shared_ptr<const PointwisePotential> potential_;
-  std::size_t support_begin_, support_size_;
+  std::size_t points_, support_begin_, support_size_;
   RatePointer rate_;
-  std::vector<std::size_t> rated_;  // components that γ(t) damps
+  FieldRatePointer field_rate_;
+  std::vector<std::size_t> rated_;  // where the fields begin that γ damps
   std::vector<double> initial_;
-  mutable std::vector<double> gradient_, force_;
+  mutable std::vector<double> gradient_, force_, gamma_;
 };
 
 }  // namespace seiche

@@ -1,0 +1,72 @@
+#include <seiche/backend/grid_potential.hpp>
+#include <seiche/backend/segment.hpp>
+
+#include <algorithm>
+
+namespace seiche {
+
+GridPotential::GridPotential(const Problem& problem, std::shared_ptr<const FieldTransform> transform)
+    : pointwise_(problem.potential), transform_(std::move(transform)) {
+  const Index fields = pointwise_ ? pointwise_->fields() : 0;
+  support_ = {problem.potential_field * transform_->slots(), fields * transform_->slots()};
+  for (Vector* scratch : {&a_, &b_, &slope_}) scratch->setZero(fields * transform_->unknowns());
+}
+
+std::span<const double> GridPotential::values_of(const Vector& z, Vector& values) const {
+  const Index n = transform_->unknowns();
+  const Index slots = transform_->slots();
+  for (Index f = 0; f < pointwise_->fields(); ++f)
+    transform_->inverse(segment(z, support_.begin + f * slots, slots), segment(values, f * n, n));
+  return all(values);
+}
+
+void GridPotential::set_gradient(const Vector& physical, Vector& gradient) const {
+  gradient.head(support_.begin).setZero();
+  gradient.tail(gradient.size() - support_.begin - support_.size).setZero();
+  const Index n = transform_->unknowns();
+  const Index slots = transform_->slots();
+  for (Index f = 0; f < pointwise_->fields(); ++f)
+    transform_->forward(segment(physical, f * n, n), segment(gradient, support_.begin + f * slots, slots));
+}
+
+double GridPotential::value(const Vector& z) const {
+  if (!pointwise_) return 0;
+  ++counts_.values;
+  return pointwise_->value(values_of(z, a_));
+}
+
+double GridPotential::magnitude(const Vector& z) const {
+  return pointwise_ ? pointwise_->magnitude(values_of(z, a_)) : 0;
+}
+
+double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) const {
+  if (!pointwise_) {
+    gradient.setZero();
+    return 0;
+  }
+  ++counts_.gradients;
+  const double v = pointwise_->value_and_gradient(values_of(z, a_), all(slope_));
+  set_gradient(slope_, gradient);
+  return v;
+}
+
+void GridPotential::mean_gradient(const Vector& a, const Vector& b, Vector& mean) const {
+  if (!pointwise_) {
+    mean.setZero();
+    return;
+  }
+  ++counts_.gradients;
+  pointwise_->mean_gradient(values_of(a, a_), values_of(b, b_), all(slope_));
+  set_gradient(slope_, mean);
+}
+
+void GridPotential::along(const Vector& p, const Vector& q, std::span<double> coefficients) const {
+  if (!pointwise_) {
+    std::fill(coefficients.begin(), coefficients.end(), 0.0);
+    return;
+  }
+  ++counts_.values;
+  pointwise_->along(values_of(p, a_), values_of(q, b_), coefficients);
+}
+
+}  // namespace seiche

@@ -1,0 +1,19 @@
+// S, M and D of a problem whose coefficients change from point to point, or that lives on no grid at all.
+#pragma once
+
+#include <seiche/core/vector.hpp>
+
+#include <Eigen/SparseCore>
+
+namespace seiche {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+// Square, of the size of z in physical coordinates, field after field. Contract: M symmetric.
+struct SparseOperators {
+  SparseMatrix S, M, D;  // D: the constant part of the damping
+
+  bool damping_moves(Index begin, Index size) const;  // has D an entry in these rows?
+};
+
+}  // namespace seiche
