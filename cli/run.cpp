@@ -1,6 +1,8 @@
 // seiche run: one case, one method, and the files that a run leaves.
 #include "command_line.hpp"
+#include "law_promise.hpp"
 #include "load_case.hpp"
+#include "run_ensemble.hpp"
 #include "stop_signal.hpp"
 #include "versions.hpp"
 
@@ -34,29 +36,9 @@ struct RunArguments {
   bool quiet = false;
 };
 
-// What the problem promises, unless an option of the method gives it up.
-LawPromise promise(const Simulation& simulation, const RunSpec& spec) {
-  if (spec.method_options.auxiliary == AuxiliaryMode::refresh) {
-    return {false, "auxiliary = \"refresh\" resets r after the damping, and the modified energy may rise there"};
-  }
-  const bool lm = simulation.method().closure == ClosureKind::lm;
-  const bool frozen = spec.method_options.auxiliary == AuxiliaryMode::frozen;
-  if (spec.method_options.scalar_solver == ScalarSolver::newton || (lm && frozen)) {
-    return {false, "plain Newton accepts steps whose scalar equation it did not solve"};
-  }
-  return promise_energy_law(simulation.problem(), spec.t_end);
-}
-
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// γ ≥ 0 was sampled before the run; the run itself looks closer.
-std::string negative_rate(const Problem& problem) {
-  const RatePointer& rate = problem.damping.rate;
-  if (!rate || rate->negative_seen() < 0) return "";
-  return fmt::format("the rate {} is negative at t = {:.6g}", rate->text(), rate->negative_seen());
 }
 
 ExitCode exit_code(const RunReport& report) {
@@ -72,14 +54,16 @@ ExitCode run(const RunArguments& arguments) {
   RunSpec spec = load_case(arguments.case_argument);
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
   if (arguments.directory_given) spec.output_directory = arguments.directory;
-  if (arguments.threads > 1) {
-    print_note(fmt::format("--threads {}: a single run uses one thread in this version", arguments.threads));
+  if (spec.ensemble) {
+    return run_ensemble_case(spec, {.threads = arguments.threads, .json = arguments.json, .quiet = arguments.quiet});
   }
   const std::filesystem::path directory = spec.output_directory;
   const std::filesystem::path wisdom = directory / "fftw_wisdom";
   if (spec.measure_plans) use_planning_wisdom(text_of(wisdom));  // a run repeated in its directory plans the same way
   const Problem problem = make_problem(spec);
-  Simulation simulation(problem, simulation_options(spec));
+  SimulationOptions simulation_with = simulation_options(spec);
+  simulation_with.backend_options.threads = arguments.threads;
+  Simulation simulation(problem, simulation_with);
   const LawPromise law = promise(simulation, spec);
   const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
   const std::string remarks = notes(spec, problem);
@@ -136,7 +120,9 @@ void add_run(CLI::App& app, Action& action) {
   CLI::Option* out =
       command->add_option("--out", arguments->directory, "Where the files go, instead of output.directory")
           ->type_name("DIR");
-  command->add_option("--threads", arguments->threads, "Threads (a single run uses one)")
+  command
+      ->add_option("--threads", arguments->threads,
+                   "Threads, over a large grid or the members of an ensemble; results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 65536));
   command->add_flag("--json", arguments->json, "Print summary.json on stdout");

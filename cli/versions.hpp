@@ -1,4 +1,4 @@
-// Which Seiche this is: its version, its libraries, and the instructions it was compiled for.
+// Which Seiche this is: its version, its libraries, and the instruction set in use.
 #pragma once
 
 #include <map>

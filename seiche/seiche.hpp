@@ -8,6 +8,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/core/observer.hpp>
+#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
@@ -16,8 +17,11 @@
 #include <seiche/potential/nodal.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
+#include <seiche/problem/beta_fpu.hpp>
+#include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/nls.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/sine_gordon.hpp>
 #include <seiche/run/integrate.hpp>

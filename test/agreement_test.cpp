@@ -23,7 +23,7 @@ TEST(Agreement, EveryMethodGivesTheSameSolutionOnEveryBackendOverTenTimeUnits) {
       if (!applies(method.name, problem)) continue;
       const double h = 1.0 / 64;
       const Vector expected = state_after(problem, method.name, "dense", h, 640);
-      for (const BackendEntry& backend : backends()) {
+      for (const BackendEntry& backend : backends_for(problem)) {
         const Vector z = state_after(problem, method.name, backend.name, h, 640);
         EXPECT_LE((z - expected).lpNorm<Eigen::Infinity>(), 1e-11) << name << " " << method.name << " " << backend.name;
       }
@@ -36,7 +36,7 @@ TEST(Agreement, TheRightHandSideIsTheSameOnEveryBackend) {
     const System dense = find_backend("dense").system(problem, {});
     Vector expected(dense.space->size());
     dense.right_hand_side(0.3, dense.initial, expected);
-    for (const BackendEntry& backend : backends()) {
+    for (const BackendEntry& backend : backends_for(problem)) {
       const System system = backend.system(problem, {});
       Vector out(system.space->size());
       system.right_hand_side(0.3, system.initial, out);

@@ -287,11 +287,53 @@ TEST(CaseFile, RatesAreNumbersOrFormulasInT) {
   EXPECT_THAT(complaint(minimal + "gamma = \"0.1 + * t\"\n"),
               AllOf(StartsWith("x.toml:3:9: problem.gamma: formula, column 7: '*' stands where a value is expected"),
                     HasSubstr("\n  0.1 + * t\n        ^")));
-  EXPECT_THAT(complaint(minimal + "gamma = \"0.1*x\"\n"), HasSubstr("unknown name 'x'"));
+  EXPECT_THAT(complaint(minimal + "gamma = \"0.1*u\"\n"),
+              AllOf(StartsWith("x.toml:3:9: problem.gamma: formula, column 5: unknown name 'u'"),
+                    HasSubstr("t, x, y, z")));
   EXPECT_THAT(complaint(minimal + "gamma = \"1/t\"\n"),
               HasSubstr("problem.gamma = inf must be a finite number at t = 0"));
   EXPECT_THAT(complaint(minimal + "gamma = \"log(25 - t)\"\n"), HasSubstr("must be a finite number at t = 25"));
   EXPECT_EQ(complaint(minimal + "gamma = \"log(25 - t)\"\n[time]\nend = 20\n"), "accepted");
+}
+
+TEST(CaseFile, ARateMayChangeFromPointToPoint) {
+  const auto problem_with = [](const std::string& rate, const std::string& more = "") {
+    return make_problem(parse_case(minimal + "gamma = \"" + rate + "\"\n" + more, "x.toml"));
+  };
+  const Problem steady = problem_with("0.1 + x^2");
+  ASSERT_TRUE(steady.damping.field_rate);
+  EXPECT_FALSE(steady.damping.rate);
+  EXPECT_TRUE(steady.damping.field_rate->is_constant());
+  std::vector<double> gamma(20);
+  steady.damping.field_rate->values(7.0, gamma);
+  EXPECT_NEAR(gamma[4], 0.1 + 0.25, 1e-15);
+  EXPECT_EQ(steady.damping.field_rate->text(), "0.1 + x^2");
+  EXPECT_FALSE(problem_with("exp(-t)*x").damping.field_rate->is_constant());
+  EXPECT_TRUE(problem_with("y*x", "points = [4, 4]\n").damping.field_rate->is_constant());
+  EXPECT_TRUE(problem_with("0.1*t").damping.rate) << "the same at every point";
+
+  const auto refusal = [&](const std::string& rate, const std::string& more = "") {
+    return complaint_of([&] { problem_with(rate, more); });
+  };
+  EXPECT_EQ(refusal("x*y"), "x.toml: the rate x*y names y, but the grid has 1 axis");
+  EXPECT_EQ(refusal("x*z", "points = [4, 4]\n"), "x.toml: the rate x*z names z, but the grid has 2 axes");
+  EXPECT_THAT(refusal("1/(x - 0.5)"),
+              HasSubstr("problem.gamma = inf must be a finite number at t = 0, x = 0.5 (j = 5)"));
+  EXPECT_THAT(refusal("x*log(25 - t)"), HasSubstr("must be a finite number at t = 2"));
+  EXPECT_EQ(refusal("x*log(25 - t)", "[time]\nend = 20\n"), "accepted");
+  EXPECT_THAT(complaint_of([] {
+                make_problem(
+                    parse_case("[problem]\nname = \"alpha_fpu\"\nformulation = \"dissipative\"\ngamma = \"x\"\n",
+                               "x.toml"));
+              }),
+              HasSubstr("gamma = x changes from point to point"));
+}
+
+TEST(CaseFile, ARateThatChangesFromPointToPointSurvivesWriting) {
+  const RunSpec spec = parse_case(minimal + "gamma = \"0.1 + x^2\"\n", "x.toml");
+  const RunSpec again = parse_case(write_case(spec), "y.toml");
+  EXPECT_EQ(again.parameters.damping_rate("gamma").varying->text(), "0.1 + x^2");
+  EXPECT_THAT(complaint_of([&] { spec.parameters.rate("gamma"); }), HasSubstr("a number or a formula in t"));
 }
 
 TEST(CaseFile, MethodOptionsWithoutMeaningAreRefusedAtTheirKey) {

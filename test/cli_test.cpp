@@ -246,11 +246,15 @@ TEST_F(Cli, WrongUsageIsRefusedWithTheNearestName) {
   EXPECT_THAT(refused("paper --quik"), HasSubstr("did you mean '--quick'"));
 }
 
-TEST_F(Cli, MoreThreadsThanARunUsesAreMentionedOnce) {
+TEST_F(Cli, TheNumberOfThreadsDoesNotChangeTheResult) {
   write_case();
-  const Result result = seiche("run case.toml --out out --threads 4 --quiet");
-  EXPECT_EQ(result.exit, 0);
-  EXPECT_THAT(result.err, HasSubstr("uses one thread"));
+  const std::string run =
+      "run case.toml --quiet --set problem.points=[128,96] --set problem.length=[2.0,2.0] --set "
+      "backend.name=modal --set time.end=0.1 ";
+  EXPECT_EQ(seiche(run + "--out one").exit, 0);
+  EXPECT_EQ(seiche(run + "--out three --threads 3").exit, 0);
+  EXPECT_EQ(text("one/final.txt"), text("three/final.txt"));
+  EXPECT_EQ(text("one/energy.csv"), text("three/energy.csv"));
 }
 
 TEST_F(Cli, ALawThatIsNotPromisedIsSaidWithTheReason) {

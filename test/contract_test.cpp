@@ -22,6 +22,7 @@ std::vector<Setting> settings() {
   for (auto& [name, problem] : all_cases()) list.push_back({name, problem, name != "paper_FPU_2.2"});
   list.push_back({"KG_whole", with_damping_merged(klein_gordon_case()), false});
   list.push_back({"FPU_whole", with_damping_merged(fpu_conservative_case()), false});
+  for (auto& [name, problem] : matrix_cases()) list.push_back({name + "_whole", with_damping_merged(problem), false});
   return list;
 }
 
@@ -34,7 +35,7 @@ double skew_defect(const Matrix& F, const Matrix& M) {
 template <class Check>
 void for_every_propagator(const Check& check) {
   for (const Setting& setting : settings()) {
-    for (const BackendEntry& backend : backends()) {
+    for (const BackendEntry& backend : backends_for(setting.problem)) {
       const System system = backend.system(setting.problem, {});
       for (const PropagatorKind kind : {PropagatorKind::exponential, PropagatorKind::cayley}) {
         for (const double h : {1.0 / 64, 0.1, 1.0, 10.0}) {
@@ -77,9 +78,9 @@ TEST(Contract, TheIncrementIsFM) {
 TEST(Contract, TheExponentialPropagatorSolvesTheLinearEquation) {
   // E(h) against the dense solution of ẏ = SMy by eigenvectors in extended steps: E(h/64)^64 by an independent series.
   for (const Setting& setting : settings()) {
-    for (const BackendEntry& backend : backends()) {
+    for (const BackendEntry& backend : backends_for(setting.problem)) {
       const System system = backend.system(setting.problem, {});
-      const Matrix A = setting.problem.S.matrix(setting.problem.grid) * setting.problem.M.matrix(setting.problem.grid);
+      const Matrix A = SM_of(setting.problem);
       for (const double h : {1.0 / 64, 1.0}) {
         const auto propagator = system.linear->propagator(PropagatorKind::exponential, h);
         const Matrix E = Matrix::Identity(A.rows(), A.cols()) +
@@ -125,9 +126,9 @@ TEST(Contract, TheCheckOfTheContractSeesAWrongPhi) {
 
 TEST(Contract, TheCayleyPropagatorIsCrankNicolson) {
   for (const Setting& setting : settings()) {
-    const Matrix A = setting.problem.S.matrix(setting.problem.grid) * setting.problem.M.matrix(setting.problem.grid);
+    const Matrix A = SM_of(setting.problem);
     const Matrix I = Matrix::Identity(A.rows(), A.cols());
-    for (const BackendEntry& backend : backends()) {
+    for (const BackendEntry& backend : backends_for(setting.problem)) {
       const System system = backend.system(setting.problem, {});
       for (const double h : {1.0 / 64, 0.1, 1.0, 10.0}) {
         const auto propagator = system.linear->propagator(PropagatorKind::cayley, h);

@@ -6,6 +6,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/nls.hpp>
 #include <seiche/problem/sine_gordon.hpp>
 #include <seiche/study/reference.hpp>
 
@@ -116,6 +117,69 @@ TEST(Grid, SpectralKdvFollowsTheSoliton) {
       gkdv({.length = length, .points = 128, .discretisation = Discretisation::spectral, .exponent = 1, .sigma = 3.0});
   for (Index i = 0; i < p.size(); ++i) p.initial[i] = soliton(p.grid.coordinate(i, 0));
   EXPECT_LE(distance_from(p, t, [&](double x) { return soliton(x - c * t); }), 1e-7);
+}
+
+TEST(Grid, SpectralNlsFollowsTheSoliton) {
+  Nls options{.grid = {.points = {256}, .length = {40.0}, .discretisation = Discretisation::spectral},
+              .kappa = 2.0,
+              .amplitude = 1.2};
+  const double t = 3.0;
+  const auto real_part = [&](double x) {
+    return nls_soliton(options.kappa, options.amplitude, options.velocity, x - 20, t).real();
+  };
+  EXPECT_LE(distance_from(nls(options), t, real_part), 1e-8);
+  options.grid.discretisation = Discretisation::fd2;  // the same number of points, or this could not fail
+  EXPECT_GE(distance_from(nls(options), t, real_part), 1e-3);
+}
+
+// Slots of the modes of a line with k < bound, in units that do not depend on the number of points.
+Vector low_modes(const Vector& values, Index bound) {
+  Problem p = gkdv({.points = values.size()});
+  p.initial = values;
+  const System modal = find_backend("modal").system(p, {});
+  return modal.initial.head(2 * bound) / std::sqrt(static_cast<double>(values.size()));
+}
+
+TEST(Grid, WithTheTwoThirdsRuleAQuadraticForceIsFreeOfAliases) {
+  const Index n = 30;
+  const Gkdv coarse{.length = 1.0,
+                    .points = n,
+                    .discretisation = Discretisation::spectral,
+                    .two_thirds = true,
+                    .exponent = 1,
+                    .sigma = 1.0};
+  Gkdv fine = coarse;  // four times the points: no aliases, and nothing cut off
+  fine.points = 4 * n;
+  fine.two_thirds = false;
+  Gkdv aliased = coarse;
+  aliased.two_thirds = false;
+  const auto force = [](const Gkdv& options, double high) {
+    const Problem p = gkdv(options);
+    Vector u(p.size());
+    for (Index i = 0; i < u.size(); ++i) {
+      const double x = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(u.size());
+      u[i] = 0.3 + std::cos(9 * x) - 0.7 * std::sin(8 * x) + 0.2 * std::cos(3 * x) + high * std::cos(12 * x);
+    }
+    Vector g(p.size());
+    p.potential->value_and_gradient({u.data(), static_cast<std::size_t>(u.size())},
+                                    {g.data(), static_cast<std::size_t>(g.size())});
+    return g;
+  };
+  const Index all = n / 2 + 1;
+  const Vector exact = low_modes(force(fine, 0.0), 10);  // k = 0 … 9 < N/3
+  const Vector found = low_modes(force(coarse, 0.5), all);
+  EXPECT_LE((found.head(20) - exact).norm(), 1e-14);
+  EXPECT_LE(found.tail(found.size() - 20).norm(), 1e-14);
+  EXPECT_GE((low_modes(force(aliased, 0.5), 10) - exact).norm(), 0.1);  // 12 + 12 folds back to 6
+}
+
+TEST(Grid, TheTwoThirdsRuleIsRefusedWhereThereAreNoModesToLeaveOut) {
+  GridOptions grid{.points = {8}, .discretisation = Discretisation::fd2, .two_thirds = true};
+  EXPECT_THROW(klein_gordon({.grid = grid}), Error);
+  grid.discretisation = Discretisation::spectral;
+  EXPECT_NO_THROW(klein_gordon({.grid = grid}));
+  grid.boundary = {dirichlet};
+  EXPECT_THROW(klein_gordon({.grid = grid}), Error);
 }
 
 TEST(Grid, AGridThatDoesNotFitIntoMemoryIsRefusedBeforeItIsAllocated) {

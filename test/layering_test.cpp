@@ -30,9 +30,11 @@ const std::map<std::string, Folders> may_include = {
     {"problem", {"core", "potential", "damping"}},
     {"config", {"core", "potential", "damping", "method", "backend", "problem", "output", "run"}},
     {"study", {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config"}},
+    {"ensemble", {"core", "problem", "run", "config"}},
     {"figure", {"core", "output", "config", "study"}},
     {"cli",
-     {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config", "study", "figure"}},
+     {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config", "study", "figure",
+      "ensemble"}},
 };
 
 // Which folders may include a third-party header; the longest prefix decides. fmt is for everybody.
@@ -41,7 +43,7 @@ struct ThirdParty {
   Folders folders;
 };
 const std::vector<ThirdParty> third_party = {
-    {"Eigen/", {"core", "backend", "method"}},
+    {"Eigen/", {"core", "backend", "method", "ensemble"}},
     {"unsupported/Eigen/", {"method"}},
     {"fftw3.h", {"backend"}},
     {"toml++/", {"config"}},

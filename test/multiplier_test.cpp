@@ -44,7 +44,7 @@ TEST(Multiplier, ThePolynomialAndTheGeneralPathGiveTheSameFunction) {
   const Vector delta = 0.1 * Vector::Random(z.size());
   const Vector z_plus = z + delta;
   const Vector q = 0.05 * Vector::Random(z.size());
-  Vector g(z.size());
+  Vector g = Vector::Zero(z.size());
   a.potential->gradient(z + 0.5 * delta, g);
   MultiplierEquation first(*a.potential, z.size());
   MultiplierEquation second(*b.potential, z.size());

@@ -1,6 +1,7 @@
 // Damping coefficients γ(t) and their integrals.
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/rates.hpp>
 
 #include <gtest/gtest.h>
@@ -108,6 +109,68 @@ TEST(Rate, NegativeTimesAreFound) {
 TEST(Rate, WhatIsNotFiniteIsLeftForTheCallerToSee) {
   EXPECT_TRUE(std::isinf(rate("1/t")->value(0.0)));
   EXPECT_TRUE(std::isnan(rate("log(t - 1)")->integral(0.0, 2.0)));
+}
+
+FieldRatePointer field_rate(const std::string& text, bool constant_in_time, const Grid& grid) {
+  return formula_space_rate(compile_formula(text, {"t", "x", "y"}), 2, constant_in_time)->on(grid);
+}
+
+const Grid plane{.axes = {{3, 3.0, Boundary::periodic}, {2, 1.0, Boundary::neumann}}};
+
+TEST(FieldRate, IntegralsMeetTheClosedFormAtEveryPoint) {
+  const FieldRatePointer steady = field_rate("x + 10*y", true, plane);
+  const FieldRatePointer varying = field_rate("(x + 10*y)*(1 + sin(t))", false, plane);
+  EXPECT_TRUE(steady->is_constant());
+  EXPECT_FALSE(varying->is_constant());
+  std::vector<double> a(6);
+  std::vector<double> b(6);
+  std::vector<double> gamma(6);
+  for (const double t : {0.0, 0.37, 3.0}) {
+    for (const double h : {1e-6, 1.0 / 64, 3.0}) {
+      steady->integrals(t, h, a);
+      varying->integrals(t, h, b);
+      varying->values(t, gamma);
+      for (Index j = 0; j < 6; ++j) {
+        const double shape = plane.coordinate(j, 0) + 10 * plane.coordinate(j, 1);
+        const auto i = static_cast<std::size_t>(j);
+        EXPECT_EQ(a[i], h * shape);
+        const double expected = shape * (h + 2 * std::sin(t + h / 2) * std::sin(h / 2));
+        EXPECT_NEAR(b[i], expected, 1e-14 * expected);
+        EXPECT_NEAR(gamma[i], shape * (1 + std::sin(t)), 1e-14 * shape);
+      }
+    }
+  }
+}
+
+TEST(FieldRate, NonnegativeRatesHaveNonnegativeIntegralsAndKinksAreCrossed) {
+  const FieldRatePointer rate = field_rate("max(0, t - 0.1*x)", false, plane);  // x = 1, 2, 3
+  std::vector<double> integral(6);
+  rate->integrals(0.0, 1.0, integral);
+  for (Index j = 0; j < 6; ++j)
+    EXPECT_NEAR(integral[static_cast<std::size_t>(j)], std::pow(1 - 0.1 * plane.coordinate(j, 0), 2) / 2, 1e-13);
+  const FieldRatePointer even = field_rate("(t - x)^4", false, plane);
+  for (int n = 0; n < 300; ++n) {
+    even->integrals(n / 100.0, 1.0 / 100, integral);
+    for (const double value : integral) ASSERT_GE(value, 0.0);
+  }
+}
+
+TEST(FieldRate, NegativeValuesAreFoundAnywhere) {
+  EXPECT_EQ(field_rate("2.5 - x", true, plane)->first_negative_time(10), 0);
+  EXPECT_LT(field_rate("3.5 - x", true, plane)->first_negative_time(10), 0);
+  const FieldRatePointer later = field_rate("4 - x - t", false, plane);
+  EXPECT_LT(later->negative_seen(), 0);
+  EXPECT_NEAR(later->first_negative_time(10), 1, 0.02);
+  EXPECT_GE(later->negative_seen(), 1);
+}
+
+TEST(FieldRate, AGridWithTooFewAxesIsRefused) {
+  try {
+    field_rate("x*y", true, {.axes = {{8, 1.0, Boundary::periodic}}});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "the rate x*y names y, but the grid has 1 axis");
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/dense.hpp>
 #include <seiche/backend/modal.hpp>
+#include <seiche/backend/sparse.hpp>
 #include <seiche/core/error.hpp>
 
 #include <fftw3.h>
@@ -16,6 +17,7 @@ constexpr std::array list = {
                  dense_system},
     BackendEntry{"modal", "Fourier or sine coefficients, one small block per mode: exact and fast on grids",
                  modal_system},
+    BackendEntry{"sparse", "sparse matrices: coefficients that change from point to point, and graphs", sparse_system},
 };
 
 }  // namespace
@@ -37,8 +39,9 @@ const BackendEntry& find_backend(std::string_view name) {
 }
 
 const BackendEntry& automatic_backend(const Problem& problem) {
-  constexpr Index dense_up_to = 12;  // unknowns; docs/performance.md has the measurement
-  return find_backend(problem.size() <= dense_up_to ? "dense" : "modal");
+  constexpr Index dense_up_to = 24;  // unknowns; docs/performance.md has the measurement
+  if (problem.size() <= dense_up_to) return find_backend("dense");
+  return find_backend(problem.matrices ? "sparse" : "modal");
 }
 
 std::map<std::string, std::string> backend_library_versions() {

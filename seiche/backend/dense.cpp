@@ -3,7 +3,11 @@
 #include <seiche/backend/grid_damping.hpp>
 #include <seiche/backend/grid_potential.hpp>
 #include <seiche/backend/grid_space.hpp>
+#include <seiche/backend/lane_matrix.hpp>
 #include <seiche/core/error.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace seiche {
 namespace {
@@ -19,44 +23,117 @@ class DenseMap final : public LinearMap {
   Matrix a_;
 };
 
-class DensePropagator final : public Propagator {
+// ½zᵀMz, at the cost of the part of M that is not the identity.
+class DenseMetric {
  public:
-  DensePropagator(const ForceMaps<Matrix>& maps, const Matrix& M)
-      : F_(maps.F), FM_(maps.F * M), Q_(maps.Q), QM_(maps.Q * M) {}
-
-  void predict(const Vector& z, const Vector& gradient, Vector& z_mid) const override {
-    z_mid = z;
-    z_mid.noalias() += QM_ * z;
-    z_mid.noalias() += Q_ * gradient;
+  explicit DenseMetric(const Matrix& M) : size_(M.rows()), leading_(M.rows()) {
+    while (leading_ > 0 && is_unit(M, leading_ - 1)) --leading_;
+    M_ = LaneMatrix(M.topLeftCorner(leading_, leading_));
+    Mz_.resize(M_.padded_rows());
   }
-  void increment(const Vector& z, Vector& dz) const override { dz.noalias() = FM_ * z; }
-  void force(const Vector& f, Vector& q) const override { q.noalias() = F_ * f; }
+  template <class Z>
+  double energy(const Z& z) const {  // of the first size_ numbers of z
+    M_.apply(z.data(), Mz_.data());
+    return (z.head(leading_).dot(Mz_.head(leading_)) + z.segment(leading_, size_ - leading_).squaredNorm()) / 2;
+  }
 
  private:
-  Matrix F_, FM_, Q_, QM_;
+  static bool is_unit(const Matrix& M, Index i) {
+    return M(i, i) == 1 && M.row(i).cwiseAbs().sum() == 1 && M.col(i).cwiseAbs().sum() == 1;
+  }
+  Index size_, leading_;  // rows and columns from leading_ on are those of the identity
+  LaneMatrix M_;
+  mutable Vector Mz_;
+};
+
+class DensePropagator final : public Propagator {
+ public:
+  // `metric` outlives the propagator.
+  DensePropagator(const ForceMaps<Matrix>& maps, const Matrix& M, const DenseMetric& metric, Potential::Support support)
+      : size_(M.rows()),
+        support_(support),
+        metric_(metric),
+        all_F_(maps.F),
+        F_(maps.F.middleCols(support.begin, support.size)),
+        FM_(maps.F * M) {
+    Matrix mid(support.size, size_ + support.size);
+    mid << (maps.Q * M).middleRows(support.begin, support.size),
+        maps.Q.block(support.begin, support.begin, support.size, support.size);
+    mid_ = LaneMatrix(mid);
+    z_and_gradient_.resize(size_ + support.size);
+    for (Vector* v : {&dz_, &q_}) v->resize(std::max(FM_.padded_rows(), mid_.padded_rows()));
+  }
+
+  // ẑ = z⁻ + Q(Mz⁻ + ∇V), as one matrix times (z⁻, ∇V)
+  void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
+    set(z, before);
+    z_and_gradient_.tail(support_.size) = gradient.segment(support_.begin, support_.size);
+    mid_.apply(z_and_gradient_.data(), q_.data());
+    z_mid.segment(support_.begin, support_.size) =
+        z_and_gradient_.segment(support_.begin, support_.size) + q_.head(support_.size);
+  }
+  void increment(const Vector& z, Vector& dz) const override {
+    FM_.apply(z.data(), dz_.data());
+    dz = dz_.head(size_);
+  }
+  void force(const Vector& f, Vector& q) const override { q.noalias() = all_F_ * f; }
+
+  void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const override {
+    set(z, before);
+    FM_.apply(z_and_gradient_.data(), dz_.data());
+    F_.apply(f.data() + support_.begin, q_.data());
+    const auto f_support = f.segment(support_.begin, support_.size);
+    const double c =
+        factor({f_support.dot(dz_.segment(support_.begin, support_.size)),
+                f_support.dot(q_.segment(support_.begin, support_.size)), metric_.energy(z_and_gradient_)});
+    if (!std::isfinite(c)) return;
+    z = z_and_gradient_.head(size_) + dz_.head(size_) + c * q_.head(size_);
+    multiply_fields(after, z);
+  }
+
+ private:
+  void set(const Vector& z, FieldFactors before) const {
+    const Index slots = before.empty() ? 0 : size_ / static_cast<Index>(before.size());
+    if (before.empty()) z_and_gradient_.head(size_) = z;
+    for (std::size_t f = 0; f < before.size(); ++f) {
+      const Index begin = static_cast<Index>(f) * slots;
+      z_and_gradient_.segment(begin, slots) = before[f] * z.segment(begin, slots);
+    }
+  }
+
+  Index size_;
+  Potential::Support support_;
+  const DenseMetric& metric_;
+  Matrix all_F_;
+  LaneMatrix F_, FM_, mid_;  // F_: the columns of forces
+  mutable Vector z_and_gradient_, dz_, q_;
 };
 
 class DenseLinear final : public LinearPart {
  public:
-  DenseLinear(Matrix S, Matrix M)
-      : S_(std::move(S)), M_(std::move(M)), absolute_M_(M_.cwiseAbs()), scratch_(M_.rows()) {}
+  DenseLinear(Matrix S, Matrix M, Potential::Support support)
+      : support_(support),
+        S_(std::move(S)),
+        M_(std::move(M)),
+        absolute_M_(M_.cwiseAbs()),
+        metric_(M_),
+        scratch_(M_.rows()) {}
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = S_ * z; }
   void apply_M(const Vector& z, Vector& out) const override { out.noalias() = M_ * z; }
-  double quadratic_energy(const Vector& z) const override {
-    scratch_.noalias() = M_ * z;
-    return z.dot(scratch_) / 2;
-  }
+  double quadratic_energy(const Vector& z) const override { return metric_.energy(z); }
   double quadratic_magnitude(const Vector& z) const override {
     scratch_.noalias() = absolute_M_ * z.cwiseAbs();
     return z.cwiseAbs().dot(scratch_) / 2;
   }
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
-    return std::make_unique<DensePropagator>(force_maps(kind, S_, M_, h), M_);
+    return std::make_unique<DensePropagator>(force_maps(kind, S_, M_, h), M_, metric_, support_);
   }
 
  private:
+  Potential::Support support_;
   Matrix S_, M_, absolute_M_;
+  DenseMetric metric_;
   mutable Vector scratch_;
 };
 
@@ -70,13 +147,14 @@ System dense_system(const Problem& problem, const BackendOptions&) {
   }
   const std::shared_ptr<const FieldTransform> identity = identity_transform(n);
   System system;
+  system.fields = problem.field_count();
   system.space = std::make_unique<GridSpace>(problem.field_count(), identity);
   const auto matrix = [&](const BlockStencil& stencil, SparseMatrix SparseOperators::*sparse) -> Matrix {
     return problem.matrices ? Matrix((*problem.matrices).*sparse) : stencil.matrix(problem.grid);
   };
-  system.linear =
-      std::make_unique<DenseLinear>(matrix(problem.S, &SparseOperators::S), matrix(problem.M, &SparseOperators::M));
   system.potential = std::make_unique<GridPotential>(problem, identity);
+  system.linear = std::make_unique<DenseLinear>(matrix(problem.S, &SparseOperators::S),
+                                                matrix(problem.M, &SparseOperators::M), system.potential->support());
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;

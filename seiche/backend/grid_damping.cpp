@@ -1,18 +1,23 @@
 #include <seiche/backend/grid_damping.hpp>
+#include <seiche/backend/segment.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace seiche {
 
-GridDamping::GridDamping(const Problem& problem, Index slots, std::unique_ptr<LinearMap> constant, MakeFlow make_flow)
-    : slots_(slots),
+GridDamping::GridDamping(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
+                         std::unique_ptr<LinearMap> constant, MakeFlow make_flow)
+    : slots_(transform->slots()),
       constant_(std::move(constant)),
       make_flow_(std::move(make_flow)),
       rate_(problem.damping.rate),
       rate_fields_(problem.damping.rate_fields),
       touches_potential_(problem.damping_moves_potential()),
-      scratch_(problem.field_count() * slots) {}
+      scratch_(problem.field_count() * slots_) {
+  if (problem.damping.field_rate)
+    field_rate_ = std::make_unique<FieldDecay>(problem.damping.field_rate, std::move(transform));
+}
 
 const LinearMap& GridDamping::flow_map(double h) const {
   const auto found = std::find_if(flows_.begin(), flows_.end(), [h](const CachedFlow& c) { return c.h == h; });
@@ -26,16 +31,39 @@ const LinearMap& GridDamping::flow_map(double h) const {
   return *flows_.front().map;
 }
 
+double GridDamping::rate_decay(double t, double h) const {
+  if (!rate_->is_constant()) return std::exp(-rate_->integral(t, h));
+  if (decay_of_.h != h) decay_of_ = {h, std::exp(-rate_->integral(t, h))};
+  return decay_of_.decay;
+}
+
+void GridDamping::constant_flow(double h, Vector& z) const {
+  flow_map(h).apply(z, scratch_);
+  z.swap(scratch_);
+}
+
 void GridDamping::flow(double t, double h, Vector& z) const {
   if (rate_) {
-    const double decay = std::exp(-rate_->integral(t, h));
+    const double decay = rate_decay(t, h);
     for (std::size_t f = 0; f < rate_fields_.size(); ++f)
       if (rate_fields_[f]) z.segment(static_cast<Index>(f) * slots_, slots_) *= decay;
   }
-  if (constant_) {
-    flow_map(h).apply(z, scratch_);
-    z.swap(scratch_);
+  if (!field_rate_) {
+    if (constant_) constant_flow(h, z);
+    return;
   }
+  if (constant_) constant_flow(h / 2, z);
+  const Vector& decay = field_rate_->factors(t, h);
+  for (std::size_t f = 0; f < rate_fields_.size(); ++f)
+    if (rate_fields_[f]) field_rate_->multiply(decay, segment(z, static_cast<Index>(f) * slots_, slots_));
+  if (constant_) constant_flow(h / 2, z);
+}
+
+bool GridDamping::field_factors(double t, double h, std::span<double> factors) const {
+  if (constant_ || field_rate_) return false;
+  const double decay = rate_ ? rate_decay(t, h) : 1.0;
+  for (std::size_t f = 0; f < factors.size(); ++f) factors[f] = rate_ && rate_fields_[f] ? decay : 1.0;
+  return true;
 }
 
 void GridDamping::apply(double t, const Vector& z, Vector& out) const {
@@ -44,11 +72,15 @@ void GridDamping::apply(double t, const Vector& z, Vector& out) const {
   } else {
     out.setZero();
   }
-  if (!rate_) return;
-  const double gamma = rate_->value(t);
+  const double gamma = rate_ ? rate_->value(t) : 0.0;
   for (std::size_t f = 0; f < rate_fields_.size(); ++f) {
     const Index begin = static_cast<Index>(f) * slots_;
-    if (rate_fields_[f]) out.segment(begin, slots_) += gamma * z.segment(begin, slots_);
+    if (!rate_fields_[f]) continue;
+    if (rate_) out.segment(begin, slots_) += gamma * z.segment(begin, slots_);
+    if (!field_rate_) continue;
+    scratch_.head(slots_) = z.segment(begin, slots_);
+    field_rate_->multiply(field_rate_->values(t), segment(scratch_, 0, slots_));
+    out.segment(begin, slots_) += scratch_.head(slots_);
   }
 }
 

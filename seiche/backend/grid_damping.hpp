@@ -1,28 +1,40 @@
 // The damping of a system on a grid, in whichever coordinates a FieldTransform gives each field.
 #pragma once
 
+#include <seiche/backend/field_decay.hpp>
 #include <seiche/backend/linear_map.hpp>
+#include <seiche/backend/transform.hpp>
 #include <seiche/core/damping.hpp>
 #include <seiche/core/problem.hpp>
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace seiche {
 
-// D(t) = constant + γ(t)P; the parts of the problems here commute, so Ψ is the product of their flows.
+// D(t) = constant + (γ(t) + γ(x, t))P. The constant part and γ(t)P commute in the problems here, so Ψ is the product of
+// their flows. γ(x, t)P commutes with γ(t)P only: its flow stands between two halves of the constant one, symmetric and of
+// order two, and each factor keeps the law.
 class GridDamping final : public Damping {
  public:
   using MakeFlow = std::function<std::unique_ptr<LinearMap>(double h)>;  // e^{−h constant}
-  GridDamping(const Problem& problem, Index slots, std::unique_ptr<LinearMap> constant, MakeFlow make_flow);
-  bool is_zero() const override { return !constant_ && !rate_; }
+  GridDamping(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
+              std::unique_ptr<LinearMap> constant, MakeFlow make_flow);
+  // Where coordinates are the physical values, so many of each field.
+  GridDamping(const Problem& problem, Index unknowns, std::unique_ptr<LinearMap> constant, MakeFlow make_flow)
+      : GridDamping(problem, identity_transform(unknowns), std::move(constant), std::move(make_flow)) {}
+  bool is_zero() const override { return !constant_ && !rate_ && !field_rate_; }
   bool touches_potential() const override { return touches_potential_; }
   void flow(double t, double h, Vector& z) const override;
   void apply(double t, const Vector& z, Vector& out) const override;
+  bool field_factors(double t, double h, std::span<double> factors) const override;
 
  private:
   const LinearMap& flow_map(double h) const;
+  void constant_flow(double h, Vector& z) const;
+  double rate_decay(double t, double h) const;  // e^{−∫γ}
 
   struct CachedFlow {
     double h;
@@ -32,9 +44,13 @@ class GridDamping final : public Damping {
   std::unique_ptr<LinearMap> constant_;  // null: none
   MakeFlow make_flow_;
   RatePointer rate_;
+  std::unique_ptr<FieldDecay> field_rate_;  // null: none
   std::vector<bool> rate_fields_;
   bool touches_potential_;
   mutable std::vector<CachedFlow> flows_;  // most recently used first
+  struct {
+    double h = 0.0, decay = 1.0;
+  } mutable decay_of_;  // of a constant rate: the last length asked for
   mutable Vector scratch_;
 };
 

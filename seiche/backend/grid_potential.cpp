@@ -21,8 +21,6 @@ std::span<const double> GridPotential::values_of(const Vector& z, Vector& values
 }
 
 void GridPotential::set_gradient(const Vector& physical, Vector& gradient) const {
-  gradient.head(support_.begin).setZero();
-  gradient.tail(gradient.size() - support_.begin - support_.size).setZero();
   const Index n = transform_->unknowns();
   const Index slots = transform_->slots();
   for (Index f = 0; f < pointwise_->fields(); ++f)
@@ -39,22 +37,27 @@ double GridPotential::magnitude(const Vector& z) const {
   return pointwise_ ? pointwise_->magnitude(values_of(z, a_)) : 0;
 }
 
+// In the vector of the gradient: coordinates become values, these slopes, and those coordinates again.
 double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) const {
-  if (!pointwise_) {
-    gradient.setZero();
-    return 0;
-  }
+  if (!pointwise_) return 0;
   ++counts_.gradients;
-  const double v = pointwise_->value_and_gradient(values_of(z, a_), all(slope_));
-  set_gradient(slope_, gradient);
+  if (&z != &gradient) gradient.segment(support_.begin, support_.size) = z.segment(support_.begin, support_.size);
+  const auto slopes = [this](std::span<double> values) {
+    return pointwise_->value_and_gradient_in_place(transform_->value_scale(), transform_->slot_scale(), values);
+  };
+  if (pointwise_->is_local())
+    return transform_->through_values(segment(gradient, support_.begin, support_.size), slopes);
+  const Index n = transform_->unknowns();
+  const Index slots = transform_->slots();
+  const auto field = [&](Index f) { return segment(gradient, support_.begin + f * slots, slots); };
+  for (Index f = 0; f < pointwise_->fields(); ++f) transform_->to_values(field(f), segment(slope_, f * n, n));
+  const double v = slopes(all(slope_));
+  for (Index f = 0; f < pointwise_->fields(); ++f) transform_->to_slots(segment(slope_, f * n, n), field(f));
   return v;
 }
 
 void GridPotential::mean_gradient(const Vector& a, const Vector& b, Vector& mean) const {
-  if (!pointwise_) {
-    mean.setZero();
-    return;
-  }
+  if (!pointwise_) return;
   ++counts_.gradients;
   pointwise_->mean_gradient(values_of(a, a_), values_of(b, b_), all(slope_));
   set_gradient(slope_, mean);

@@ -2,63 +2,102 @@
 #include <seiche/backend/grid_damping.hpp>
 #include <seiche/backend/grid_potential.hpp>
 #include <seiche/backend/grid_space.hpp>
+#include <seiche/backend/masked_potential.hpp>
 #include <seiche/backend/modal.hpp>
+#include <seiche/backend/modal_propagator.hpp>
 #include <seiche/backend/mode_map.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/truncated_potential.hpp>
+
+#include <array>
+#include <optional>
 
 namespace seiche {
 namespace {
 
 using Block = Eigen::MatrixXcd;
 
-class ModalPropagator final : public Propagator {
+// Any number of fields, any M: entry by entry.
+class MappedPropagator final : public Propagator {
  public:
-  ModalPropagator(ModeMap F, ModeMap FM, ModeMap Q, ModeMap QM)
-      : F_(std::move(F)), FM_(std::move(FM)), Q_(std::move(Q)), QM_(std::move(QM)) {}
+  MappedPropagator(Potential::Support support, ModeMap F, ModeMap FM, ModeMap Q, ModeMap QM)
+      : support_(support), F_(std::move(F)), FM_(std::move(FM)), Q_(std::move(Q)), QM_(std::move(QM)) {}
 
-  void predict(const Vector& z, const Vector& gradient, Vector& z_mid) const override {
-    z_mid = z;
-    QM_.add(z, z_mid);
-    Q_.add(gradient, z_mid);
+  void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
+    z_ = z;
+    multiply_fields(before, z_);
+    result_ = z_;
+    QM_.add(z_, result_);
+    Q_.add(gradient, result_);
+    z_mid.segment(support_.begin, support_.size) = result_.segment(support_.begin, support_.size);
   }
   void increment(const Vector& z, Vector& dz) const override { FM_.apply(z, dz); }
   void force(const Vector& f, Vector& q) const override { F_.apply(f, q); }
 
  private:
+  Potential::Support support_;
   ModeMap F_, FM_, Q_, QM_;
+  mutable Vector z_, result_;
 };
 
 class ModalLinear final : public LinearPart {
  public:
-  explicit ModalLinear(const Problem& problem)
+  ModalLinear(const Problem& problem, int threads)
       : modes_(problem.grid),
         S_symbol_(problem.S),
         M_symbol_(problem.M),
-        S_(map([this](Index k) { return S_symbol_.symbol(modes_[k]); })),
-        M_(map([this](Index k) { return M_symbol_.symbol(modes_[k]); })),
-        absolute_M_(map([this](Index k) -> Block {
-          return M_symbol_.symbol(modes_[k]).cwiseAbs().cast<std::complex<double>>();
-        })) {}
+        extent_{.fields = problem.field_count(),
+                .modes = modes_.count(),
+                .layout = layout(problem),
+                .first = problem.potential_field,
+                .count = problem.potential ? problem.potential->fields() : 1,
+                .threads = threads} {
+    if (!is_diagonal(M_symbol_)) return;
+    metric_.emplace(ModalMetric{ModeArrays(extent_.modes, extent_.fields, 1, real_layout()), 0});
+    for (Index f = 0; f < extent_.fields; ++f) {
+      if (M_symbol_(f, f).is_identity()) metric_->unit |= 1U << static_cast<unsigned>(f);
+      for (Index k = 0; k < extent_.modes; ++k) {
+        const double factor = M_symbol_(f, f).symbol(modes_[k]).real();
+        metric_->factors.set(k, f, 0, factor);
+        nonnegative_ = nonnegative_ && factor >= 0;
+      }
+    }
+    if (!has_fused_propagator(extent_, metric_->unit)) metric_->unit = 0;  // its factors are there all the same
+  }
 
-  void apply_S(const Vector& z, Vector& out) const override { S_.apply(z, out); }
-  void apply_M(const Vector& z, Vector& out) const override { M_.apply(z, out); }
+  void apply_S(const Vector& z, Vector& out) const override { map(S_, S_symbol_).apply(z, out); }
+  void apply_M(const Vector& z, Vector& out) const override { map(M_, M_symbol_).apply(z, out); }
 
   double quadratic_energy(const Vector& z) const override {
+    if (metric_) {
+      double twice = 0;
+      for (Index f = 0; f < extent_.fields; ++f) {
+        const bool unit = (metric_->unit >> static_cast<unsigned>(f) & 1U) != 0;
+        twice += weighted_square(extent_.layout, unit ? nullptr : metric_->factors.data(f, 0),
+                                 z.data() + f * extent_.slots(), extent_.slots());
+      }
+      return twice / 2;
+    }
     scratch_.resize(z.size());
-    M_.apply(z, scratch_);
+    apply_M(z, scratch_);
     return z.dot(scratch_) / 2;
   }
 
   double quadratic_magnitude(const Vector& z) const override {
+    if (metric_ && nonnegative_) return quadratic_energy(z);
+    if (!absolute_M_) {
+      absolute_M_ = std::make_unique<ModeMap>(modes_, extent_.fields, [this](Index k) -> Block {
+        return M_symbol_.symbol(modes_[k]).cwiseAbs().cast<std::complex<double>>();
+      });
+    }
     scratch_.resize(z.size());
-    absolute_.resize(z.size());
     absolute_ = z.cwiseAbs();
-    absolute_M_.apply(absolute_, scratch_);
+    absolute_M_->apply(absolute_, scratch_);
     return absolute_.dot(scratch_) / 2;
   }
 
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
-    switch (M_symbol_.fields()) {  // blocks of a size known to the compiler: no allocation per mode
+    switch (extent_.fields) {  // blocks of a size known to the compiler: no allocation per mode
       case 1: return sized_propagator<1>(kind, h);
       case 2: return sized_propagator<2>(kind, h);
       default: return sized_propagator<Eigen::Dynamic>(kind, h);
@@ -66,32 +105,76 @@ class ModalLinear final : public LinearPart {
   }
 
  private:
+  static bool is_diagonal(const BlockStencil& a) {
+    for (Index i = 0; i < a.fields(); ++i)
+      for (Index j = 0; j < a.fields(); ++j)
+        if (i == j ? !a(i, i).is_symmetric() : !a(i, j).is_zero()) return false;
+    return true;
+  }
+
+  static bool is_real(const BlockStencil& a) {
+    for (Index i = 0; i < a.fields(); ++i)
+      for (Index j = 0; j < a.fields(); ++j)
+        if (!a(i, j).is_symmetric()) return false;
+    return true;
+  }
+
+  static ModeLayout layout(const Problem& problem) {
+    if (!problem.grid.is_periodic()) return ModeLayout::singles;
+    return is_real(problem.S) && is_real(problem.M) ? ModeLayout::real_pairs : ModeLayout::complex_pairs;
+  }
+  ModeLayout real_layout() const {
+    return extent_.layout == ModeLayout::singles ? ModeLayout::singles : ModeLayout::real_pairs;
+  }
+
   template <int m>
   std::unique_ptr<Propagator> sized_propagator(PropagatorKind kind, double h) const {
     using SizedBlock = Eigen::Matrix<std::complex<double>, m, m>;
-    struct Maps {
-      SizedBlock F, FM, Q, QM;
+    const auto maps_of = [&](Index k) {
+      return force_maps<SizedBlock>(kind, S_symbol_.symbol(modes_[k]), M_symbol_.symbol(modes_[k]), h);
     };
-    std::vector<Maps> maps;
-    maps.reserve(static_cast<std::size_t>(modes_.count()));
-    for (Index k = 0; k < modes_.count(); ++k) {
-      const SizedBlock S = S_symbol_.symbol(modes_[k]);
-      const SizedBlock M = M_symbol_.symbol(modes_[k]);
-      const ForceMaps<SizedBlock> block = force_maps<SizedBlock>(kind, S, M, h);
-      maps.push_back({block.F, block.F * M, block.Q, block.Q * M});
+    const Index fields = extent_.fields;
+    if (metric_ && has_fused_propagator(extent_, metric_->unit)) {
+      ModalForceMaps maps{ModeArrays(extent_.modes, fields, fields, extent_.layout),
+                          ModeArrays(extent_.modes, fields, fields, extent_.layout)};
+      for (Index k = 0; k < extent_.modes; ++k) {
+        const ForceMaps<SizedBlock> block = maps_of(k);
+        for (Index i = 0; i < fields; ++i) {
+          for (Index j = 0; j < fields; ++j) {
+            maps.F.set(k, i, j, block.F(i, j));
+            maps.Q.set(k, i, j, block.Q(i, j));
+          }
+        }
+      }
+      return fused_propagator(extent_, *metric_, std::move(maps));
     }
-    const auto at = [&](Index k) -> const Maps& { return maps[static_cast<std::size_t>(k)]; };
-    return std::make_unique<ModalPropagator>(map([&](Index k) -> Block { return at(k).F; }),
-                                             map([&](Index k) -> Block { return at(k).FM; }),
-                                             map([&](Index k) -> Block { return at(k).Q; }),
-                                             map([&](Index k) -> Block { return at(k).QM; }));
+    std::vector<std::array<Block, 4>> blocks;
+    blocks.reserve(static_cast<std::size_t>(extent_.modes));
+    for (Index k = 0; k < extent_.modes; ++k) {
+      const ForceMaps<SizedBlock> block = maps_of(k);
+      const Block M = M_symbol_.symbol(modes_[k]);
+      blocks.push_back({block.F, block.F * M, block.Q, block.Q * M});
+    }
+    const auto map_of = [&](std::size_t which) {
+      return ModeMap(modes_, fields, [&, which](Index k) { return blocks[static_cast<std::size_t>(k)][which]; });
+    };
+    const Potential::Support support{extent_.first * extent_.slots(), extent_.count * extent_.slots()};
+    return std::make_unique<MappedPropagator>(support, map_of(0), map_of(1), map_of(2), map_of(3));
   }
 
-  ModeMap map(const ModeMap::Block& block) const { return ModeMap(modes_, M_symbol_.fields(), block); }
+  // Built when first asked for: steps do not need them.
+  const ModeMap& map(std::unique_ptr<ModeMap>& map, const BlockStencil& symbol) const {
+    if (!map)
+      map = std::make_unique<ModeMap>(modes_, extent_.fields, [&](Index k) { return symbol.symbol(modes_[k]); });
+    return *map;
+  }
 
   Modes modes_;
   BlockStencil S_symbol_, M_symbol_;
-  ModeMap S_, M_, absolute_M_;
+  ModalExtent extent_;
+  std::optional<ModalMetric> metric_;  // where M is diagonal
+  bool nonnegative_ = true;            // is it? then ½|z|ᵀ|M||z| is ½zᵀMz
+  mutable std::unique_ptr<ModeMap> S_, M_, absolute_M_;
   mutable Vector scratch_, absolute_;
 };
 
@@ -101,6 +184,20 @@ void require_symmetric(const BlockStencil& a, std::string_view name) {
       if (!a(i, j).is_symmetric())
         throw Error("the modal backend needs every axis periodic where {}({}, {}) has a first derivative; use dense",
                     name, i, j);
+}
+
+// A truncated V by a mask on the modes instead of its convolutions.
+std::unique_ptr<Potential> modal_potential(const Problem& problem,
+                                           const std::shared_ptr<const FieldTransform>& transform) {
+  const auto* truncated = dynamic_cast<const TruncatedPotential*>(problem.potential.get());
+  if (truncated == nullptr) return std::make_unique<GridPotential>(problem, transform);
+  Problem whole = problem;
+  whole.potential = truncated->whole();
+  const Modes modes(problem.grid);
+  Vector mask(truncated->fields() * modes.slots());
+  for (Index i = 0; i < mask.size(); ++i)
+    mask[i] = is_kept(modes[i % modes.slots() / 2]) ? 1.0 : 0.0;  // pairs of slots
+  return std::make_unique<MaskedPotential>(std::make_unique<GridPotential>(whole, transform), std::move(mask));
 }
 
 }  // namespace
@@ -116,11 +213,13 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
     require_symmetric(problem.M, "M");
     require_symmetric(problem.damping.constant, "D");
   }
-  const std::shared_ptr<const FieldTransform> transform = modal_transform(problem.grid, options.measure_plans);
+  const std::shared_ptr<const FieldTransform> transform =
+      modal_transform(problem.grid, {.measure_plans = options.measure_plans, .threads = options.threads});
   System system;
+  system.fields = problem.field_count();
   system.space = std::make_unique<GridSpace>(problem.field_count(), transform);
-  system.linear = std::make_unique<ModalLinear>(problem);
-  system.potential = std::make_unique<GridPotential>(problem, transform);
+  system.linear = std::make_unique<ModalLinear>(problem, options.threads);
+  system.potential = modal_potential(problem, transform);
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;
@@ -132,8 +231,7 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
       return std::make_unique<ModeMap>(modes, m, [&](Index k) { return damping_exponential<Block>(symbol(k), h); });
     };
   }
-  system.damping =
-      std::make_unique<GridDamping>(problem, transform->slots(), std::move(constant), std::move(make_flow));
+  system.damping = std::make_unique<GridDamping>(problem, transform, std::move(constant), std::move(make_flow));
   system.initial.resize(system.space->size());
   system.space->from_physical(problem.initial, system.initial);
   return system;

@@ -1,6 +1,7 @@
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/case_parameters.hpp>
 #include <seiche/config/case_table.hpp>
+#include <seiche/config/ensemble_case.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/vector.hpp>
 #include <seiche/problem/problems.hpp>
@@ -18,13 +19,14 @@ namespace {
 
 constexpr std::size_t at_the_end = std::numeric_limits<std::size_t>::max();
 
-std::vector<std::string> section_names() { return {"problem", "method", "backend", "time", "output"}; }
+std::vector<std::string> section_names() { return {"problem", "method", "backend", "time", "output", "ensemble"}; }
 
 std::vector<std::string> keys_of(const std::string& section, const ProblemEntry* problem) {
   if (section == "method") return {"name", "h", "C", "auxiliary", "scalar_solver"};
-  if (section == "backend") return {"name", "plan"};
+  if (section == "backend") return {"name", "plan", "exponential", "pade_degree", "lanczos_dimension"};
   if (section == "time") return {"end"};
   if (section == "output") return {"directory", "energy_every", "snapshot_every"};
+  if (section == "ensemble") return ensemble_keys(problem);
   std::vector<std::string> keys = {"name", "initial"};
   if (problem != nullptr)
     for (const Parameter& parameter : problem->parameters) keys.push_back(parameter.name);
@@ -55,6 +57,7 @@ class Reader {
     read_method();
     read_backend();
     read_output();
+    if (problem_ != nullptr) read_ensemble();
     throw_first_complaint();
     return std::move(spec_);
   }
@@ -146,7 +149,7 @@ class Reader {
   void read_problem() {
     for (const Parameter& parameter : problem_->parameters) {
       const bool given = on("problem", parameter.name, [&](const std::string&, const CaseValue& value) {
-        set_parameter(spec_, parameter, value);
+        set_parameter(spec_, parameter, value, folder_);
       });
       if (!given) set_parameter(spec_, parameter, text_value(parameter.default_value));
     }
@@ -219,6 +222,18 @@ class Reader {
     on("backend", "plan", [&](const std::string& key, const CaseValue& value) {
       spec_.measure_plans = read_name(key, value, {"estimate", "measure"}) == "measure";
     });
+    on("backend", "exponential", [&](const std::string& key, const CaseValue& value) {
+      const bool lanczos = read_name(key, value, {"pade", "lanczos"}) == "lanczos";
+      spec_.sparse.exponential = lanczos ? ExponentialKind::lanczos : ExponentialKind::pade;
+    });
+    on("backend", "pade_degree", [&](const std::string& key, const CaseValue& value) {
+      spec_.sparse.pade_degree = static_cast<int>(std::min(read_whole(key, value, 0), 1000L));
+      spec_.sparse.validate();
+    });
+    on("backend", "lanczos_dimension", [&](const std::string& key, const CaseValue& value) {
+      spec_.sparse.lanczos_dimension = static_cast<int>(std::min(read_whole(key, value, 0), 1'000'000L));
+      spec_.sparse.validate();
+    });
   }
 
   // A step size typed wrong must not fill the disk.
@@ -246,6 +261,20 @@ class Reader {
     refuse_endless_files();
     on("output", "snapshot_every",
        [&](const std::string& key, const CaseValue& value) { spec_.snapshot_every = read_whole(key, value, 0); });
+  }
+
+  void read_ensemble() {
+    const CaseSection* section = table_.section("ensemble");
+    if (section == nullptr || !section->is_table) return;
+    EnsembleSpec& ensemble = spec_.ensemble.emplace();
+    const std::size_t complaints = complaints_.size();
+    for (const CaseEntry& entry : section->entries) {
+      on("ensemble", entry.key, [&](const std::string&, const CaseValue& value) {
+        read_ensemble_key(ensemble, entry.key, value, *problem_, folder_);
+      });
+    }
+    const std::string complaint = ensemble_complaint(ensemble);
+    if (complaints_.size() == complaints && !complaint.empty()) complain(section->order, section->place, complaint);
   }
 
   std::string name_;

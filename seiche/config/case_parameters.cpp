@@ -1,6 +1,8 @@
 #include <seiche/config/case_parameters.hpp>
 #include <seiche/config/formula_compiler.hpp>
+#include <seiche/config/matrix_market.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/rates.hpp>
 
 #include <fmt/ranges.h>
@@ -15,21 +17,17 @@ void require(const std::string& complaint) {
   if (!complaint.empty()) throw Error("problem.{}", complaint);
 }
 
-RatePointer read_rate(const Parameter& parameter, const CaseValue& value, double t_end) {
-  const std::string key = "problem." + parameter.name;
-  if (value.kind != CaseValue::Kind::number && value.kind != CaseValue::Kind::text)
-    throw Error("{} = {} must be a number, or a formula in t such as \"0.1 + 0.05*sin(t)\"", key, value.shown());
-  if (value.kind == CaseValue::Kind::number) {
-    const double gamma = read_number(key, value);
-    require(out_of_bounds(parameter, gamma));
-    return constant_rate(gamma);
-  }
-  FormulaPointer formula;
+// Null where the text is no formula in these variables.
+FormulaPointer compiled(const std::string& text, const std::vector<std::string>& variables) {
   try {
-    formula = compile_formula(value.text, {"t"});
-  } catch (const Error& error) {
-    throw Error("{}: {}", key, error.what());
+    return compile_formula(text, variables);
+  } catch (const Error&) {
+    return nullptr;
   }
+}
+
+// γ(t), sampled up to t_end.
+RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, double t_end) {
   constexpr int samples = 4096;
   for (int i = 0; i <= samples; ++i) {
     const double t = t_end * i / samples;
@@ -39,13 +37,41 @@ RatePointer read_rate(const Parameter& parameter, const CaseValue& value, double
   return formula_rate(std::move(formula));
 }
 
-std::filesystem::path find_file(const std::string& name, const std::filesystem::path& folder) {
+// A formula in t alone is a rate for all points. Any other asks for as many axes as it names, and is checked on the grid.
+ParameterValue read_formula_rate(const std::string& key, const Parameter& parameter, const std::string& text,
+                                 double t_end) {
+  if (FormulaPointer formula = compiled(text, {"t"})) return checked_rate(parameter, std::move(formula), t_end);
+  const std::vector<std::string> names = {"t", "x", "y", "z"};
+  const auto end = [&](Index axes) { return names.begin() + axes + 1; };
+  Index axes = 1;
+  while (axes < 3 && !compiled(text, {names.begin(), end(axes)})) ++axes;
+  try {
+    FormulaPointer formula = compile_formula(text, {names.begin(), end(axes)});
+    const bool constant_in_time = compiled(text, {names.begin() + 1, end(axes)}) != nullptr;
+    return formula_space_rate(std::move(formula), axes, constant_in_time);
+  } catch (const Error& error) {
+    throw Error("{}: {}", key, error.what());
+  }
+}
+
+ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, double t_end) {
+  const std::string key = "problem." + parameter.name;
+  if (value.kind != CaseValue::Kind::number && value.kind != CaseValue::Kind::text)
+    throw Error("{} = {} must be a number, or a formula in t (and x, y, z) such as \"0.1 + 0.05*sin(t)\"", key,
+                value.shown());
+  if (value.kind == CaseValue::Kind::text) return read_formula_rate(key, parameter, value.text, t_end);
+  const double gamma = read_number(key, value);
+  require(out_of_bounds(parameter, gamma));
+  return constant_rate(gamma);
+}
+
+std::filesystem::path find_file(std::string_view what, const std::string& name, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   for (const fs::path& candidate : {folder / name, fs::path(name)}) {  // folder / absolute is the absolute one
-    if (fs::is_directory(candidate)) throw Error("the initial file {} is a folder", candidate.string());
+    if (fs::is_directory(candidate)) throw Error("the {} file {} is a folder", what, candidate.string());
     if (fs::exists(candidate)) return fs::absolute(candidate).lexically_normal();
   }
-  throw Error("the initial file {} does not exist, neither beside the case file nor in the current folder", name);
+  throw Error("the {} file {} does not exist, neither beside the case file nor in the current folder", what, name);
 }
 
 FormulaData read_formulas(std::string_view key, const CaseValue& value, const ProblemEntry& problem) {
@@ -90,8 +116,17 @@ std::vector<T> gathered(const std::vector<ParameterValue>& values) {
 
 }  // namespace
 
-void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value) {
+void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
+                   const std::filesystem::path& folder) {
   const std::string key = "problem." + parameter.name;
+  if (parameter.kind == ParameterKind::matrix) {
+    const std::string name = read_text(key, value);
+    const std::string file = name.empty() ? "" : find_file(key, name, folder).string();
+    spec.parameters.set(parameter.name,
+                        file.empty() ? nullptr : std::make_shared<const SparseMatrix>(read_matrix_market(file)));
+    spec.parameter_texts[parameter.name] = file;  // absolute: the case file is copied to where the results are
+    return;
+  }
   if (parameter.kind == ParameterKind::rate) {
     spec.parameters.set(parameter.name, read_rate(parameter, value, spec.t_end));
     spec.parameter_texts[parameter.name] = is_toml_number(value.text) ? toml_real(read_number(key, value)) : value.text;
@@ -147,7 +182,7 @@ InitialData read_initial(std::string_view key, const CaseValue& value, const Pro
       std::find_if(value.entries.begin(), value.entries.end(), [](const auto& e) { return e.first == "file"; });
   if (file == value.entries.end()) return read_formulas(key, value, problem);
   if (value.entries.size() > 1) throw Error("{} is either a file or formulas, not both", key);
-  return FileData{find_file(read_text(fmt::format("{}.file", key), file->second), folder)};
+  return FileData{find_file("initial", read_text(fmt::format("{}.file", key), file->second), folder)};
 }
 
 }  // namespace seiche

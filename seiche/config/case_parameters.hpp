@@ -9,8 +9,10 @@
 
 namespace seiche {
 
-// Needs spec.t_end: a rate must be finite, and within its bounds, up to there.
-void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value);
+// Needs spec.t_end: a rate must be finite, and within its bounds, up to there. A relative file name starts at `folder`,
+// or else at the current one.
+void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
+                   const std::filesystem::path& folder = {});
 
 // A preset, { file = "…" }, or a formula for every field. A relative file name starts at `folder`, or else at the
 // current one.

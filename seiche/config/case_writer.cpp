@@ -42,7 +42,7 @@ std::string_view to_text(AuxiliaryMode mode) {
 std::string bounds(const Parameter& p) {
   std::vector<std::string> parts;
   if (p.kind == ParameterKind::integer) parts.emplace_back("whole");
-  if (p.kind == ParameterKind::rate) parts.emplace_back("a number, or a formula in t in quotes");
+  if (p.kind == ParameterKind::rate) parts.emplace_back("a number, or a formula in t (and x, y, z) in quotes");
   if (std::isfinite(p.minimum)) parts.push_back(fmt::format("{} {}", p.minimum_excluded ? ">" : "≥", p.minimum));
   if (std::isfinite(p.maximum)) parts.push_back(fmt::format("≤ {}", p.maximum));
   if (p.kind == ParameterKind::choice) parts.push_back(fmt::format("\"{}\"", fmt::join(p.choices, "\" | \"")));
@@ -52,7 +52,8 @@ std::string bounds(const Parameter& p) {
 
 std::string parameter_literal(const Parameter& parameter, const std::string& text) {
   if (parameter.per_axis && text.starts_with('[')) return text;
-  return parameter.kind == ParameterKind::choice ? toml_string(text) : number_or_string(text);
+  const bool is_text = parameter.kind == ParameterKind::choice || parameter.kind == ParameterKind::matrix;
+  return is_text ? toml_string(text) : number_or_string(text);
 }
 
 // "key = value" with the comment in one column.
@@ -79,9 +80,13 @@ std::string write_case(const RunSpec& spec) {
 
   text += fmt::format("\n[backend]\nname = {}\nplan = \"{}\"\n", toml_string(spec.backend),
                       spec.measure_plans ? "measure" : "estimate");
+  text += fmt::format("exponential = \"{}\"\npade_degree = {}\nlanczos_dimension = {}\n",
+                      spec.sparse.exponential == ExponentialKind::lanczos ? "lanczos" : "pade", spec.sparse.pade_degree,
+                      spec.sparse.lanczos_dimension);
   text += fmt::format("\n[time]\nend = {}\n", toml_real(spec.t_end));
   text += fmt::format("\n[output]\ndirectory = {}\nenergy_every = {}\nsnapshot_every = {}\n",
                       toml_string(spec.output_directory), spec.energy_every, spec.snapshot_every);
+  if (spec.ensemble) text += write_ensemble(*spec.ensemble);
   return text;
 }
 
@@ -110,6 +115,9 @@ std::string example_case(const std::string& problem) {
   text += "\n[backend]\n";
   text += line("name", "\"auto\"", fmt::format("auto | {}", fmt::join(backend_names(), " | ")));
   text += line("plan", "\"estimate\"", "FFTW: estimate (repeatable to the bit) | measure (fastest)");
+  text += line("exponential", "\"pade\"", "sparse: pade (factorises) | lanczos (does not; S skew, M definite)");
+  text += line("pade_degree", "0", "sparse: 1 to 12; 0: whatever round-off asks for");
+  text += line("lanczos_dimension", "0", "sparse: pairs of vectors, at least 2; 0: until nothing changes");
   text += "\n[time]\n";
   text += line("end", toml_real(entry.default_end), "time");
   text += "\n[output]\n";

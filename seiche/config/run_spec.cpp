@@ -4,6 +4,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/problem/problems.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -63,6 +64,29 @@ Vector from_formulas(const RunSpec& spec, const FormulaData& data, const Problem
   return z;
 }
 
+// γ(x, t) at every point, and at so many times up to t_end that it takes no second.
+void check_field_rate(const RunSpec& spec, const Parameter& parameter, const Problem& problem) {
+  const FieldRate& rate = *problem.damping.field_rate;
+  std::vector<double> gamma(static_cast<std::size_t>(problem.grid.unknowns()));
+  const std::size_t samples = rate.is_constant() ? 1 : std::clamp<std::size_t>((1U << 22U) / gamma.size(), 16, 4096);
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double t = samples > 1 ? spec.t_end * static_cast<double>(i) / static_cast<double>(samples - 1) : 0.0;
+    rate.values(t, gamma);
+    for (std::size_t j = 0; j < gamma.size(); ++j) {
+      const std::string complaint = out_of_bounds(parameter, gamma[j]);
+      if (!complaint.empty())
+        throw Error("problem.{} at t = {}, {}", complaint, t, place(problem.grid, static_cast<Index>(j)));
+    }
+  }
+}
+
+void check_field_rates(const RunSpec& spec, const Problem& problem) {
+  if (!problem.damping.field_rate) return;
+  for (const Parameter& parameter : find_problem(spec.problem).parameters)
+    if (parameter.kind == ParameterKind::rate && spec.parameters.damping_rate(parameter.name).varying)
+      check_field_rate(spec, parameter, problem);
+}
+
 }  // namespace
 
 std::vector<std::string> initial_variables(const std::string& problem) {
@@ -74,6 +98,7 @@ Problem make_problem(const RunSpec& spec) {
     const ProblemEntry& entry = find_problem(spec.problem);
     const auto* preset = std::get_if<PresetData>(&spec.initial);
     Problem problem = entry.make(spec.parameters, preset != nullptr ? preset->name : entry.presets.front());
+    check_field_rates(spec, problem);
     if (const auto* data = std::get_if<FileData>(&spec.initial))
       problem.initial = read_initial_file(data->file, problem);
     if (const auto* data = std::get_if<FormulaData>(&spec.initial))
@@ -89,7 +114,7 @@ SimulationOptions simulation_options(const RunSpec& spec) {
   return {.method = spec.method,
           .backend = spec.backend,
           .method_options = spec.method_options,
-          .backend_options = {.measure_plans = spec.measure_plans}};
+          .backend_options = {.measure_plans = spec.measure_plans, .sparse = spec.sparse}};
 }
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 // A case file, checked: what to run, with which method, and what to record.
 #pragma once
 
+#include <seiche/config/ensemble_case.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/parameter.hpp>
 #include <seiche/core/problem.hpp>
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,11 +43,14 @@ struct RunSpec {
   MethodOptions method_options;
   std::string backend = "auto";
   bool measure_plans = false;
+  SparseOptions sparse;
 
   double t_end = 0.0;
   std::string output_directory;
   std::int64_t energy_every = 1;     // steps
   std::int64_t snapshot_every = 64;  // steps; 0: the first and the last state only
+
+  std::optional<EnsembleSpec> ensemble;  // none: one run
 
   std::vector<std::string> notes;  // what the user should know before the run
 };

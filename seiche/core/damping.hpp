@@ -3,6 +3,8 @@
 
 #include <seiche/core/vector.hpp>
 
+#include <span>
+
 namespace seiche {
 
 class Damping {
@@ -13,6 +15,8 @@ class Damping {
   // z ← Ψ(t, t+h) z = exp(−∫ₜᵗ⁺ʰ D) z. The length h is passed instead of the end so that equal steps reuse one matrix.
   virtual void flow(double t, double h, Vector& z) const = 0;
   virtual void apply(double t, const Vector& z, Vector& out) const = 0;  // D(t) z
+  // Where Ψ(t, t+h) multiplies each field by a number: those numbers, and true. A step then need not make a pass of it.
+  virtual bool field_factors(double /*t*/, double /*h*/, std::span<double> /*factors*/) const { return false; }
 };
 
 }  // namespace seiche

@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
+#include <seiche/core/law_matrices.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -41,11 +42,49 @@ Eigen::MatrixXcd rate_projection(const Problem& problem) {
   return p;
 }
 
+bool is_multiple_of_identity(const Grid& grid, const Stencil& stencil) {
+  const Modes modes(grid);
+  for (Index k = 0; k < modes.count(); ++k)
+    if (stencil.symbol(modes[k]) != stencil.symbol(modes[0])) return false;
+  return true;
+}
+
+// "t = 1, x = 0.5, y = 2" where the rate is smallest at time t.
+std::string place_of_smallest(const FieldRate& rate, const Grid& grid, double t) {
+  std::vector<double> gamma(static_cast<std::size_t>(grid.unknowns()));
+  rate.values(t, gamma);
+  const auto point = std::min_element(gamma.begin(), gamma.end()) - gamma.begin();
+  std::string text = fmt::format("t = {:.6g}", t);
+  for (Index a = 0; a < grid.dimension(); ++a)
+    text += fmt::format(", {} = {:.6g}", "xyz"[a], grid.coordinate(point, a));
+  return text;
+}
+
+// What stands against sym(MD) ⪰ 0 for D = γ(x, t)P, or "". The symbol of γ(x, t) has no modes: the sign of MD is known
+// where M is a multiple of the identity on the damped fields, and there only.
+std::string complaint_about_field_rate(const Problem& problem, double t_end) {
+  const FieldRate& rate = *problem.damping.field_rate;
+  const double t_bad = rate.first_negative_time(t_end);
+  if (t_bad >= 0)
+    return fmt::format("the rate {} is negative at {}", rate.text(), place_of_smallest(rate, problem.grid, t_bad));
+  for (Index i = 0; i < problem.field_count(); ++i) {
+    if (!problem.damping.rate_fields[static_cast<std::size_t>(i)]) continue;
+    for (Index j = 0; j < problem.field_count(); ++j) {
+      if (i == j ? is_multiple_of_identity(problem.grid, problem.M(i, i)) : problem.M(i, j).is_zero()) continue;
+      return fmt::format(
+          "the rate {} changes from point to point and M is not a multiple of the identity on the damped field {}: "
+          "sym(MD) ⪰ 0 is not guaranteed",
+          rate.text(), problem.fields[static_cast<std::size_t>(i)]);
+    }
+  }
+  if (problem.damping_moves_potential()) return "the rate changes from point to point and moves what V depends on";
+  return "";
+}
+
 }  // namespace
 
 LawPromise promise_energy_law(const Problem& problem, double t_end) {
-  if (problem.matrices || problem.damping.field_rate)
-    return {false, "the hypotheses are checked for constant coefficients only, and " + problem.name + " has others"};
+  if (problem.matrices) return promise_energy_law_of_matrices(problem, t_end);
   const auto m = [&](const Mode& mode) { return problem.M.symbol(mode); };
   const Extreme metric = hermitian_extremes(problem.grid, m);
   if (!metric.is_nonnegative()) {
@@ -61,6 +100,10 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
   if (damping.rate) {
     const double t_bad = damping.rate->first_negative_time(t_end);
     if (t_bad >= 0) return {false, fmt::format("the rate {} is negative at t = {:.6g}", damping.rate->text(), t_bad)};
+  }
+  if (damping.field_rate) {
+    const std::string complaint = complaint_about_field_rate(problem, t_end);
+    if (!complaint.empty()) return {false, complaint};
   }
   const Extreme constant = hermitian_extremes(problem.grid, [&](const Mode& mode) -> Eigen::MatrixXcd {
     return problem.M.symbol(mode) * problem.damping.constant.symbol(mode);

@@ -13,6 +13,18 @@ const ParameterValue& ParameterValues::at(const std::string& name) const {
   return found->second;
 }
 
+const RatePointer& ParameterValues::rate(const std::string& name) const {
+  if (const auto* varying = std::get_if<SpaceRatePointer>(&at(name)))
+    throw Error("{} = \"{}\" changes from point to point, and this problem takes a number or a formula in t", name,
+                (*varying)->text());
+  return get<RatePointer>(name);
+}
+
+DampingRate ParameterValues::damping_rate(const std::string& name) const {
+  if (const auto* varying = std::get_if<SpaceRatePointer>(&at(name))) return *varying;
+  return get<RatePointer>(name);
+}
+
 std::string out_of_bounds(const Parameter& p, double value) {
   if (!std::isfinite(value)) return fmt::format("{} = {} must be a finite number", p.name, value);
   const bool low = p.minimum_excluded ? value <= p.minimum : value < p.minimum;

@@ -2,7 +2,8 @@
 // messages and `seiche new` all read one list.
 #pragma once
 
-#include <seiche/core/rate.hpp>
+#include <seiche/core/damping_rate.hpp>
+#include <seiche/core/sparse_operators.hpp>
 
 #include <limits>
 #include <map>
@@ -12,7 +13,8 @@
 
 namespace seiche {
 
-enum class ParameterKind { real, integer, rate, choice };  // rate: a number, or a formula in t
+// rate: a number, or a formula in t and place; matrix: the name of a Matrix Market file, or "" for none
+enum class ParameterKind { real, integer, rate, choice, matrix };
 
 struct Parameter {
   std::string name;
@@ -26,8 +28,9 @@ struct Parameter {
   bool per_axis = false;  // one value for every axis, or a list with one for each
 };
 
-using ParameterValue = std::variant<double, long, RatePointer, std::string, std::vector<double>, std::vector<long>,
-                                    std::vector<std::string>>;
+using MatrixPointer = std::shared_ptr<const SparseMatrix>;
+using ParameterValue = std::variant<double, long, RatePointer, SpaceRatePointer, std::string, MatrixPointer,
+                                    std::vector<double>, std::vector<long>, std::vector<std::string>>;
 
 // Checked values, one for every Parameter of a problem. get<T> throws Error on a name the problem did not declare.
 class ParameterValues {
@@ -39,7 +42,9 @@ class ParameterValues {
   }
   double real(const std::string& name) const { return get<double>(name); }
   long integer(const std::string& name) const { return get<long>(name); }
-  const RatePointer& rate(const std::string& name) const { return get<RatePointer>(name); }
+  const RatePointer& rate(const std::string& name) const;   // of t alone; throws Error on one that varies in space
+  DampingRate damping_rate(const std::string& name) const;  // either
+  const MatrixPointer& matrix(const std::string& name) const { return get<MatrixPointer>(name); }  // null: none
   const std::string& choice(const std::string& name) const { return get<std::string>(name); }
   // Of parameters that are per_axis: what the user wrote, one entry or one for each axis.
   const std::vector<double>& reals(const std::string& name) const { return get<std::vector<double>>(name); }

@@ -6,8 +6,11 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace seiche {
+
+class LanePotential;
 
 // V on the physical values u of one field, or of several: then u holds them one after the other. Contracts, tested for
 // every instance:
@@ -17,19 +20,28 @@ class PointwisePotential {
  public:
   virtual ~PointwisePotential() = default;
   virtual Index fields() const { return 1; }  // how many consecutive fields u holds
+  // Is V = Σ_j W(u_j)? Then parts of u may be given one at a time, on several threads.
+  virtual bool is_local() const { return false; }
   virtual double value(std::span<const double> u) const = 0;
   virtual double magnitude(std::span<const double> u) const = 0;  // Σ|V_j|, the scale of round-off in V
   virtual double value_and_gradient(std::span<const double> u, std::span<double> gradient) const = 0;
-  // ∫₀¹ ∇V(a + s(b − a)) ds
+  // In place, between two transforms: with u = in · values, values ← out · ∇V(u); returns V(u).
+  virtual double value_and_gradient_in_place(double in, double out, std::span<double> values) const;
+  // ∫₀¹ ∇V(a + s(b − a)) ds, or another mean of gradients with the contract above
   virtual void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const = 0;
   // Degree of V as a polynomial, or 0 if V is none; `along` needs degree + 1 coefficients and a polynomial V.
   virtual int degree() const = 0;
   virtual void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const = 0;
   // True if u·∇V(u) ≥ 0 for every u by the form of V: then damping that acts on u cannot raise V.
   virtual bool grows_outward() const = 0;
+  // `members`, of which this is one, side by side in the lanes of panels with `rows` values each; one after the other where
+  // that is not written for the potential.
+  virtual std::unique_ptr<LanePotential> for_lanes(std::span<const std::shared_ptr<const PointwisePotential>> members,
+                                                   Index rows) const;
 };
 
-// V in the coordinates of State::z. Gradients are gradients in the inner product of Space and vanish outside support().
+// V in the coordinates of State::z. Gradients are gradients in the inner product of Space. They vanish outside support(),
+// and so does every vector that is passed for one: only the components of the support are written.
 class Potential {
  public:
   struct Support {  // the components of z that V depends on
@@ -44,7 +56,7 @@ class Potential {
   virtual ~Potential() = default;
   virtual double value(const Vector& z) const = 0;
   virtual double magnitude(const Vector& z) const = 0;
-  virtual double value_and_gradient(const Vector& z, Vector& gradient) const = 0;
+  virtual double value_and_gradient(const Vector& z, Vector& gradient) const = 0;  // the gradient may be z itself
   virtual void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const = 0;
   virtual int degree() const = 0;
   virtual void along(const Vector& p, const Vector& q, std::span<double> coefficients) const = 0;

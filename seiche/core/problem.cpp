@@ -19,6 +19,42 @@ bool gradient_is_identity(const Problem& p, Index field) {
   return true;
 }
 
+// The same for matrices: D' has the columns of D divided by the diagonal of M, where a row of M holds nothing else.
+Problem with_matrix_merged(const Problem& problem) {
+  const SparseOperators& old = *problem.matrices;
+  const LinearDamping& damping = problem.damping;
+  SparseMatrix D = old.D;
+  if (damping.rate) {
+    SparseMatrix rate(D.rows(), D.cols());
+    for (Index i = 0; i < D.rows(); ++i)
+      if (damping.rate_fields[static_cast<std::size_t>(i / problem.grid.unknowns())])
+        rate.insert(i, i) = damping.rate->value(0);
+    D += rate;
+  }
+  for (Index column = 0; column < D.outerSize(); ++column) {
+    double diagonal = 0;
+    bool alone = !problem.potential_depends_on(column / problem.grid.unknowns());
+    for (SparseMatrix::InnerIterator entry(old.M, column); entry; ++entry) {
+      if (entry.row() == column) diagonal = entry.value();
+      if (entry.row() != column && entry.value() != 0) alone = false;
+    }
+    for (SparseMatrix::InnerIterator entry(D, column); entry; ++entry) {
+      if (entry.value() == 0) continue;
+      if (!alone || diagonal <= 0)
+        throw Error(
+            "a method that merges the damping into S needs Dz = D'∇H(z), but in {} ∇H is not a multiple of z at entry "
+            "{}, which is damped; the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) take it",
+            problem.name, column + 1);
+      entry.valueRef() /= diagonal;
+    }
+  }
+  Problem merged = problem;
+  merged.matrices = std::make_shared<SparseOperators>(
+      SparseOperators{.S = old.S - D, .M = old.M, .D = SparseMatrix(D.rows(), D.cols())});
+  merged.damping = LinearDamping{.constant = BlockStencil(problem.field_count())};
+  return merged;
+}
+
 }  // namespace
 
 bool Problem::potential_depends_on(Index field) const {
@@ -45,11 +81,6 @@ bool Problem::damping_moves_potential() const {
 Problem with_damping_merged(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
   if (!problem.has_damping()) return problem;
-  if (problem.matrices)
-    throw Error(
-        "a method that merges the damping into S is not available for {}, whose S and D are sparse matrices; "
-        "the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) take it",
-        problem.name);
   if (damping.field_rate)
     throw Error(
         "a method that merges the damping into S needs a constant D, but the rate {} changes from point to "
@@ -61,6 +92,7 @@ Problem with_damping_merged(const Problem& problem) {
         "the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) take it",
         damping.rate->text());
   }
+  if (problem.matrices) return with_matrix_merged(problem);
   Problem merged = problem;
   const auto merge = [&](Index row, Index column, const Stencil& d) {
     if (d.is_zero()) return;

@@ -2,8 +2,29 @@
 #include <seiche/core/propagator.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace seiche {
+
+void multiply_fields(Propagator::FieldFactors factors, Vector& z) {
+  const Index fields = static_cast<Index>(factors.size());
+  const Index slots = fields > 0 ? z.size() / fields : 0;
+  for (Index f = 0; f < fields; ++f)
+    if (factors[static_cast<std::size_t>(f)] != 1) z.segment(f * slots, slots) *= factors[static_cast<std::size_t>(f)];
+}
+
+void Propagator::advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const {
+  z_ = z;
+  multiply_fields(before, z_);
+  dz_.resize(z.size());
+  q_.resize(z.size());
+  increment(z_, dz_);
+  force(f, q_);
+  const double c = factor({f.dot(dz_), f.dot(q_), std::nullopt});
+  if (!std::isfinite(c)) return;
+  z = z_ + dz_ + c * q_;
+  multiply_fields(after, z);
+}
 
 Propagators::Propagators(const LinearPart& linear, PropagatorKind kind, std::size_t capacity)
     : linear_(linear), kind_(kind), capacity_(capacity) {}

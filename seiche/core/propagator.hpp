@@ -1,9 +1,12 @@
 // The linear substep z⁺ = Ez + Ff for one step size h.
 #pragma once
 
+#include <seiche/core/function_ref.hpp>
 #include <seiche/core/vector.hpp>
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace seiche {
@@ -17,11 +20,35 @@ enum class PropagatorKind { exponential, cayley };
 class Propagator {
  public:
   virtual ~Propagator() = default;
-  // ẑ, a second-order approximation at the midpoint, from z and ∇V(z).
-  virtual void predict(const Vector& z, const Vector& gradient, Vector& z_mid) const = 0;
   virtual void increment(const Vector& z, Vector& dz) const = 0;  // FMz = (E − I)z
   virtual void force(const Vector& f, Vector& q) const = 0;       // Ff
+
+  // What an explicit closure asks for, in as few passes over z as the coordinates allow. Forces and gradients vanish
+  // outside the components that V depends on. z stands for z⁻ = Λz, with Λ one number per field: a damping half-flow
+  // carried out on the way. No numbers: Λ = I.
+  using FieldFactors = std::span<const double>;
+
+  // ẑ, a second-order approximation at the midpoint, from z⁻ and ∇V(z⁻): the components that V depends on, and no others
+  // are written. z_mid may be the gradient.
+  virtual void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before = {}) const = 0;
+
+  struct Powers {
+    double of_increment;                     // fᵀFMz⁻
+    double of_force;                         // fᵀFf
+    std::optional<double> quadratic_energy;  // ½z⁻ᵀMz⁻, where it costs nothing
+  };
+  using Factor = FunctionRef<double(const Powers&)>;
+  // z ← Λ'(z⁻ + FMz⁻ + c Ff), with Λ' the half-flow after the substep and c chosen by `factor`. If that is not a finite
+  // number, z stays as it was.
+  virtual void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before = {},
+                       FieldFactors after = {}) const;
+
+ private:
+  mutable Vector z_, dz_, q_;  // of `advance`, where it is done verb by verb
 };
+
+// z ← Λz, field by field.
+void multiply_fields(Propagator::FieldFactors factors, Vector& z);
 
 class LinearPart;
 

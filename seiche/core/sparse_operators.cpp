@@ -1,12 +1,57 @@
+#include <seiche/core/definiteness.hpp>
+#include <seiche/core/error.hpp>
 #include <seiche/core/sparse_operators.hpp>
 
+#include <cmath>
+
 namespace seiche {
+namespace {
+
+template <class Visit>
+void for_entries(const SparseMatrix& a, const Visit& visit) {
+  for (Index column = 0; column < a.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(a, column); entry; ++entry) visit(entry.row(), column, entry.value());
+}
+
+void require_shape(const char* name, const SparseMatrix& a, Index size) {
+  if (a.rows() != a.cols()) throw Error("{} is {} × {} and must be square", name, a.rows(), a.cols());
+  if (a.rows() != size) throw Error("{} is {} × {} but M is {} × {}", name, a.rows(), a.cols(), size, size);
+  for_entries(a, [name](Index i, Index j, double value) {
+    if (!std::isfinite(value))
+      throw Error("{} has the entry ({}, {}) = {}, which is no number", name, i + 1, j + 1, value);
+  });
+}
+
+void require_symmetric(const SparseMatrix& M) {
+  for_entries(M, [&M](Index i, Index j, double value) {
+    const double mirrored = M.coeff(j, i);
+    if (std::abs(value - mirrored) > 4 * epsilon * std::abs(value))
+      throw Error("M must be symmetric, but ({}, {}) = {} and ({}, {}) = {}", i + 1, j + 1, value, j + 1, i + 1,
+                  mirrored);
+  });
+}
+
+}  // namespace
 
 bool SparseOperators::damping_moves(Index begin, Index size) const {
-  for (Index column = 0; column < D.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator entry(D, column); entry; ++entry)
-      if (entry.value() != 0 && entry.row() >= begin && entry.row() < begin + size) return true;
-  return false;
+  bool moves = false;
+  for_entries(D, [&](Index row, Index, double value) {
+    if (value != 0 && row >= begin && row < begin + size) moves = true;
+  });
+  return moves;
+}
+
+void SparseOperators::validate() const {
+  require_shape("M", M, M.rows());
+  require_shape("S", S, M.rows());
+  require_shape("D", D, M.rows());
+  require_symmetric(M);
+  if (const auto x = negative_direction(M))
+    throw Error("M must be positive semidefinite, but zᵀMz = {:.6g} for a z of norm 1 that is largest at entry {}",
+                x->value, x->largest + 1);
+  if (const auto x = negative_direction(SparseMatrix(-symmetric_part(S))))
+    throw Error("S + Sᵀ must be negative semidefinite, but zᵀSz = {:.6g} for a z of norm 1 that is largest at entry {}",
+                -x->value, x->largest + 1);
 }
 
 }  // namespace seiche

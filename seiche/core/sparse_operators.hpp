@@ -11,9 +11,13 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // Square, of the size of z in physical coordinates, field after field. Contract: M symmetric.
 struct SparseOperators {
-  SparseMatrix S, M, D;  // D: the constant part of the damping
+  SparseMatrix S = {}, M = {}, D = {};  // D: the constant part of the damping
 
   bool damping_moves(Index begin, Index size) const;  // has D an entry in these rows?
+
+  // Throws Error, with the entries or the direction that show it, where a matrix is not square, has another size than M,
+  // or holds a number that is not finite, and where M is not symmetric, M ⪰ 0 fails or sym(S) ⪯ 0 fails.
+  void validate() const;
 };
 
 }  // namespace seiche

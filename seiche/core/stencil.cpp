@@ -194,6 +194,33 @@ Eigen::MatrixXd Stencil::matrix(const Grid& grid) const {
   return a;
 }
 
+SparseMatrix Stencil::sparse_matrix(const Grid& grid) const {
+  const Index n = grid.unknowns();
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&entries](Index i, Index j, double value) {
+    entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+  };
+  if (identity_ != 0)
+    for (Index i = 0; i < n; ++i) add(i, i, identity_);
+  for (const Term& term : terms_) {
+    if (term.discretisation == Discretisation::spectral)
+      throw Error("spectral derivatives couple every point with every other and have no sparse matrix");
+    const GridAxis& axis = grid.axis(term.axis);
+    Index stride = 1;
+    for (Index b = grid.dimension() - 1; b > term.axis; --b) stride *= grid.axis(b).unknowns();
+    for (Index i = 0; i < n; ++i) {
+      const Index here = i / stride % axis.unknowns();
+      for (const auto& [offset, c] : taps(term.order, term.discretisation, term.dx)) {
+        const Reflected at = locate(here + offset, axis);
+        if (at.sign != 0) add(i, i + (at.index - here) * stride, at.sign * term.factor * c);
+      }
+    }
+  }
+  SparseMatrix a(n, n);
+  a.setFromTriplets(entries.begin(), entries.end());
+  return a;
+}
+
 BlockStencil::BlockStencil(Index fields) : fields_(fields), entries_(static_cast<std::size_t>(fields * fields)) {}
 
 Stencil& BlockStencil::operator()(Index row, Index column) {
@@ -221,6 +248,21 @@ Eigen::MatrixXd BlockStencil::matrix(const Grid& grid) const {
   for (Index i = 0; i < fields_; ++i)
     for (Index j = 0; j < fields_; ++j) a.block(i * n, j * n, n, n) = (*this)(i, j).matrix(grid);
   return a;
+}
+
+SparseMatrix BlockStencil::sparse_matrix(const Grid& grid) const {
+  const Index n = grid.unknowns();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index i = 0; i < fields_; ++i)
+    for (Index j = 0; j < fields_; ++j) {
+      const SparseMatrix a = (*this)(i, j).sparse_matrix(grid);
+      for (Index column = 0; column < n; ++column)
+        for (SparseMatrix::InnerIterator entry(a, column); entry; ++entry)
+          entries.emplace_back(static_cast<int>(i * n + entry.row()), static_cast<int>(j * n + column), entry.value());
+    }
+  SparseMatrix all(fields_ * n, fields_ * n);
+  all.setFromTriplets(entries.begin(), entries.end());
+  return all;
 }
 
 }  // namespace seiche

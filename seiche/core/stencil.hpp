@@ -3,6 +3,7 @@
 
 #include <seiche/core/grid.hpp>
 #include <seiche/core/modes.hpp>
+#include <seiche/core/sparse_operators.hpp>
 
 #include <Eigen/Dense>
 
@@ -35,6 +36,7 @@ class Stencil {
   // Eigenvalue on a mode: exact zeros where the sines vanish, no cancellation near the mean.
   std::complex<double> symbol(const Mode& mode) const;
   Eigen::MatrixXd matrix(const Grid& grid) const;
+  SparseMatrix sparse_matrix(const Grid& grid) const;  // throws Error for spectral derivatives, which couple all points
 
  private:
   struct Term {  // factor · (∂/∂x_axis)^order
@@ -64,6 +66,7 @@ class BlockStencil {
 
   Eigen::MatrixXcd symbol(const Mode& mode) const;  // m × m
   Eigen::MatrixXd matrix(const Grid& grid) const;   // field-major: all of field 0, then field 1, …
+  SparseMatrix sparse_matrix(const Grid& grid) const;
 
  private:
   Index fields_ = 0;

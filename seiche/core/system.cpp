@@ -1,3 +1,4 @@
+#include <seiche/core/error.hpp>
 #include <seiche/core/system.hpp>
 
 namespace seiche {
@@ -7,7 +8,7 @@ double System::energy_round_off(const Vector& z) const {
 }
 
 void System::gradient(const Vector& z, Vector& out) const {
-  Vector nonlinear(z.size());
+  Vector nonlinear = Vector::Zero(z.size());
   potential->gradient(z, nonlinear);
   linear->apply_M(z, out);
   out += nonlinear;
@@ -19,6 +20,14 @@ void System::right_hand_side(double t, const Vector& z, Vector& out) const {
   linear->apply_S(gradient_H, out);
   damping->apply(t, z, gradient_H);
   out -= gradient_H;
+}
+
+void SparseOptions::validate() const {
+  if (pade_degree < 0 || pade_degree > max_pade_degree)
+    throw Error("pade_degree = {} must be between 1 and {}, or 0 for whatever round-off asks for", pade_degree,
+                max_pade_degree);
+  if (lanczos_dimension < 0 || lanczos_dimension == 1)
+    throw Error("lanczos_dimension = {} must be at least 2, or 0 for as many as it takes", lanczos_dimension);
 }
 
 }  // namespace seiche

@@ -17,7 +17,8 @@ struct System {
   std::unique_ptr<LinearPart> linear;
   std::unique_ptr<Potential> potential;
   std::unique_ptr<Damping> damping;
-  Vector initial;  // z₀
+  Vector initial;    // z₀
+  Index fields = 1;  // of equal size, one after the other in State::z
 
   double energy(const Vector& z) const { return linear->quadratic_energy(z) + potential->value(z); }
   // 50ε times the sizes of the terms of H: no energy computed in double precision means more than this.
@@ -26,9 +27,23 @@ struct System {
   void right_hand_side(double t, const Vector& z, Vector& out) const;  // S∇H − Dz
 };
 
+// How the sparse backend takes exponentials: by Padé approximation with factorised matrices, or by Lanczos iteration.
+enum class ExponentialKind { pade, lanczos };
+
+inline constexpr int max_pade_degree = 12;  // beyond it, more steps cost less than a higher degree
+
+struct SparseOptions {
+  ExponentialKind exponential = ExponentialKind::pade;
+  int pade_degree = 0;        // 1 … 12; 0: whatever round-off asks for
+  int lanczos_dimension = 0;  // pairs of vectors, ≥ 2; 0: until nothing changes
+  void validate() const;      // throws Error on a number outside these bounds
+};
+
 // How backends turn a Problem into arithmetic.
 struct BackendOptions {
   bool measure_plans = false;  // FFTW: fastest plans instead of repeatable ones
+  int threads = 1;             // of the modal backend; results do not depend on it
+  SparseOptions sparse = {};
 };
 
 }  // namespace seiche

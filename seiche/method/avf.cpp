@@ -18,7 +18,7 @@ class AvfClosure final : public Closure {
   explicit AvfClosure(const System& system)
       : Closure(system),
         start_(system.space->size()),
-        mean_(system.space->size()),
+        mean_(Vector::Zero(system.space->size())),
         q_(system.space->size()),
         next_(system.space->size()) {}
 

@@ -1,6 +1,11 @@
+#include <seiche/core/error.hpp>
 #include <seiche/method/closure.hpp>
 
 namespace seiche {
+
+StepReport Closure::advance_damped(State&, Propagators&, double, double, const HalfFlows&) {
+  throw Error("this closure does not carry out half-flows");
+}
 
 EnergyReading Closure::energy(const State& s) const {
   EnergyReading reading;

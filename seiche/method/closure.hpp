@@ -18,6 +18,14 @@ class Closure {
   virtual void damp(State& s, double t, double h) { system_.damping->flow(t, h, s.z); }
   // The Hamiltonian substep of length h within the step that starts at t. On failure s is left in any state.
   virtual StepReport advance(State& s, Propagators& propagators, double t, double h) = 0;
+
+  // Damping half-flows around a substep, where each multiplies every field by a number.
+  struct HalfFlows {
+    Propagator::FieldFactors before, after;
+  };
+  // Substep and half-flows in one, for closures that save passes over z by it. On failure s is left as it was.
+  virtual bool takes_half_flows() const { return false; }
+  virtual StepReport advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows);
   virtual EnergyReading energy(const State& s) const;
   virtual bool has_modified_energy() const { return false; }
 

@@ -2,6 +2,7 @@
 #include <seiche/method/compositions.hpp>
 
 #include <cmath>
+#include <vector>
 
 namespace seiche {
 namespace {
@@ -15,22 +16,13 @@ class Composed : public Stepper {
     const double H = closure_->energy(s).H;
     if (!std::isfinite(H)) throw Error("the energy of the initial state is not a finite number (H = {})", H);
     closure_->begin(s);
-    saved_ = s;
   }
 
   StepReport step(State& s, double h) override {
-    saved_ = s;
     StepReport report = compose(s, h);
-    if (report.solved() && !s.z.allFinite()) {
-      report.status = StepReport::Status::failed;
-      report.message = fmt::format("the solution left the numbers in the step from t = {:.6g} with h = {:.6g}", s.t, h);
-    }
-    if (report.solved()) {
-      s.t += h;
-      ++s.n;
-    } else {
-      s = saved_;
-    }
+    if (!report.solved()) return report;
+    s.t += h;
+    ++s.n;
     return report;
   }
 
@@ -38,9 +30,24 @@ class Composed : public Stepper {
   bool has_modified_energy() const override { return closure_->has_modified_energy(); }
 
  protected:
+  // On failure s is left as it was.
   virtual StepReport compose(State& s, double h) = 0;
-  StepReport advance(State& s, double h) { return closure_->advance(s, propagators_, s.t, h); }
-  void damp(State& s, double t, double h) { closure_->damp(s, t, h); }
+
+  // The same around parts that may fail with s anywhere between.
+  template <class Parts>
+  StepReport or_restore(State& s, double h, const Parts& parts) {
+    saved_ = s;
+    StepReport report = parts();
+    if (report.solved() && !s.z.allFinite()) {
+      report.status = StepReport::Status::failed;
+      report.message = fmt::format("the solution left the numbers in the step from t = {:.6g} with h = {:.6g}", s.t, h);
+    }
+    if (!report.solved()) s = saved_;
+    return report;
+  }
+
+  Closure& closure() { return *closure_; }
+  Propagators& propagators() { return propagators_; }
 
  private:
   Propagators propagators_;
@@ -53,20 +60,37 @@ class Whole final : public Composed {
   using Composed::Composed;
 
  private:
-  StepReport compose(State& s, double h) override { return advance(s, h); }
+  StepReport compose(State& s, double h) override {
+    if (closure().takes_half_flows()) return closure().advance_damped(s, propagators(), s.t, h, {});
+    return or_restore(s, h, [&] { return closure().advance(s, propagators(), s.t, h); });
+  }
 };
 
 class Strang final : public Composed {
  public:
-  using Composed::Composed;
+  Strang(const System& system, PropagatorKind propagator, std::unique_ptr<Closure> closure)
+      : Composed(system, propagator, std::move(closure)), damping_(*system.damping) {
+    const auto fields = static_cast<std::size_t>(system.fields);
+    before_.resize(fields);
+    after_.resize(fields);
+  }
 
  private:
   StepReport compose(State& s, double h) override {
-    damp(s, s.t, h / 2);
-    StepReport report = advance(s, h);
-    if (report.solved()) damp(s, s.t + h / 2, h / 2);
-    return report;
+    const double middle = s.t + h / 2;
+    if (closure().takes_half_flows() && damping_.field_factors(s.t, h / 2, before_) &&
+        damping_.field_factors(middle, h / 2, after_))
+      return closure().advance_damped(s, propagators(), s.t, h, {before_, after_});
+    return or_restore(s, h, [&] {
+      closure().damp(s, s.t, h / 2);
+      StepReport report = closure().advance(s, propagators(), s.t, h);
+      if (report.solved()) closure().damp(s, middle, h / 2);
+      return report;
+    });
   }
+
+  const Damping& damping_;
+  std::vector<double> before_, after_;  // of each field
 };
 
 }  // namespace

@@ -10,7 +10,8 @@ double absolute_dot(const Vector& a, const Vector& b) { return (a.array() * b.ar
 
 }  // namespace
 
-MultiplierEquation::MultiplierEquation(const Potential& potential, Index size) : potential_(potential), mean_(size) {
+MultiplierEquation::MultiplierEquation(const Potential& potential, Index size)
+    : potential_(potential), mean_(Vector::Zero(size)) {
   if (potential.degree() > 0) {
     coefficients_.resize(static_cast<std::size_t>(std::max(potential.degree(), 2)) + 1);
   } else {

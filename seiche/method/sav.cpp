@@ -10,27 +10,27 @@ namespace {
 class SavClosure final : public Closure {
  public:
   SavClosure(const System& system, const MethodOptions& options)
-      : Closure(system),
-        given_C_(options.C),
-        auxiliary_(options.auxiliary),
-        gradient_(system.space->size()),
-        z_mid_(gradient_),
-        g_(gradient_),
-        dz_(gradient_),
-        q_(gradient_) {}
+      : Closure(system), given_C_(options.C), auxiliary_(options.auxiliary), g_(Vector::Zero(system.space->size())) {}
 
   void begin(State& s) override;
   void damp(State& s, double t, double h) override;
-  StepReport advance(State& s, Propagators& propagators, double t, double h) override;
+  StepReport advance(State& s, Propagators& propagators, double t, double h) override {
+    return advance_damped(s, propagators, t, h, {});
+  }
+  // r² does not move with half-flows that leave V alone.
+  bool takes_half_flows() const override {
+    return !system().damping->touches_potential() && auxiliary_ != AuxiliaryMode::refresh;
+  }
+  StepReport advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) override;
   EnergyReading energy(const State& s) const override;
   bool has_modified_energy() const override { return true; }
 
  private:
-  bool keep_margin(State& s, double v_mid) const;
+  bool keep_margin(State& s, double quadratic_energy, double v_mid) const;
 
   std::optional<double> given_C_;
   AuxiliaryMode auxiliary_;
-  Vector gradient_, z_mid_, g_, dz_, q_;
+  Vector g_;
 };
 
 // C = 2E₀ keeps V + C well away from 0 where √(V + C) would lose digits, without drowning V in C.
@@ -60,12 +60,18 @@ void SavClosure::damp(State& s, double t, double h) {
   if (auxiliary_ == AuxiliaryMode::refresh) s.r_squared = potential().value(s.z) + s.shift;
 }
 
+StepReport left_the_numbers(double v_mid, double t, double h) {
+  return {.status = StepReport::Status::failed,
+          .message =
+              fmt::format("the solution left the numbers: V(ẑ) = {} at t = {:.6g} with h = {:.6g}", v_mid, t, h)};
+}
+
 // Where V + C or r² has become small against the energy, C and r² rise together: H̃ does not change. A large positive
 // V(ẑ) is no reason to: at steps far too long ẑ is meaningless, and a C to match it would drown H̃ in round-off.
-bool SavClosure::keep_margin(State& s, double v_mid) const {
+bool SavClosure::keep_margin(State& s, double quadratic_energy, double v_mid) const {
   if (auxiliary_ == AuxiliaryMode::frozen) return false;
   constexpr double tiny = 1e-300;
-  const double scale = std::max({s.energy_scale, system().linear->quadratic_energy(s.z) + std::max(0.0, -v_mid), tiny});
+  const double scale = std::max({s.energy_scale, quadratic_energy + std::max(0.0, -v_mid), tiny});
   const double margin = std::min(s.r_squared, v_mid + s.shift);
   if (margin >= 0.1 * scale) return false;
   const double rise = 2 * scale - margin;
@@ -74,34 +80,41 @@ bool SavClosure::keep_margin(State& s, double v_mid) const {
   return true;
 }
 
-//   z⁺ = Ez + F r̄g,   r⁺ − r = ½ gᵀ(z⁺ − z),   r̄ = ½(r⁺ + r)                                    (3.1), (4.2)
-StepReport SavClosure::advance(State& s, Propagators& propagators, double t, double h) {
+//   z⁺ = Ez⁻ + F r̄g,   r⁺ − r = ½ gᵀ(z⁺ − z⁻),   r̄ = ½(r⁺ + r),   g = ĝ/√(V(ẑ) + C),   ĝ = ∇V(ẑ)           (3.1), (4.2)
+StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) {
   StepReport report;
   const Propagator& propagator = propagators.at(h);
-  potential().gradient(s.z, gradient_);
-  propagator.predict(s.z, gradient_, z_mid_);  // ẑ, from z⁻
-  const double v_mid = potential().value_and_gradient(z_mid_, g_);
-  report.fallbacks += keep_margin(s, v_mid) ? 1 : 0;
-  if (!std::isfinite(v_mid)) {
-    report.status = StepReport::Status::failed;
-    report.message = fmt::format("the solution left the numbers: V(ẑ) = {} at t = {:.6g} with h = {:.6g}", v_mid, t, h);
-    return report;
-  }
-  if (!(v_mid + s.shift > 0)) {
-    report.status = StepReport::Status::failed;
-    report.message = fmt::format("V(ẑ) + C = {:.6g} must be > 0 at t = {:.6g}; C = {:.6g} would do", v_mid + s.shift, t,
-                                 s.shift + 2 * (s.energy_scale + std::abs(v_mid)));
-    return report;
-  }
-  g_ *= 1 / std::sqrt(v_mid + s.shift);  // g = ∇V(ẑ) / √(V(ẑ) + C)
+  potential().gradient(s.z, g_);
+  propagator.predict(s.z, g_, g_, flows.before);                // ẑ, from z⁻
+  const double v_mid = potential().value_and_gradient(g_, g_);  // V(ẑ) and ĝ
+  if (!std::isfinite(v_mid)) return left_the_numbers(v_mid, t, h);
 
-  propagator.increment(s.z, dz_);  // FMz = (E − I)z
-  propagator.force(g_, q_);        // Fg
-  const double r = std::sqrt(s.r_squared);
-  const double r_mid = (r + g_.dot(dz_) / 4) / (1 - g_.dot(q_) / 4);  // denominator ≥ 1, since gᵀFg ≤ 0
-  s.z += dz_ + r_mid * q_;
-  s.r_squared = square(2 * r_mid - r);
-  return report;
+  bool solved = false;
+  const double r_squared = s.r_squared;
+  const double shift = s.shift;
+  propagator.advance(
+      s.z, g_,
+      [&](const Propagator::Powers& power) {
+        const double quadratic_energy =
+            power.quadratic_energy ? *power.quadratic_energy : system().linear->quadratic_energy(s.z);
+        report.fallbacks += keep_margin(s, quadratic_energy, v_mid) ? 1 : 0;
+        const double to_g = 1 / std::sqrt(v_mid + s.shift);
+        const double gd = to_g * power.of_increment;     // gᵀFMz⁻
+        const double gq = to_g * to_g * power.of_force;  // gᵀFg
+        const double r = std::sqrt(s.r_squared);
+        const double r_mid = (r + gd / 4) / (1 - gq / 4);  // denominator ≥ 1, since gᵀFg ≤ 0
+        solved = std::isfinite(r_mid * to_g);              // not so where V(ẑ) + C ≤ 0
+        if (solved) s.r_squared = square(2 * r_mid - r);
+        return r_mid * to_g;
+      },
+      flows.before, flows.after);
+  if (solved) return report;
+  s.r_squared = r_squared;
+  s.shift = shift;
+  if (v_mid + s.shift > 0) return left_the_numbers(v_mid, t, h);
+  return {.status = StepReport::Status::failed,
+          .message = fmt::format("V(ẑ) + C = {:.6g} must be > 0 at t = {:.6g}; C = {:.6g} would do", v_mid + s.shift, t,
+                                 s.shift + 2 * (s.energy_scale + std::abs(v_mid)))};
 }
 
 EnergyReading SavClosure::energy(const State& s) const {

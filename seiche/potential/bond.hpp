@@ -3,6 +3,7 @@
 
 #include <seiche/core/grid.hpp>
 #include <seiche/core/potential.hpp>
+#include <seiche/potential/bond_lanes.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
@@ -60,6 +61,13 @@ class BondPotential final : public PointwisePotential {
   }
 
   bool grows_outward() const override { return w_.grows_outward(); }
+
+  const W& w() const { return w_; }
+  std::unique_ptr<LanePotential> for_lanes(LaneMembers members, Index rows) const override {
+    const std::vector<W> all = lane_functions<BondPotential>(members);
+    if (all.empty()) return lane_by_lane(members, rows);
+    return std::make_unique<BondLanes<W>>(all, rows, boundary_);
+  }
 
  private:
   static constexpr std::size_t wall = static_cast<std::size_t>(-1);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <seiche/core/potential.hpp>
+#include <seiche/potential/loops.hpp>
+#include <seiche/potential/nodal_lanes.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
@@ -14,11 +16,9 @@ class NodalPotential final : public PointwisePotential {
  public:
   explicit NodalPotential(W w) : w_(w) {}
 
-  double value(std::span<const double> u) const override {
-    double sum = 0;
-    for (const double x : u) sum += w_.value(x);
-    return sum;
-  }
+  bool is_local() const override { return true; }
+
+  double value(std::span<const double> u) const override { return sum_values(w_, u.data(), u.size()); }
 
   double magnitude(std::span<const double> u) const override {
     double sum = 0;
@@ -27,16 +27,15 @@ class NodalPotential final : public PointwisePotential {
   }
 
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {
-    double sum = 0;
-    for (std::size_t j = 0; j < u.size(); ++j) {
-      sum += w_.value(u[j]);
-      gradient[j] = w_.slope(u[j]);
-    }
-    return sum;
+    return sum_values_and_slopes(w_, u.data(), gradient.data(), u.size());
+  }
+
+  double value_and_gradient_in_place(double in, double out, std::span<double> values) const override {
+    return slopes_in_place(w_, in, out, values.data(), values.size());
   }
 
   void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override {
-    for (std::size_t j = 0; j < a.size(); ++j) mean[j] = w_.mean_slope(a[j], b[j]);
+    mean_slopes(w_, a.data(), b.data(), mean.data(), a.size());
   }
 
   int degree() const override {
@@ -52,6 +51,13 @@ class NodalPotential final : public PointwisePotential {
   }
 
   bool grows_outward() const override { return w_.grows_outward(); }
+
+  const W& w() const { return w_; }
+  std::unique_ptr<LanePotential> for_lanes(LaneMembers members, Index rows) const override {
+    const std::vector<W> all = lane_functions<NodalPotential>(members);
+    if (all.empty()) return lane_by_lane(members, rows);
+    return std::make_unique<NodalLanes<W>>(all, rows);
+  }
 
  private:
   W w_;

@@ -27,7 +27,14 @@ Problem alpha_fpu(const AlphaFpu& options) {
   Problem p = wave_problem("alpha_fpu", grid, Stencil::identity(square(options.mass)) + -1.0 * R, options.gamma);
   p.damping.constant(1, 1) = -options.beta * R;
 
-  if (options.formulation == AlphaFpu::Formulation::dissipative && p.damping.rate) {
+  const bool dissipative = options.formulation == AlphaFpu::Formulation::dissipative;
+  if (dissipative && p.damping.field_rate) {
+    throw Error(
+        "formulation = \"dissipative\" puts gamma into S, but gamma = {} changes from point to point; use "
+        "formulation = \"conservative\"",
+        p.damping.field_rate->text());
+  }
+  if (dissipative && p.damping.rate) {
     if (!p.damping.rate->is_constant()) {
       throw Error(
           "formulation = \"dissipative\" puts gamma into the constant S, but gamma = {} varies with time; use "
@@ -96,7 +103,7 @@ ProblemEntry alpha_fpu_entry() {
                               .exponent = static_cast<int>(v.integer("exponent")),
                               .epsilon = v.real("epsilon"),
                               .beta = v.real("beta"),
-                              .gamma = v.rate("gamma"),
+                              .gamma = v.damping_rate("gamma"),
                               .mass = v.real("mass"),
                               .formulation = v.choice("formulation") == "dissipative" ? dissipative : conservative});
           },

@@ -14,7 +14,7 @@ struct AlphaFpu {
   int exponent = 1;   // k
   double epsilon = 0.005;
   double beta = 0.01;           // Kelvin–Voigt damping
-  RatePointer gamma = nullptr;  // 1/time; null: none
+  DampingRate gamma = nullptr;  // 1/time; null: none
   double mass = 1.0;
   Formulation formulation = Formulation::conservative;
 };

@@ -16,10 +16,10 @@ Problem gkdv(const Gkdv& options) {
   p.S(0, 0) = Stencil::derivative(p.grid, 0, options.discretisation);
   p.M = BlockStencil(1);
   p.M(0, 0) = -options.epsilon * Stencil::laplacian(p.grid, options.discretisation);
-  const bool undamped = !options.mu || (options.mu->is_constant() && options.mu->value(0) == 0);
-  p.damping = {.constant = BlockStencil(1), .rate = undamped ? nullptr : options.mu, .rate_fields = {true}};
+  p.damping = rate_damping(options.mu, p.grid, {true});
   const int k = options.exponent;
-  p.potential = nodal_polynomial(monomial(-options.sigma / (k + 2), k + 2));
+  p.potential = on_grid(nodal_polynomial(monomial(-options.sigma / (k + 2), k + 2)), p.grid,
+                        {.discretisation = options.discretisation, .two_thirds = options.two_thirds});
   p.initial = sample(p.grid, [&](double x) { return 0.4 * std::exp(-square(x - options.length / 2) / 2); });
   return p;
 }
@@ -44,6 +44,7 @@ ProblemEntry gkdv_entry() {
                .minimum = 3,
                .maximum = 1 << 26},
               discretisation_parameter(),
+              dealias_parameter(),
               {.name = "exponent",
                .kind = ParameterKind::integer,
                .default_value = "2",
@@ -62,10 +63,11 @@ ProblemEntry gkdv_entry() {
             return gkdv({.length = v.real("length"),
                          .points = v.integer("points"),
                          .discretisation = discretisation_of(v),
+                         .two_thirds = two_thirds_of(v),
                          .exponent = static_cast<int>(v.integer("exponent")),
                          .sigma = v.real("sigma"),
                          .epsilon = v.real("epsilon"),
-                         .mu = v.rate("mu")});
+                         .mu = v.damping_rate("mu")});
           },
       .default_h = "1/512",
       .default_end = 50.0,

@@ -10,10 +10,11 @@ struct Gkdv {
   double length = 10.0;
   Index points = 20;
   Discretisation discretisation = Discretisation::fd2;
-  int exponent = 2;  // k
+  bool two_thirds = false;  // as in GridOptions
+  int exponent = 2;         // k
   double sigma = 0.001;
   double epsilon = 1.0;
-  RatePointer mu = nullptr;  // 1/time; null: undamped
+  DampingRate mu = nullptr;  // 1/time; null: undamped
 };
 
 // H = −ε/2 zᵀRz − σ/(k+2) Σz^{k+2}, S = ∂_x, D = μI. The damping moves what V depends on, and

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/truncated_potential.hpp>
 #include <seiche/problem/grid_options.hpp>
 
 #include <unistd.h>
@@ -56,6 +57,16 @@ Grid make_grid(const GridOptions& options) {
   return grid;
 }
 
+std::shared_ptr<const PointwisePotential> on_grid(std::shared_ptr<const PointwisePotential> potential, const Grid& grid,
+                                                  const GridOptions& options) {
+  if (!options.two_thirds) return potential;
+  if (!grid.is_periodic() || options.discretisation != Discretisation::spectral)
+    throw Error(
+        "dealias = \"two_thirds\" needs a spectral discretisation on a grid that is periodic along every axis: "
+        "differences and ends have no modes to leave out");
+  return std::make_shared<TruncatedPotential>(std::move(potential), grid);
+}
+
 std::vector<Parameter> grid_parameters(const std::string& default_points, const std::string& default_length) {
   return {
       {.name = "length",
@@ -78,6 +89,7 @@ std::vector<Parameter> grid_parameters(const std::string& default_points, const 
        .choices = {"periodic", "dirichlet", "neumann"},
        .per_axis = true},
       discretisation_parameter(),
+      dealias_parameter(),
   };
 }
 
@@ -85,6 +97,7 @@ GridOptions grid_options(const ParameterValues& values) {
   GridOptions options{.points = values.integers("points"), .length = values.reals("length"), .boundary = {}};
   for (const std::string& name : values.choices("boundary")) options.boundary.push_back(boundary_named(name));
   options.discretisation = discretisation_of(values);
+  options.two_thirds = two_thirds_of(values);
   return options;
 }
 
@@ -101,5 +114,15 @@ Discretisation discretisation_of(const ParameterValues& values) {
   if (name == "spectral") return Discretisation::spectral;
   return name == "fd4" ? Discretisation::fd4 : Discretisation::fd2;
 }
+
+Parameter dealias_parameter() {
+  return {.name = "dealias",
+          .kind = ParameterKind::choice,
+          .default_value = "none",
+          .meaning = "two_thirds: V sees the modes with |k| < N/3 only; needs periodic and spectral",
+          .choices = {"none", "two_thirds"}};
+}
+
+bool two_thirds_of(const ParameterValues& values) { return values.choice("dealias") == "two_thirds"; }
 
 }  // namespace seiche

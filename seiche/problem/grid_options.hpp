@@ -3,8 +3,10 @@
 
 #include <seiche/core/grid.hpp>
 #include <seiche/core/parameter.hpp>
+#include <seiche/core/potential.hpp>
 #include <seiche/core/stencil.hpp>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,18 +17,25 @@ struct GridOptions {
   std::vector<double> length = {1.0};
   std::vector<Boundary> boundary = {Boundary::periodic};
   Discretisation discretisation = Discretisation::fd2;
+  bool two_thirds = false;  // V sees the modes with |k| < N/3 only; needs periodic axes and spectral derivatives
 };
 
 // Throws Error where the lists have different lengths (other than one), an axis has no unknown, or the grid would not fit
 // into the memory of this machine.
 Grid make_grid(const GridOptions& options);
 
-// points, length, boundary and discretisation as parameters of a case file, and back.
+// V as the options ask for it: V(u), or V(Pu) by the two-thirds rule. Throws Error where that rule has no meaning.
+std::shared_ptr<const PointwisePotential> on_grid(std::shared_ptr<const PointwisePotential> potential, const Grid& grid,
+                                                  const GridOptions& options);
+
+// points, length, boundary, discretisation and dealias as parameters of a case file, and back.
 std::vector<Parameter> grid_parameters(const std::string& default_points, const std::string& default_length);
 GridOptions grid_options(const ParameterValues& values);
 
-// The discretisation alone, for problems in one dimension.
+// Some of them alone, for problems in one dimension.
 Parameter discretisation_parameter();
 Discretisation discretisation_of(const ParameterValues& values);
+Parameter dealias_parameter();
+bool two_thirds_of(const ParameterValues& values);
 
 }  // namespace seiche

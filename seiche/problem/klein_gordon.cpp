@@ -21,7 +21,7 @@ Problem klein_gordon(const KleinGordon& options) {
     p.notes.push_back(
         fmt::format("omega_squared = {} < 0: ½ω²u² was moved from M into V, so that M ⪰ 0", options.omega_squared));
   }
-  p.potential = nodal_polynomial(w);
+  p.potential = on_grid(nodal_polynomial(w), grid, options.grid);
 
   using std::numbers::sqrt2;
   const double sqrt5 = std::sqrt(5.0);
@@ -57,7 +57,7 @@ ProblemEntry klein_gordon_entry() {
                                  .kappa = v.real("kappa"),
                                  .omega_squared = v.real("omega_squared"),
                                  .alpha = v.real("alpha"),
-                                 .gamma = v.rate("gamma")});
+                                 .gamma = v.damping_rate("gamma")});
           },
       .default_h = "1/256",
       .default_end = 50.0,

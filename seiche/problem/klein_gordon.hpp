@@ -12,7 +12,7 @@ struct KleinGordon {
   double kappa = 0.04;          // wave speed squared
   double omega_squared = 0.2;   // if negative it is moved into V, so that M ⪰ 0
   double alpha = -1.0;          // < 0 focusing: V is unbounded below
-  RatePointer gamma = nullptr;  // 1/time; null: undamped
+  DampingRate gamma = nullptr;  // 1/time; null: undamped
 };
 
 // H = ½vᵀv + ½uᵀ(ω²I − κR)u + α/4 Σu⁴, S = [[0, I], [−I, 0]], D = diag(0, γI); the paper's initial data,

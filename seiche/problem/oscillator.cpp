@@ -51,7 +51,7 @@ ProblemEntry oscillator_entry() {
             return oscillator({.points = v.integer("points"),
                                .omega_squared = v.real("omega_squared"),
                                .alpha = v.real("alpha"),
-                               .gamma = v.rate("gamma")});
+                               .gamma = v.damping_rate("gamma")});
           },
       .default_h = "1/64",
       .default_end = 50.0,

@@ -17,7 +17,7 @@ Problem sine_gordon(const SineGordon& options) {
   const Grid grid = make_grid(options.grid);
   const Stencil stiffness = -options.kappa * Stencil::laplacian(grid, options.grid.discretisation);
   Problem p = wave_problem("sine_gordon", grid, stiffness, options.gamma);
-  p.potential = std::make_shared<NodalPotential<Cosine>>(Cosine{options.alpha});
+  p.potential = on_grid(std::make_shared<NodalPotential<Cosine>>(Cosine{options.alpha}), grid, options.grid);
   const double width = std::sqrt(1 - square(options.breather_frequency));
   const double middle = grid.axis(0).length / 2;
   p.initial.tail(grid.unknowns()) =
@@ -52,7 +52,7 @@ ProblemEntry sine_gordon_entry() {
             return sine_gordon({.grid = grid_options(v),
                                 .kappa = v.real("kappa"),
                                 .alpha = v.real("alpha"),
-                                .gamma = v.rate("gamma"),
+                                .gamma = v.damping_rate("gamma"),
                                 .breather_frequency = v.real("breather_frequency")});
           },
       .default_h = "1/64",

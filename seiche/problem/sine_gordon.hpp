@@ -10,7 +10,7 @@ struct SineGordon {
   GridOptions grid = {.points = {256}, .length = {40.0}};
   double kappa = 1.0;  // wave speed squared
   double alpha = 1.0;
-  RatePointer gamma = nullptr;      // 1/time; null: undamped
+  DampingRate gamma = nullptr;      // 1/time; null: undamped
   double breather_frequency = 0.5;  // of the initial breather, in (0, 1), for κ = α = 1
 };
 

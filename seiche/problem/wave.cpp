@@ -2,7 +2,7 @@
 
 namespace seiche {
 
-Problem wave_problem(std::string name, const Grid& grid, const Stencil& stiffness, RatePointer gamma) {
+Problem wave_problem(std::string name, const Grid& grid, const Stencil& stiffness, const DampingRate& gamma) {
   Problem p;
   p.name = std::move(name);
   p.grid = grid;
@@ -13,12 +13,18 @@ Problem wave_problem(std::string name, const Grid& grid, const Stencil& stiffnes
   p.M = BlockStencil(2);
   p.M(0, 0) = stiffness;
   p.M(1, 1) = Stencil::identity();
-  const bool undamped = !gamma || (gamma->is_constant() && gamma->value(0) == 0);
-  p.damping = {.constant = BlockStencil(2),
-               .rate = undamped ? nullptr : std::move(gamma),
-               .rate_fields = {false, true}};
+  p.damping = rate_damping(gamma, grid, {false, true});
   p.initial = Vector::Zero(p.size());
   return p;
+}
+
+LinearDamping rate_damping(const DampingRate& gamma, const Grid& grid, std::vector<bool> fields) {
+  const RatePointer& uniform = gamma.uniform;
+  const bool undamped = uniform && uniform->is_constant() && uniform->value(0) == 0;
+  return {.constant = BlockStencil(static_cast<Index>(fields.size())),
+          .rate = undamped ? nullptr : uniform,
+          .field_rate = gamma.varying ? gamma.varying->on(grid) : nullptr,
+          .rate_fields = std::move(fields)};
 }
 
 Vector sample(const Grid& grid, const std::function<double(double)>& f) {

@@ -26,6 +26,11 @@ Matrix matrix_of(const System& system, const Map& map) {
   return a;
 }
 
+// SM of a problem, by stencils or matrices.
+inline Matrix SM_of(const Problem& p) {
+  return p.matrices ? Matrix(p.matrices->S * p.matrices->M) : Matrix(p.S.matrix(p.grid) * p.M.matrix(p.grid));
+}
+
 // e^A by Taylor's series in 80-bit arithmetic after scaling: an independent and slow oracle.
 inline Matrix exponential_by_extended_series(const Matrix& A) {
   using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;

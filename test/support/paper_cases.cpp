@@ -2,13 +2,20 @@
 
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
+#include <seiche/problem/beta_fpu.hpp>
+#include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/network.hpp>
+#include <seiche/problem/nls.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/sine_gordon.hpp>
+#include <seiche/problem/truss.hpp>
+#include <seiche/problem/variable_wave.hpp>
 
 #include <fmt/format.h>
 
@@ -73,12 +80,84 @@ std::vector<NamedProblem> grid_cases() {
   }
   cases.push_back(
       {"sine_Gordon", sine_gordon({.grid = {.points = {24}, .length = {12.0}}, .gamma = constant_rate(0.1)})});
+  cases.push_back({"gKdV_dealiased", gkdv({.points = 10,
+                                           .discretisation = Discretisation::spectral,
+                                           .two_thirds = true,
+                                           .sigma = -0.5,
+                                           .mu = constant_rate(0.3)})});
+  cases.push_back(
+      {"KG_2d_dealiased",
+       wave({.points = {6, 5}, .length = {1.0}, .discretisation = Discretisation::spectral, .two_thirds = true})});
+  cases.push_back(
+      {"NLS_focusing", nls({.grid = {.points = {10}, .length = {6.0}, .discretisation = Discretisation::spectral},
+                            .gamma = constant_rate(0.2)})});
+  cases.push_back({"NLS_2d_mixed", nls({.grid = {.points = {4, 4}, .length = {4.0}, .boundary = {neumann, dirichlet}},
+                                        .kappa = -1.0,
+                                        .gamma = constant_rate(0.2),
+                                        .initial = Nls::Initial::gaussian})});
+  return cases;
+}
+
+std::vector<NamedProblem> chain_cases() {
+  return {{"chain_fixed", chain({.points = 8,
+                                 .neighbour_cubic = 0.5,
+                                 .ground_spring = 0.3,
+                                 .ground_cubic = -0.2,
+                                 .neighbour_damping = 0.1,
+                                 .gamma = constant_rate(0.05)})},
+          {"chain_ring", chain({.points = 7,
+                                .boundary = Boundary::periodic,
+                                .mass = 2.0,
+                                .neighbour_cubic = 0.5,
+                                .ground_spring = 0.3,
+                                .ground_cubic = 0.2,
+                                .neighbour_damping = 0.1,
+                                .gamma = constant_rate(0.05),
+                                .initial = Chain::Initial::first_mode})},
+          {"FPUT_beta", beta_fpu({.points = 10, .internal_friction = 0.02, .gamma = constant_rate(0.1)})}};
+}
+
+std::vector<NamedProblem> field_rate_cases() {
+  const SpaceRatePointer steady = formula_space_rate(compile_formula("0.1 + exp(-(x - 1)^2)", {"t", "x"}), 1, true);
+  const SpaceRatePointer varying =
+      formula_space_rate(compile_formula("(0.3 + 0.2*sin(3*t))*(1 + cos(2*x)*sin(y)/2)", {"t", "x", "y"}), 2, false);
+  const GridOptions square{.points = {4, 3}, .length = {2.0, 1.0}, .boundary = {Boundary::neumann, Boundary::periodic}};
+  return {{"KG_field_rate", klein_gordon({.grid = {.points = {10}, .length = {2.0}}, .alpha = 1.0, .gamma = steady})},
+          {"KG_field_rate_2d", klein_gordon({.grid = square, .alpha = 1.0, .gamma = varying})},
+          // where γ(x) and the rest of D do not commute, and where it moves what V depends on
+          {"chain_field_rate", chain({.points = 6, .neighbour_cubic = 0.5, .neighbour_damping = 0.3, .gamma = steady})},
+          {"NLS_field_rate", nls({.grid = {.points = {10}, .length = {6.0}}, .gamma = steady})}};
+}
+
+std::vector<NamedProblem> matrix_cases() {
+  const auto speed = [](const std::array<double, 3>& x) { return x[0] > 3.0 ? 2.0 : 1.0; };
+  std::vector<NamedProblem> cases = {
+      {"wave_layers", variable_wave({.grid = {.points = {10}, .length = {6.0}, .boundary = {Boundary::dirichlet}},
+                                     .speed = speed,
+                                     .mass = 0.5,
+                                     .alpha = 1.0,
+                                     .gamma = constant_rate(0.1)})},
+      {"wave_2d",
+       variable_wave(
+           {.grid = {.points = {4, 3}, .length = {6.0, 3.0}, .boundary = {Boundary::neumann, Boundary::periodic}},
+            .speed = speed,
+            .faces = VariableWave::Faces::arithmetic,
+            .alpha = 1.0,
+            .gamma = constant_rate(0.1)})},
+      {"truss", truss({.panels = 3, .mass = 2.0, .stiffness = 20, .quartic = 30, .gamma = constant_rate(0.05)})},
+      {"network", network({.adjacency = small_world(9, 1, 3, 1), .gamma = constant_rate(0.1)})}};
+  for (NamedProblem& c : cases)
+    for (Index i = 0; i < c.problem.size(); ++i)
+      c.problem.initial[i] += 0.3 * std::sin(1.3 * static_cast<double>(i + 1));
   return cases;
 }
 
 std::vector<NamedProblem> all_cases() {
   std::vector<NamedProblem> cases = golden_cases();
   for (NamedProblem& c : grid_cases()) cases.push_back(std::move(c));
+  for (NamedProblem& c : chain_cases()) cases.push_back(std::move(c));
+  for (NamedProblem& c : field_rate_cases()) cases.push_back(std::move(c));
+  for (NamedProblem& c : matrix_cases()) cases.push_back(std::move(c));
   cases.push_back({"KG_defocusing", klein_gordon_case(0.1, 1.0)});
   cases.push_back({"gKdV_sigma_1", gkdv_case(0.5, 1.0, 1.0)});
   cases.push_back({"Duffing", duffing_case()});
@@ -97,6 +176,18 @@ bool applies(std::string_view method, const Problem& problem) {
   } catch (const Error&) {
     return false;
   }
+}
+
+std::vector<BackendEntry> backends_for(const Problem& problem) {
+  std::vector<BackendEntry> list;
+  for (const BackendEntry& entry : backends()) {
+    try {
+      entry.system(problem, {});
+      list.push_back(entry);
+    } catch (const Error&) {
+    }
+  }
+  return list;
 }
 
 }  // namespace seiche::test

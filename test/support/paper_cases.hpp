@@ -1,6 +1,7 @@
 // The problems that properties run over: the paper's examples and what lies around them.
 #pragma once
 
+#include <seiche/backend/backends.hpp>
 #include <seiche/core/problem.hpp>
 
 #include <string>
@@ -24,10 +25,18 @@ struct NamedProblem {
 std::vector<NamedProblem> golden_cases();
 // Small grids of every dimension, boundary and discretisation.
 std::vector<NamedProblem> grid_cases();
+// Masses in a row, with dashpots.
+std::vector<NamedProblem> chain_cases();
+// γ(x) and γ(x, t).
+std::vector<NamedProblem> field_rate_cases();
+// Coefficients that change from point to point, and graphs: stated by matrices.
+std::vector<NamedProblem> matrix_cases();
 // Every problem that each method is to be tried on: all of the above and a few more.
 std::vector<NamedProblem> all_cases();
 
 // Does the method apply (whole methods need the damping in S)?
 bool applies(std::string_view method, const Problem& problem);
+// The backends that take it: modal no matrices, sparse no spectral derivatives.
+std::vector<BackendEntry> backends_for(const Problem& problem);
 
 }  // namespace seiche::test

@@ -1,0 +1,29 @@
+#include "law_promise.hpp"
+
+#include <fmt/format.h>
+#include <seiche/core/law.hpp>
+
+namespace seiche::cli {
+
+LawPromise promise(const Simulation& simulation, const RunSpec& spec) {
+  if (spec.method_options.auxiliary == AuxiliaryMode::refresh) {
+    return {false, "auxiliary = \"refresh\" resets r after the damping, and the modified energy may rise there"};
+  }
+  const bool lm = simulation.method().closure == ClosureKind::lm;
+  const bool frozen = spec.method_options.auxiliary == AuxiliaryMode::frozen;
+  if (spec.method_options.scalar_solver == ScalarSolver::newton || (lm && frozen)) {
+    return {false, "plain Newton accepts steps whose scalar equation it did not solve"};
+  }
+  return promise_energy_law(simulation.problem(), spec.t_end);
+}
+
+std::string negative_rate(const Problem& problem) {
+  const auto complaint = [](const auto& rate) -> std::string {
+    if (!rate || rate->negative_seen() < 0) return "";
+    return fmt::format("the rate {} is negative at t = {:.6g}", rate->text(), rate->negative_seen());
+  };
+  const std::string everywhere = complaint(problem.damping.rate);
+  return everywhere.empty() ? complaint(problem.damping.field_rate) : everywhere;
+}
+
+}  // namespace seiche::cli

@@ -1,0 +1,282 @@
+#include "run_ensemble.hpp"
+#include "law_promise.hpp"
+#include "load_case.hpp"
+#include "stop_signal.hpp"
+#include "versions.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <seiche/config/case_file.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/ensemble/ensemble.hpp>
+#include <seiche/ensemble/members.hpp>
+#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/csv_row.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+namespace seiche::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+// energy.csv, row by row as the run goes on.
+class StatisticsFile {
+ public:
+  StatisticsFile(const fs::path& path, bool has_modified) : file_(path), has_modified_(has_modified) {
+    std::string header = "t,members";
+    for (const char* of : {"H", "H_modified"}) {
+      if (std::string_view(of) == "H_modified" && !has_modified) continue;
+      for (const char* what : {"mean", "sd", "min", "q05", "median", "q95", "max"})
+        header += fmt::format(",{}_{}", of, what);
+    }
+    file_.write(header + "\n");
+  }
+
+  void write(const EnsembleRecord& record) {
+    if (!first_) first_ = record;
+    last_ = record;
+    row_.clear();
+    row_.add(record.t);
+    row_.add(static_cast<double>(record.running));
+    add(record.H);
+    if (has_modified_) add(record.modified);
+    file_.write(row_.line());
+  }
+  void commit() { file_.commit(); }
+
+  const EnsembleRecord& first() const { return *first_; }
+  const EnsembleRecord& last() const { return last_; }
+
+ private:
+  void add(const Statistics& s) {
+    for (const double x : {s.mean, s.standard_deviation, s.minimum, s.low, s.median, s.high, s.maximum}) row_.add(x);
+  }
+  AtomicFile file_;
+  bool has_modified_;
+  CsvRow row_;
+  std::optional<EnsembleRecord> first_;
+  EnsembleRecord last_;
+};
+
+std::string csv_text(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+std::string energy_columns(const EnergySummary& e) {
+  return fmt::format(",{:.17g},{:.17g},{:.17g}", e.initial, e.final, e.max_increase);
+}
+
+void write_members(const fs::path& path, const Members& members, const EnsembleResult& result, bool has_modified) {
+  AtomicFile file(path);
+  std::string header = "member";
+  for (const std::string& name : members.parameters) header += "," + name;
+  header += ",status,steps,t,H_initial,H_final,max_increase";
+  if (has_modified) header += ",H_modified_initial,H_modified_final,max_modified_increase";
+  file.write(header + ",law,scalar_iterations,fallbacks,message\n");
+  for (std::size_t m = 0; m < result.members.size(); ++m) {
+    const RunReport& report = result.members[m].report;
+    std::string row = fmt::format("{}", m + 1);
+    for (const double value : members.values[m]) row += fmt::format(",{:.17g}", value);
+    row += fmt::format(",{},{},{:.17g}", to_string(report.status), report.steps, report.t);
+    row += energy_columns(report.energy);
+    if (has_modified) row += energy_columns(report.modified);
+    row += fmt::format(",{},{},{},{}\n", to_string(report.law), report.scalar_iterations, report.fallbacks,
+                       csv_text(report.message));
+    file.write(row);
+  }
+  file.commit();
+}
+
+// One row for each member that started: its last good state.
+void write_finals(const fs::path& path, const Problem& problem, const EnsembleResult& result) {
+  AtomicFile file(path);
+  std::string header = "member";
+  for (const std::string& field : problem.fields)
+    for (Index j = 1; j <= problem.grid.unknowns(); ++j) header += fmt::format(",{}_{}", field, j);
+  file.write(header + "\n");
+  CsvRow row;
+  for (std::size_t m = 0; m < result.members.size(); ++m) {
+    if (result.members[m].final.size() == 0) continue;
+    row.clear();
+    row.add(static_cast<double>(m + 1));
+    row.add(result.members[m].final);
+    file.write(row.line());
+  }
+  file.commit();
+}
+
+template <class Is>
+std::int64_t count(const EnsembleResult& result, const Is& is) {
+  return std::count_if(result.members.begin(), result.members.end(),
+                       [&](const MemberResult& member) { return is(member.report); });
+}
+
+Json statistics_json(const Statistics& s) {
+  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+  return {{"mean", number(s.mean)},  {"sd", number(s.standard_deviation)}, {"min", number(s.minimum)},
+          {"q05", number(s.low)},    {"median", number(s.median)},         {"q95", number(s.high)},
+          {"max", number(s.maximum)}};
+}
+
+struct Outcome {
+  std::int64_t succeeded, failed, interrupted, violated, not_promised;
+  std::string message;
+
+  explicit Outcome(const EnsembleResult& result)
+      : succeeded(of(result, RunReport::Status::success)),
+        failed(of(result, RunReport::Status::failed)),
+        interrupted(of(result, RunReport::Status::interrupted)),
+        violated(count(result, [](const RunReport& r) { return r.law == LawVerdict::violated; })),
+        not_promised(count(result, [](const RunReport& r) { return r.law == LawVerdict::not_promised; })) {
+    message = fmt::format("{} of {} members reached the end", succeeded, result.members.size());
+    say_first(
+        result, failed, "failed", [](const RunReport& r) { return r.status == RunReport::Status::failed; },
+        &RunReport::message);
+    if (interrupted > 0) message += fmt::format("; {} were interrupted", interrupted);
+    say_first(
+        result, violated, "violated the promised energy law",
+        [](const RunReport& r) { return r.law == LawVerdict::violated; }, &RunReport::law_reason);
+    say_first(
+        result, not_promised, "promise no energy law",
+        [](const RunReport& r) { return r.law == LawVerdict::not_promised; }, &RunReport::law_reason);
+  }
+
+  RunReport::Status status() const {
+    if (failed > 0) return RunReport::Status::failed;
+    return interrupted > 0 ? RunReport::Status::interrupted : RunReport::Status::success;
+  }
+  LawVerdict law() const {
+    if (violated > 0) return LawVerdict::violated;
+    return not_promised > 0 ? LawVerdict::not_promised : LawVerdict::holds;
+  }
+
+ private:
+  static std::int64_t of(const EnsembleResult& result, RunReport::Status status) {
+    return count(result, [status](const RunReport& r) { return r.status == status; });
+  }
+
+  template <class Is>
+  void say_first(const EnsembleResult& result, std::int64_t how_many, const char* what, const Is& is,
+                 std::string RunReport::*reason) {
+    if (how_many == 0) return;
+    const auto first = std::find_if(result.members.begin(), result.members.end(),
+                                    [&](const MemberResult& member) { return is(member.report); });
+    message += fmt::format("; {} {}, the first of them member {}: {}", how_many, what,
+                           first - result.members.begin() + 1, first->report.*reason);
+  }
+};
+
+ExitCode exit_code(const Outcome& outcome) {
+  if (outcome.failed > 0) return computation_failed;
+  if (outcome.interrupted > 0) return interrupted;
+  return outcome.violated > 0 ? law_violated : success;
+}
+
+std::string summary(const RunSpec& spec, const EnsembleResult& result, const Outcome& outcome,
+                    const StatisticsFile& energies, bool has_modified) {
+  std::int64_t steps = 0;
+  std::int64_t iterations = 0;
+  std::int64_t fallbacks = 0;
+  for (const MemberResult& member : result.members) {
+    steps += member.report.steps;
+    iterations += member.report.scalar_iterations;
+    fallbacks += member.report.fallbacks;
+  }
+  Json energy = {{"initial", statistics_json(energies.first().H)}, {"final", statistics_json(energies.last().H)}};
+  energy["modified"] = has_modified ? Json{{"initial", statistics_json(energies.first().modified)},
+                                           {"final", statistics_json(energies.last().modified)}}
+                                    : Json(nullptr);
+  energy["law"] = to_string(outcome.law());
+  Json about = Json::object();
+  for (const auto& [name, version] : versions()) about[name] = version;
+  const Json json = {
+      {"status", to_string(outcome.status())},
+      {"message", outcome.message},
+      {"problem", spec.problem},
+      {"method", spec.method},
+      {"backend", spec.backend},
+      {"h", spec.h},
+      {"members", result.members.size()},
+      {"side_by_side", result.in_lanes},
+      {"statuses", {{"success", outcome.succeeded}, {"failed", outcome.failed}, {"interrupted", outcome.interrupted}}},
+      {"laws",
+       {{"holds", static_cast<std::int64_t>(result.members.size()) - outcome.violated - outcome.not_promised},
+        {"violated", outcome.violated},
+        {"not promised", outcome.not_promised}}},
+      {"steps", steps},
+      {"t", energies.last().t},
+      {"energy", energy},
+      {"counts", {{"scalar_iterations", iterations}, {"fallbacks", fallbacks}}},
+      {"wall_seconds", result.wall_seconds},
+      {"versions", about}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// A method that applies to no member leaves no files.
+void require_start(const Members& members, const RunSpec& spec) {
+  std::optional<Error> first;
+  for (const EnsembleMember& member : members.list) {
+    try {
+      Problem problem = *member.problem;
+      problem.initial = member.initial;
+      const Simulation starts(problem, simulation_options(spec));
+      return;
+    } catch (const Error& error) {
+      if (!first) first = error;
+    }
+  }
+  throw Error(*first);
+}
+
+}  // namespace
+
+ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& options) {
+  const Members members = make_members(spec);
+  const Problem& problem = *members.list.front().problem;
+  const bool has_modified = find_method(spec.method).law == "H_modified";
+  require_start(members, spec);
+  const std::atomic<bool>& stop = stop_on_signal();
+  const std::string remarks = notes(spec, problem);
+  if (!remarks.empty() && !options.quiet) print_note(remarks);
+
+  const fs::path directory = spec.output_directory;
+  make_directory(directory);
+  write_file(directory / "case.toml", write_case(spec));
+  StatisticsFile energies(directory / "energy.csv", has_modified);
+  const EnsembleResult result =
+      run_ensemble(members.list, {.simulation = simulation_options(spec),
+                                  .h = spec.h,
+                                  .t_end = spec.t_end,
+                                  .energy_every = spec.energy_every,
+                                  .threads = options.threads,
+                                  .promise = [&](const Simulation& simulation) { return promise(simulation, spec); },
+                                  .objection = negative_rate,
+                                  .on_record = [&](const EnsembleRecord& record) { energies.write(record); },
+                                  .stop = &stop});
+  const Outcome outcome(result);
+  const std::string json = summary(spec, result, outcome, energies, has_modified);
+  energies.commit();
+  write_members(directory / "members.csv", members, result, has_modified);
+  write_finals(directory / "finals.csv", problem, result);
+  write_file(directory / "summary.json", json);
+
+  if (options.json) print_data(json);
+  if (!options.quiet) {
+    print_lines(fmt::format("{}: {}\n", to_string(outcome.status()), outcome.message));
+    print_lines(fmt::format("{:<10} mean {:.9g} → {:.9g}\n{:<10} {} members in {:.3g} s\n{:<10} {}\n", "H",
+                            energies.first().H.mean, energies.last().H.mean, "time", result.members.size(),
+                            result.wall_seconds, "files", directory.string()));
+  } else if (outcome.failed > 0 || outcome.violated > 0) {
+    print_note(outcome.message);
+  }
+  return exit_code(outcome);
+}
+
+}  // namespace seiche::cli

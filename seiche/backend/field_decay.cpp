@@ -1,0 +1,47 @@
+#include <seiche/backend/field_decay.hpp>
+#include <seiche/backend/segment.hpp>
+
+#include <algorithm>
+
+namespace seiche {
+
+FieldDecay::FieldDecay(FieldRatePointer rate, std::shared_ptr<const FieldTransform> transform)
+    : rate_(std::move(rate)),
+      transform_(std::move(transform)),
+      current_(transform_->unknowns()),
+      physical_(transform_->unknowns()) {}
+
+void FieldDecay::set_factors(double t, double h, Vector& factors) const {
+  rate_->integrals(t, h, all(factors));
+  factors = (-factors.array()).exp();
+}
+
+const Vector& FieldDecay::factors(double t, double h) const {
+  if (!rate_->is_constant()) {
+    set_factors(t, h, current_);
+    return current_;
+  }
+  const auto found = std::find_if(cache_.begin(), cache_.end(), [h](const Cached& c) { return c.h == h; });
+  if (found == cache_.end()) {
+    constexpr std::size_t capacity = 16;
+    if (cache_.size() == capacity) cache_.pop_back();
+    cache_.insert(cache_.begin(), Cached{h, Vector(transform_->unknowns())});
+    set_factors(t, h, cache_.front().factors);
+  } else {
+    std::rotate(cache_.begin(), found, found + 1);
+  }
+  return cache_.front().factors;
+}
+
+const Vector& FieldDecay::values(double t) const {
+  rate_->values(t, all(current_));
+  return current_;
+}
+
+void FieldDecay::multiply(const Vector& factors, std::span<double> slots) const {
+  transform_->inverse(slots, all(physical_));
+  physical_.array() *= factors.array();
+  transform_->forward(all(physical_), slots);
+}
+
+}  // namespace seiche

@@ -1,0 +1,197 @@
+#include <seiche/backend/fftw_plan.hpp>
+#include <seiche/backend/grid_lines.hpp>
+#include <seiche/backend/line_kinds.hpp>
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace seiche {
+namespace {
+
+using std::numbers::sqrt2;
+
+// Rows of a batch: enough to fill part of the cache with their values.
+Index batch_of(Index length, Index rows) {
+  constexpr Index numbers = 16384;
+  return std::clamp<Index>(numbers / length, 1, rows);
+}
+
+fftw_complex* pairs(double* p) { return reinterpret_cast<fftw_complex*>(p); }
+
+// For a full batch, and for the rows that are left.
+struct BatchPlan {
+  template <class Make>
+  BatchPlan(Index batch, Index rows, bool measure, const Make& make)
+      : full(make_plans(measure, [&](unsigned flags) { return make(static_cast<int>(batch), flags); })) {
+    if (rows % batch != 0)
+      rest = make_plans(measure, [&](unsigned flags) { return make(static_cast<int>(rows % batch), flags); });
+  }
+  FftwPlans full, rest;
+  const FftwPlans& of(Index batch, Index rows) const { return rows == batch ? full : rest; }
+};
+
+// â_k = w_k Σ_j u_j e^{−2πijk/N} for k = 0 … N/2.
+class FourierRows final : public Rows {
+ public:
+  FourierRows(Index length, Index rows, bool alone_are_real, bool measure)
+      : length_(length),
+        batch_(batch_of(length, rows)),
+        alone_are_real_(alone_are_real),
+        values_(fftw_buffer(static_cast<std::size_t>(batch_ * length))),
+        slots_(fftw_buffer(static_cast<std::size_t>(batch_ * slots()))),
+        forward_(batch_, rows, measure,
+                 [&](int count, unsigned flags) {
+                   const int n = static_cast<int>(length_);
+                   const int modes = n / 2 + 1;
+                   return fftw_plan_many_dft_r2c(1, &n, count, values_.get(), nullptr, 1, n, pairs(slots_.get()),
+                                                 nullptr, 1, modes, flags);
+                 }),
+        inverse_(batch_, rows, measure, [&](int count, unsigned flags) {
+          const int n = static_cast<int>(length_);
+          const int modes = n / 2 + 1;
+          return fftw_plan_many_dft_c2r(1, &n, count, pairs(slots_.get()), nullptr, 1, modes, values_.get(), nullptr, 1,
+                                        n, flags);
+        }) {
+    values_.reset();  // planned upon only
+    slots_.reset();
+  }
+
+  Index values() const override { return length_; }
+  Index slots() const override { return 2 * (length_ / 2 + 1); }
+  Index batch() const override { return batch_; }
+
+  void to_slots(const double* values, double* slots, Index rows) const override {
+    fftw_execute_dft_r2c(forward_.of(batch_, rows).of(values, slots), const_cast<double*>(values),
+                         pairs(slots));  // keeps its input
+    scale_alone(slots, rows, 1 / sqrt2);
+  }
+  void to_values(double* slots, double* values, Index rows) const override {
+    scale_alone(slots, rows, sqrt2);
+    fftw_execute_dft_c2r(inverse_.of(batch_, rows).of(slots, values), pairs(slots), values);
+  }
+
+ private:
+  void scale_alone(double* slots, Index rows, double factor) const {
+    const double imaginary = alone_are_real_ ? 0.0 : factor;  // in one dimension these modes are real
+    for (Index row = 0; row < rows; ++row) {
+      double* first = slots + row * this->slots();
+      first[0] *= factor;
+      first[1] *= imaginary;
+      if (length_ % 2 != 0) continue;
+      first[length_] *= factor;
+      first[length_ + 1] *= imaginary;
+    }
+  }
+
+  Index length_, batch_;
+  bool alone_are_real_;
+  FftwBuffer values_, slots_;
+  BatchPlan forward_, inverse_;
+};
+
+// Sines, cosines or half-complex coefficients by FFTW's own real transforms.
+class RealRows final : public Rows {
+ public:
+  RealRows(const GridAxis& axis, Index rows, bool measure)
+      : length_(axis.unknowns()),
+        batch_(batch_of(length_, rows)),
+        alone_(modes_alone(axis)),
+        values_(fftw_buffer(static_cast<std::size_t>(batch_ * length_))),
+        slots_(fftw_buffer(static_cast<std::size_t>(batch_ * length_))),
+        forward_(batch_, rows, measure,
+                 [&](int count, unsigned flags) {
+                   return plan(values_, slots_, count, kinds_of(axis.boundary).forward, flags);
+                 }),
+        inverse_(batch_, rows, measure, [&](int count, unsigned flags) {
+          return plan(slots_, values_, count, kinds_of(axis.boundary).inverse, flags);
+        }) {
+    values_.reset();
+    slots_.reset();
+  }
+
+  Index values() const override { return length_; }
+  Index slots() const override { return length_; }
+  Index batch() const override { return batch_; }
+
+  void to_slots(const double* values, double* slots, Index rows) const override {
+    fftw_execute_r2r(forward_.of(batch_, rows).of(values, slots), const_cast<double*>(values),
+                     slots);  // keeps its input
+    scale_alone(slots, rows, 1 / sqrt2);
+  }
+  void to_values(double* slots, double* values, Index rows) const override {
+    scale_alone(slots, rows, sqrt2);
+    fftw_execute_r2r(inverse_.of(batch_, rows).of(slots, values), slots, values);
+  }
+
+ private:
+  fftw_plan plan(const FftwBuffer& in, const FftwBuffer& out, int count, int kind, unsigned flags) const {
+    const auto r2r_kind = static_cast<fftw_r2r_kind>(kind);
+    const int n = static_cast<int>(length_);
+    return fftw_plan_many_r2r(1, &n, count, in.get(), nullptr, 1, n, out.get(), nullptr, 1, n, &r2r_kind, flags);
+  }
+
+  void scale_alone(double* slots, Index rows, double factor) const {
+    for (Index row = 0; row < rows; ++row)
+      for (const Index position : alone_) slots[row * length_ + position] *= factor;
+  }
+
+  Index length_, batch_;
+  std::vector<Index> alone_;
+  FftwBuffer values_, slots_;
+  BatchPlan forward_, inverse_;
+};
+
+// Sines by the Fourier transform of the odd continuation, of twice the length: faster than FFTW's own sine transform
+// except on the longest lines (docs/performance.md).
+class OddRows final : public Rows {
+ public:
+  OddRows(const GridAxis& axis, bool measure)
+      : intervals_(axis.intervals),
+        values_(fftw_buffer(static_cast<std::size_t>(2 * intervals_))),
+        slots_(fftw_buffer(static_cast<std::size_t>(2 * intervals_ + 2))),
+        plan_([&] {
+          return fftw_plan_dft_r2c_1d(static_cast<int>(2 * intervals_), values_.get(), pairs(slots_.get()),
+                                      plan_flags(measure));
+        }) {}
+
+  Index values() const override { return intervals_ - 1; }
+  Index slots() const override { return intervals_ - 1; }
+  Index batch() const override { return 1; }
+  void to_slots(const double* values, double* slots, Index) const override { sines(values, slots); }
+  void to_values(double* slots, double* values, Index) const override { sines(slots, values); }
+
+ private:
+  // 2 Σ_j u_j sin(πjk/N), its own inverse but for a factor.
+  void sines(const double* in, double* out) const {
+    const Index n = intervals_;
+    double* odd = values_.get();
+    odd[0] = odd[n] = 0;
+    for (Index j = 1; j < n; ++j) {
+      odd[j] = in[j - 1];
+      odd[2 * n - j] = -in[j - 1];
+    }
+    fftw_execute_dft_r2c(plan_.get(), odd, pairs(slots_.get()));
+    for (Index k = 1; k < n; ++k) out[k - 1] = -slots_[static_cast<std::size_t>(2 * k + 1)];
+  }
+
+  Index intervals_;
+  FftwBuffer values_, slots_;
+  FftwPlan plan_;
+};
+
+}  // namespace
+
+std::unique_ptr<Rows> fourier_rows(Index length, Index rows, bool alone_are_real, bool measure) {
+  return std::make_unique<FourierRows>(length, rows, alone_are_real, measure);
+}
+
+std::unique_ptr<Rows> real_rows(const GridAxis& axis, Index rows, bool measure) {
+  constexpr Index longest_odd = 1 << 18;
+  if (axis.boundary == Boundary::dirichlet && rows == 1 && axis.intervals <= longest_odd)
+    return std::make_unique<OddRows>(axis, measure);
+  return std::make_unique<RealRows>(axis, rows, measure);
+}
+
+}  // namespace seiche

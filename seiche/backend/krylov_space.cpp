@@ -1,0 +1,89 @@
+#include <seiche/backend/force_map.hpp>
+#include <seiche/backend/krylov_space.hpp>
+
+namespace seiche {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+constexpr double dependent = 1e-13;  // a remainder this small against its vector is round-off
+
+}  // namespace
+
+void KrylovSpace::reserve(Index columns, Index rows) {
+  if (V_.rows() == rows && V_.cols() >= columns) return;
+  const Index capacity = V_.rows() == rows ? std::max(columns, 2 * V_.cols()) : std::max<Index>(columns, 32);
+  V_.conservativeResize(rows, capacity);
+  W_.conservativeResize(rows, capacity);
+}
+
+// Orthonormalises the columns of `block` against V and each other and appends those that are new; block = V·coefficients
+// afterwards. Two passes of Gram–Schmidt keep V orthonormal to round-off. Returns how many were appended.
+Index KrylovSpace::append(const SparseMatrix& M, Matrix& block, Matrix& coefficients) {
+  const Index before = size_;
+  reserve(size_ + block.cols(), block.rows());
+  coefficients.setZero(size_ + block.cols(), block.cols());
+  Vector Mx(block.rows());
+  for (Index j = 0; j < block.cols(); ++j) {
+    auto x = block.col(j);
+    Mx.noalias() = M * x;
+    const double norm = std::sqrt(std::max(0.0, x.dot(Mx)));
+    for (int pass = 0; pass < 2 && size_ > 0; ++pass) {
+      const Vector c = W_.leftCols(size_).transpose() * x;
+      x.noalias() -= V_.leftCols(size_) * c;
+      coefficients.col(j).head(size_) += c;
+    }
+    Mx.noalias() = M * x;
+    const double remainder = std::sqrt(std::max(0.0, x.dot(Mx)));
+    if (!(remainder > dependent * norm)) continue;
+    V_.col(size_) = x / remainder;
+    W_.col(size_) = Mx / remainder;
+    coefficients(size_, j) = remainder;
+    ++size_;
+  }
+  coefficients.conservativeResize(size_, Eigen::NoChange);
+  return size_ - before;
+}
+
+// (e^{hT} − I)R, by the map F of S = T and M = I.
+void KrylovSpace::exponentiate(double h) {
+  R_.conservativeResizeLike(Matrix::Zero(T_.rows(), R_.cols()));
+  change_ = R_;
+  if (T_.rows() > 0) change_ = exponential_force<Matrix>(T_, Matrix::Identity(T_.rows(), T_.rows()), h) * R_;
+}
+
+void KrylovSpace::build(const SparseMatrix& S, const SparseMatrix& M, const Matrix& start, double h, int blocks) {
+  constexpr int most_blocks = 400;
+  constexpr int check_every = 4;     // the exponential of T costs more than a block
+  constexpr double settled = 1e-15;  // what the next block would see of the change, against the vectors
+  const auto grow_T = [this](Index size) { T_.conservativeResizeLike(Matrix::Zero(size, size)); };
+  size_ = 0;
+  T_.resize(0, 0);
+  Matrix block = start;
+  Matrix coefficients;
+  Index last = append(M, block, R_);
+  const double scale = R_.norm();
+  for (int k = 1; last > 0; ++k) {
+    // SM of the last block: inside the block, T; along the block before, −Tᵀ; the rest is the next block.
+    const Index known = size_;
+    const Index from = known - last;
+    block.noalias() = S * W_.middleCols(from, last);
+    const Matrix inside = W_.middleCols(from, last).transpose() * block;
+    grow_T(known);
+    T_.bottomRightCorner(last, last) = (inside - inside.transpose()) / 2;
+    if (k == (blocks > 0 ? blocks : most_blocks)) break;
+    const Index next = append(M, block, coefficients);
+    const Matrix coupling = coefficients.bottomRows(next);
+    if (blocks == 0 && k % check_every == 0) {
+      exponentiate(h);
+      if (std::abs(h) * (coupling * (change_ + R_).bottomRows(last)).norm() <= settled * scale) return;
+    }
+    grow_T(size_);
+    T_.block(known, from, next, last) = coupling;
+    T_.block(from, known, last, next) = -coupling.transpose();
+    last = next;
+  }
+  exponentiate(h);
+}
+
+}  // namespace seiche

@@ -1,0 +1,49 @@
+#include <seiche/backend/grid_damping.hpp>
+#include <seiche/backend/grid_potential.hpp>
+#include <seiche/backend/grid_space.hpp>
+#include <seiche/backend/sparse.hpp>
+#include <seiche/backend/sparse_damping.hpp>
+#include <seiche/backend/sparse_linear.hpp>
+#include <seiche/core/error.hpp>
+
+namespace seiche {
+namespace {
+
+SparseMatrix matrix_of(const Problem& problem, const BlockStencil& stencil) {
+  try {
+    return stencil.sparse_matrix(problem.grid);
+  } catch (const Error& error) {
+    throw Error("the sparse backend does not take {}: {}; use discretisation \"fd2\" or \"fd4\", or backend \"modal\"",
+                problem.name, error.what());
+  }
+}
+
+}  // namespace
+
+System sparse_system(const Problem& problem, const BackendOptions& options) {
+  options.sparse.validate();
+  const Index n = problem.grid.unknowns();
+  const std::shared_ptr<const FieldTransform> identity = identity_transform(n);
+  System system;
+  system.fields = problem.field_count();
+  system.space = std::make_unique<GridSpace>(problem.field_count(), identity);
+  system.potential = std::make_unique<GridPotential>(problem, identity);
+
+  SparseOperators own;
+  if (!problem.matrices)
+    own = {matrix_of(problem, problem.S), matrix_of(problem, problem.M), matrix_of(problem, problem.damping.constant)};
+  const SparseOperators& matrices = problem.matrices ? *problem.matrices : own;
+  system.linear = sparse_linear_part(matrices.S, matrices.M, system.potential->support(), options.sparse);
+
+  std::unique_ptr<LinearMap> constant;
+  GridDamping::MakeFlow make_flow;
+  if (matrices.D.nonZeros() > 0) {
+    constant = sparse_map(matrices.D);
+    make_flow = sparse_damping_flow(matrices.D);
+  }
+  system.damping = std::make_unique<GridDamping>(problem, n, std::move(constant), std::move(make_flow));
+  system.initial = problem.initial;
+  return system;
+}
+
+}  // namespace seiche

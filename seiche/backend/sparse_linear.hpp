@@ -1,0 +1,18 @@
+// S and M as sparse matrices, and their propagators.
+#pragma once
+
+#include <seiche/backend/pade_poles.hpp>
+#include <seiche/core/potential.hpp>
+#include <seiche/core/sparse_operators.hpp>
+#include <seiche/core/system.hpp>
+
+#include <memory>
+
+namespace seiche {
+
+// `support`: the components that V depends on, and predictors are asked for. Propagators throw Error where their
+// factors would not fit into memory.
+std::unique_ptr<LinearPart> sparse_linear_part(const SparseMatrix& S, const SparseMatrix& M, Potential::Support support,
+                                               const SparseOptions& options);
+
+}  // namespace seiche

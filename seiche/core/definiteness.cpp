@@ -1,0 +1,44 @@
+#include <seiche/core/definiteness.hpp>
+#include <seiche/core/error.hpp>
+
+#include <Eigen/SparseCholesky>
+
+namespace seiche {
+namespace {
+
+constexpr double round_off = 1e-13;
+
+double largest_row_sum(const SparseMatrix& A) {
+  const SparseMatrix absolute = A.cwiseAbs();
+  return A.rows() == 0 ? 0.0 : Vector(absolute * Vector::Ones(A.cols())).maxCoeff();
+}
+
+}  // namespace
+
+SparseMatrix symmetric_part(const SparseMatrix& A) { return 0.5 * (A + SparseMatrix(A.transpose())); }
+
+std::optional<NegativeDirection> negative_direction(const SparseMatrix& A) {
+  const double size = largest_row_sum(A);
+  if (size == 0) return std::nullopt;
+  SparseMatrix shifted(A.rows(), A.cols());
+  shifted.setIdentity();
+  shifted = A + SparseMatrix(round_off * size * shifted);  // a pivot that should be 0 is now positive
+  Eigen::SimplicialLDLT<SparseMatrix> ldlt(shifted);
+  if (ldlt.info() != Eigen::Success)
+    throw Error("whether a matrix of {} unknowns is positive semidefinite was not decided: LDLᵀ met a pivot 0",
+                A.rows());
+  const Vector pivots = ldlt.vectorD();
+  Index k = 0;
+  if (pivots.minCoeff(&k) >= 0) return std::nullopt;
+  Vector x = Vector::Unit(A.rows(), k);  // x = PᵀL⁻ᵀe_k has xᵀ(A + shift)x = d_k
+  ldlt.matrixU().solveInPlace(x);
+  x = (ldlt.permutationPinv() * x).eval();
+  x.normalize();
+  const double value = x.dot(A * x);
+  if (value >= -round_off * size) return std::nullopt;
+  NegativeDirection direction{value, 0};
+  x.cwiseAbs().maxCoeff(&direction.largest);
+  return direction;
+}
+
+}  // namespace seiche

@@ -1,0 +1,23 @@
+// Is a sparse symmetric matrix positive semidefinite, and if not, who says so?
+#pragma once
+
+#include <seiche/core/sparse_operators.hpp>
+
+#include <optional>
+
+namespace seiche {
+
+// x with xᵀAx < 0, of norm one.
+struct NegativeDirection {
+  double value;   // xᵀAx
+  Index largest;  // where |x_i| is largest
+};
+
+// Nothing where A ⪰ 0 up to 1e-13 ‖A‖: the signs of the pivots of LDLᵀ decide (Sylvester), and a direction found is
+// checked. A: symmetric. Throws Error where A cannot be factorised.
+std::optional<NegativeDirection> negative_direction(const SparseMatrix& A);
+
+// ½(A + Aᵀ)
+SparseMatrix symmetric_part(const SparseMatrix& A);
+
+}  // namespace seiche

@@ -1,0 +1,12 @@
+// The energy law of problems stated by sparse matrices.
+#pragma once
+
+#include <seiche/core/problem.hpp>
+#include <seiche/core/run_report.hpp>
+
+namespace seiche {
+
+// promise_energy_law where problem.matrices is set: M ⪰ 0, sym(S) ⪯ 0 and sym(MD) ⪰ 0 by factorisation.
+LawPromise promise_energy_law_of_matrices(const Problem& problem, double t_end);
+
+}  // namespace seiche

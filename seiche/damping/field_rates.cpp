@@ -1,0 +1,124 @@
+#include <seiche/core/error.hpp>
+#include <seiche/damping/adaptive_integral.hpp>
+#include <seiche/damping/field_rates.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+constexpr double never = -1.0;
+
+// γ(x_j) and nothing else to compute.
+class SteadyFieldRate final : public FieldRate {
+ public:
+  SteadyFieldRate(std::vector<double> gamma, std::string text) : gamma_(std::move(gamma)), text_(std::move(text)) {}
+
+  void values(double, std::span<double> gamma) const override {
+    std::copy(gamma_.begin(), gamma_.end(), gamma.begin());
+  }
+  void integrals(double, double h, std::span<double> out) const override {
+    std::transform(gamma_.begin(), gamma_.end(), out.begin(), [h](double gamma) { return h * gamma; });
+  }
+  bool is_constant() const override { return true; }
+  double first_negative_time(double) const override { return negative_seen(); }
+  double negative_seen() const override {
+    return std::any_of(gamma_.begin(), gamma_.end(), [](double gamma) { return gamma < 0; }) ? 0.0 : never;
+  }
+  std::string text() const override { return text_; }
+
+ private:
+  std::vector<double> gamma_;
+  std::string text_;
+};
+
+class FormulaFieldRate final : public FieldRate {
+ public:
+  FormulaFieldRate(FormulaPointer formula, const Grid& grid) : formula_(std::move(formula)) {
+    for (Index j = 0; j < grid.unknowns(); ++j) {
+      Place place{};
+      for (Index a = 0; a < grid.dimension(); ++a) place[static_cast<std::size_t>(a)] = grid.coordinate(j, a);
+      places_.push_back(place);
+    }
+  }
+
+  void values(double t, std::span<double> gamma) const override {
+    for (std::size_t j = 0; j < places_.size(); ++j) gamma[j] = value(t, places_[j]);
+  }
+
+  // On s ∈ [0, 1] with t + sh, since (t + h) − t loses the digits of h once t ≫ h.
+  void integrals(double t, double h, std::span<double> out) const override {
+    for (std::size_t j = 0; j < places_.size(); ++j) {
+      const auto gamma = [&](double s) { return value(std::fma(s, h, t), places_[j]); };
+      const bool finite = std::isfinite(gamma(0.0)) && std::isfinite(gamma(1.0));
+      out[j] = finite ? h * adaptive_integral(gamma) : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+
+  bool is_constant() const override { return false; }
+
+  double first_negative_time(double t_end) const override {
+    const std::size_t samples = std::clamp<std::size_t>((1U << 20U) / places_.size(), 64, 4096);
+    for (std::size_t i = 0; i <= samples; ++i) {
+      const double t = t_end * static_cast<double>(i) / static_cast<double>(samples);
+      if (std::any_of(places_.begin(), places_.end(), [&](const Place& place) { return value(t, place) < 0; }))
+        return t;
+    }
+    return never;
+  }
+
+  double negative_seen() const override { return negative_seen_.load(std::memory_order_relaxed); }
+  std::string text() const override { return formula_->text(); }
+
+ private:
+  using Place = std::array<double, 3>;
+
+  double value(double t, const Place& place) const {
+    const std::array<double, 4> arguments = {t, place[0], place[1], place[2]};
+    const double gamma = (*formula_)(arguments);
+    if (gamma < 0) negative_seen_.store(t, std::memory_order_relaxed);
+    return gamma;
+  }
+
+  FormulaPointer formula_;
+  std::vector<Place> places_;
+  mutable std::atomic<double> negative_seen_ = never;
+};
+
+class FormulaSpaceRate final : public SpaceRate {
+ public:
+  FormulaSpaceRate(FormulaPointer formula, Index axes, bool constant_in_time)
+      : formula_(std::move(formula)), axes_(axes), constant_in_time_(constant_in_time) {}
+
+  FieldRatePointer on(const Grid& grid) const override {
+    if (grid.dimension() < axes_)
+      throw Error("the rate {} names {}, but the grid has {} ax{}", text(), axes_ == 2 ? "y" : "z", grid.dimension(),
+                  grid.dimension() == 1 ? "is" : "es");
+    auto rate = std::make_shared<FormulaFieldRate>(formula_, grid);
+    if (!constant_in_time_) return rate;
+    std::vector<double> gamma(static_cast<std::size_t>(grid.unknowns()));
+    rate->values(0, gamma);
+    return std::make_shared<SteadyFieldRate>(std::move(gamma), text());
+  }
+
+  std::string text() const override { return formula_->text(); }
+
+ private:
+  FormulaPointer formula_;
+  Index axes_;
+  bool constant_in_time_;
+};
+
+}  // namespace
+
+SpaceRatePointer formula_space_rate(FormulaPointer formula, Index axes, bool constant_in_time) {
+  return std::make_shared<FormulaSpaceRate>(std::move(formula), axes, constant_in_time);
+}
+
+}  // namespace seiche

@@ -1,0 +1,106 @@
+#include <seiche/ensemble/lane_avf.hpp>
+#include <seiche/ensemble/row_loops.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+constexpr int max_sweeps = 100;
+constexpr double stagnation = 100;  // in units of the tolerance, as in method/avf.cpp
+
+class LaneAvf final : public LaneStepper {
+ public:
+  LaneAvf(std::unique_ptr<LaneSystem> from, const MethodEntry& method)
+      : LaneStepper(std::move(from), method),
+        linear_(system().size()),
+        plus_(system().size()),
+        q_(system().size()),
+        other_values_(system().support_size()),
+        at_z_(system().support_size()) {}
+
+ private:
+  void advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) override;
+  // next = z + FMz + Fḡ(z, z⁺), and the size of the update in units of 4ε(|z⁺| + |Fḡ|).
+  void sweep(LaneState& s, const LaneStep& maps, Panel& next);
+
+  Panel linear_;  // z + FMz
+  Panel plus_, q_, other_values_, at_z_;
+  LaneValues update_{};
+};
+
+void LaneAvf::sweep(LaneState& s, const LaneStep& maps, Panel& next) {
+  const Index n = system().size();
+  double* g = gradient_of(s);
+  if (system().support_size() > 0) {
+    system().to_values(plus_.row(system().support_begin()), other_values_.row(0));
+    system().potential().mean_gradient(at_z_.row(0), other_values_.row(0), slopes());
+    system().to_coordinates(slopes(), g);
+  }
+  maps.all_forces.apply(g, q_.row(0));
+  maps.all_forces.add_to(linear_.row(0), g, next.row(0));
+  LaneValues distance, size, force;
+  max_distance(next.row(0), plus_.row(0), n, distance);
+  max_norm(next.row(0), n, size);
+  max_norm(q_.row(0), n, force);
+  for (std::size_t l = 0; l < update_.size(); ++l)
+    update_[l] = distance[l] / std::max(4 * epsilon * (size[l] + force[l]), std::numeric_limits<double>::min());
+}
+
+//   z⁺ = Ez + F ∫₀¹ ∇V(z + s(z⁺ − z)) ds
+void LaneAvf::advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) {
+  const Index n = system().size();
+  double* z = s.z.row(0);
+  double* g = gradient_of(s);
+  std::memset(g, 0, sizeof(double) * static_cast<std::size_t>(system().support_size() * lanes));
+  maps.step.add_to(z, z, linear_.row(0));  // with g = 0
+  if (system().support_size() > 0) {
+    const LanePotential& potential = system().potential();
+    system().to_values(s.z.row(system().support_begin()), at_z_.row(0));
+    potential.gradient(at_z_.row(0), slopes());
+    system().to_coordinates(slopes(), g);
+    maps.predict.apply(z, slopes());  // ẑ
+    system().to_values(slopes(), values());
+    potential.gradient(values(), slopes());
+    system().to_coordinates(slopes(), g);
+  }
+  maps.all_forces.add_to(linear_.row(0), g, plus_.row(0));  // the explicit step
+
+  LaneValues waiting, previous;
+  waiting.fill(1);
+  previous.fill(std::numeric_limits<double>::infinity());
+  Panel& swept = next.z;
+  for (int i = 0; i < max_sweeps && std::any_of(waiting.begin(), waiting.end(), [](double w) { return w != 0; }); ++i) {
+    sweep(s, maps, swept);
+    copy_lanes(swept.row(0), waiting, n, plus_.row(0));
+    for (std::size_t l = 0; l < waiting.size(); ++l) {
+      if (waiting[l] == 0) continue;
+      ++report.scalar_iterations[l];
+      const double update = update_[l];
+      if (update <= 1 || (update <= stagnation && update >= previous[l])) {
+        waiting[l] = 0;
+      } else if (!(update < 1e3 * previous[l])) {  // diverges, or is not a number
+        waiting[l] = 0;
+        report.trouble[l] = 1;
+      }
+      previous[l] = update;
+    }
+  }
+  std::memcpy(next.z.row(0), plus_.row(0), sizeof(double) * static_cast<std::size_t>(n * lanes));
+  damp_rows(after, n, next.z.row(0));
+  LaneValues lost;
+  find_not_finite(next.z.row(0), n, lost);
+  for (std::size_t l = 0; l < waiting.size(); ++l)
+    if (waiting[l] != 0 || lost[l] != 0) report.trouble[l] = 1;
+}
+
+}  // namespace
+
+std::unique_ptr<LaneStepper> make_lane_avf(std::unique_ptr<LaneSystem> system, const MethodEntry& method) {
+  return std::make_unique<LaneAvf>(std::move(system), method);
+}
+
+}  // namespace seiche

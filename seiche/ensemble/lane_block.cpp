@@ -1,0 +1,72 @@
+#include <seiche/core/error.hpp>
+#include <seiche/ensemble/lane_block.hpp>
+
+namespace seiche {
+namespace {
+
+// Above, folded transforms cost more than the fast ones of an ordinary run.
+constexpr Index most_lane_points = 128;
+
+bool may_take_lanes(const Problem& problem, const MethodEntry& method) {
+  return (method.closure == ClosureKind::sav || method.closure == ClosureKind::avf) &&
+         problem.grid.unknowns() <= most_lane_points;
+}
+
+bool is_modal(const Problem& problem) {
+  try {
+    find_backend("modal").system(problem, {});
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<MemberBlock> make_block(std::span<const EnsembleMember> members, const SimulationOptions& options) {
+  const Problem& problem = *members.front().problem;
+  if (!may_take_lanes(problem, find_method(options.method))) return std::make_unique<MemberBlock>(members, options);
+  SimulationOptions chosen = options;
+  if (options.backend == "auto" && is_modal(problem)) chosen.backend = "modal";
+  std::unique_ptr<LaneBlock> block(new LaneBlock(members, chosen));
+  if (block->find_stepper(options.method_options)) return block;
+  return std::make_unique<MemberBlock>(members, options);
+}
+
+// Lanes without a member, or with one that could not start, take the matrices of another and rest at z = 0.
+bool LaneBlock::find_stepper(const MethodOptions& options) {
+  const Simulation* any = nullptr;
+  for (Index m = 0; m < size(); ++m)
+    if (status(m).running) any = simulation(m);
+  if (any == nullptr) return false;
+  std::vector<const Simulation*> all;
+  for (Index l = 0; l < lanes; ++l) all.push_back(l < size() && status(l).running ? simulation(l) : any);
+  stepper_ = make_lane_stepper(all, options);
+  if (!stepper_) return false;
+  at_rest_.z.setZero(any->system().space->size());
+  at_rest_.r_squared = at_rest_.shift = 1;
+  for (Index l = 0; l < lanes; ++l) stepper_->load(l < size() && status(l).running ? state(l) : at_rest_, l);
+  return true;
+}
+
+void LaneBlock::step_all(std::int64_t n, double t, double h) {
+  stepper_->step(t, h, report_);
+  for (Index m = 0; m < size(); ++m) {
+    const auto l = static_cast<std::size_t>(m);
+    MemberStatus& member = status_of(m);
+    if (report_.trouble[l] == 0) {
+      member.scalar_iterations += report_.scalar_iterations[l];
+      member.fallbacks += report_.fallbacks[l];
+    } else if (member.running) {
+      update_state(m);
+      stepper_->mend(step_alone(m, n, t, h) ? state(m) : at_rest_, m);
+    }
+  }
+  stepper_->accept();
+}
+
+void LaneBlock::read_energies(std::array<EnergyReading, lanes>& readings) { stepper_->energy(readings); }
+
+void LaneBlock::update_state(Index member) { stepper_->store(member, state(member)); }
+
+}  // namespace seiche

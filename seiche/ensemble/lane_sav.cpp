@@ -1,0 +1,116 @@
+#include <seiche/core/multiversion.hpp>
+#include <seiche/ensemble/lane_sav.hpp>
+#include <seiche/ensemble/row_loops.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+// What the scalar part of a step is made of, and what it gives.
+struct Powers {
+  LaneValues v_mid{}, quadratic{}, of_increment{}, of_force{};  // V(ẑ), zᵀMz, ĝᵀFMz, ĝᵀFĝ
+};
+struct Force {
+  LaneValues factor{}, rise{}, trouble{};  // of Fĝ; of C and r²; ≠ 0 where V(ẑ) + C ≤ 0 or is no number
+};
+
+// r̄ = (r + ¼gᵀFMz) / (1 − ¼gᵀFg) with the guard that lifts C and r² where V + C or r² has become small, as in method/sav.cpp.
+// Without branches, so that lanes are computed together.
+SEICHE_MULTIVERSION void take_force(const Powers& __restrict powers, bool guarded, LaneState& __restrict next,
+                                    Force& __restrict force) {
+  const double allowed = guarded ? 1.0 : 0.0;
+  for (std::size_t l = 0; l < static_cast<std::size_t>(lanes); ++l) {
+    const double v = powers.v_mid[l];
+    double scale = powers.quadratic[l] / 2 + (v < 0 ? -v : 0.0);
+    scale = scale > next.energy_scale[l] ? scale : next.energy_scale[l];
+    scale = scale > 1e-300 ? scale : 1e-300;
+    const double above = v + next.shift[l];
+    const double margin = next.r_squared[l] < above ? next.r_squared[l] : above;
+    const double rise = margin < 0.1 * scale ? allowed * (2 * scale - margin) : 0.0;
+    const double shift = next.shift[l] + rise;
+    const double to_g = 1 / std::sqrt(v + shift);
+    const double r = std::sqrt(next.r_squared[l] + rise);
+    const double r_mid = (r + to_g * powers.of_increment[l] / 4) / (1 - to_g * to_g * powers.of_force[l] / 4);
+    const double r_next = 2 * r_mid - r;
+    next.r_squared[l] = r_next * r_next;
+    next.shift[l] = shift;
+    force.factor[l] = r_mid * to_g;
+    force.rise[l] = rise;
+    force.trouble[l] = v + shift > 0 ? v - v : 1.0;
+  }
+}
+
+class LaneSav final : public LaneStepper {
+ public:
+  LaneSav(std::unique_ptr<LaneSystem> system, const MethodEntry& method, AuxiliaryMode auxiliary)
+      : LaneStepper(std::move(system), method), auxiliary_(auxiliary) {}
+
+ private:
+  void damp(LaneState& s, double t, double h) override;
+  bool damps_z_only() const override { return auxiliary_ != AuxiliaryMode::refresh && !transports(); }
+  void advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) override;
+  void modified_energy(const LaneState& s, const LaneValues& quadratic,
+                       std::array<EnergyReading, lanes>& readings) override;
+  bool transports() const { return auxiliary_ == AuxiliaryMode::transport && system().damping_moves_potential(); }
+
+  AuxiliaryMode auxiliary_;
+  Powers powers_;
+  Force force_;
+};
+
+// r² moves with V (transport), stays (frozen), or is V + C again (refresh).
+void LaneSav::damp(LaneState& s, double t, double h) {
+  LaneValues before, after, magnitude;
+  if (transports()) potential_of(s, before, magnitude);
+  flow(s, t, h);
+  if (damps_z_only()) return;
+  potential_of(s, after, magnitude);
+  for (std::size_t l = 0; l < after.size(); ++l)
+    s.r_squared[l] = transports() ? s.r_squared[l] + (after[l] - before[l]) : after[l] + s.shift[l];
+}
+
+//   z⁺ = Ez + F r̄g,   r⁺ − r = ½ gᵀ(z⁺ − z),   r̄ = ½(r⁺ + r),   g = ĝ/√(V(ẑ) + C)                       (3.1), (4.2)
+void LaneSav::advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) {
+  double* z = s.z.row(0);
+  double* g = gradient_of(s);
+  if (system().support_size() > 0) {
+    const LanePotential& potential = system().potential();
+    system().to_values(s.z.row(system().support_begin()), values());
+    potential.gradient(values(), slopes());
+    system().to_coordinates(slopes(), g);
+    maps.predict.apply(z, slopes());  // ẑ
+    system().to_values(slopes(), values());
+    potential.value_and_gradient(values(), slopes(), powers_.v_mid);
+    system().to_coordinates(slopes(), g);  // ĝ
+  }
+  powers_.quadratic = twice_quadratic_energy(s);
+  maps.increment.dot(g, z, powers_.of_increment);
+  maps.force(g, powers_.of_force);
+  take_force(powers_, auxiliary_ != AuxiliaryMode::frozen, next, force_);
+  scale_rows(g, force_.factor, system().support_size(), g);
+  LaneValues lost;
+  maps.step.finish(z, z, after, next.z.row(0), lost);
+  for (std::size_t l = 0; l < lost.size(); ++l) {
+    report.fallbacks[l] = force_.rise[l] != 0 ? 1 : 0;
+    report.trouble[l] = force_.trouble[l] != 0 || lost[l] != 0 ? 1.0 : 0.0;
+  }
+}
+
+void LaneSav::modified_energy(const LaneState& s, const LaneValues& quadratic,
+                              std::array<EnergyReading, lanes>& readings) {
+  for (std::size_t l = 0; l < readings.size(); ++l) {
+    readings[l].modified = quadratic[l] + (s.r_squared[l] - s.shift[l]);
+    readings[l].modified_round_off = 50 * epsilon * (quadratic[l] + s.r_squared[l] + std::abs(s.shift[l]));
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<LaneStepper> make_lane_sav(std::unique_ptr<LaneSystem> system, const MethodEntry& method,
+                                           const MethodOptions& options) {
+  return std::make_unique<LaneSav>(std::move(system), method, options.auxiliary);
+}
+
+}  // namespace seiche

@@ -1,0 +1,155 @@
+#include <seiche/ensemble/lane_avf.hpp>
+#include <seiche/ensemble/lane_sav.hpp>
+#include <seiche/ensemble/lane_stepper.hpp>
+#include <seiche/ensemble/row_loops.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+void copy_rows(const double* in, Index rows, double* out) {
+  std::memcpy(out, in, sizeof(double) * static_cast<std::size_t>(rows * lanes));
+}
+
+void copy_scalars(const LaneState& from, LaneState& to) {
+  to.r_squared = from.r_squared;
+  to.shift = from.shift;
+  to.energy_scale = from.energy_scale;
+}
+
+}  // namespace
+
+LaneStepper::LaneStepper(std::unique_ptr<LaneSystem> system, const MethodEntry& method)
+    : system_(std::move(system)), splits_damping_(method.composition == Composition::strang) {
+  for (LaneState* s : {&first_, &second_, &work_}) {
+    s->z = Panel(system_->size() + system_->support_size());
+    s->r_squared.fill(1);  // lanes without a member rest at z = 0
+    s->shift.fill(1);
+  }
+  values_ = Panel(system_->support_size());
+  slopes_ = Panel(system_->support_size());
+  none_.of_field.resize(static_cast<std::size_t>(system_->fields()));
+  for (LaneValues& field : none_.of_field) field.fill(1);
+  set_rows(none_);
+}
+
+void LaneStepper::load(const State& state, Index lane) {
+  const auto l = static_cast<std::size_t>(lane);
+  system_->load(state.z, lane, state_->z);
+  state_->r_squared[l] = state.r_squared;
+  state_->shift[l] = state.shift;
+  state_->energy_scale[l] = state.energy_scale;
+}
+
+void LaneStepper::store(Index lane, State& state) const {
+  const auto l = static_cast<std::size_t>(lane);
+  system_->store(state_->z, lane, state.z);
+  state.r_squared = state_->r_squared[l];
+  state.shift = state_->shift[l];
+  state.energy_scale = state_->energy_scale[l];
+}
+
+void LaneStepper::mend(const State& state, Index lane) {
+  std::swap(state_, next_);
+  load(state, lane);
+  std::swap(state_, next_);
+}
+
+void LaneStepper::accept() { std::swap(state_, next_); }
+
+void LaneStepper::set_rows(Decay& decay) {
+  decay.of_row.clear();
+  for (const LaneValues& field : decay.of_field)
+    decay.of_row.insert(decay.of_row.end(), static_cast<std::size_t>(system_->field_size()), field.data());
+}
+
+RowFactors LaneStepper::factors(Decay& decay, double t, double h) {
+  if (decay.h != h || !system_->has_constant_rates()) system_->decay(t, h, decay.of_field);
+  if (decay.of_row.empty()) set_rows(decay);
+  decay.h = h;
+  return decay.of_row.data();
+}
+
+// Where a half-flow is nothing but a factor for every field, it is made on the way: the first with the copy that keeps the
+// state before the step, the second with the sum that makes the new one.
+void LaneStepper::step(double t, double h, LaneReport& report) {
+  report = LaneReport{};
+  step_size_ = h;
+  const LaneStep& maps = system_->at(h);
+  const bool on_the_way = damps_z_only() && maps.flow.rows() == 0;
+  is_measured_ = false;
+  if (splits_damping_) {
+    copy_scalars(*state_, work_);
+    if (on_the_way && system_->metric().diagonal() != nullptr) {
+      damp_and_measure(state_->z.row(0), factors(before_, t, h / 2), system_->metric().diagonal(), system_->size(),
+                       work_.z.row(0), quadratic_);
+      is_measured_ = true;
+    } else {
+      copy_rows(state_->z.row(0), system_->size(), work_.z.row(0));
+      damp(work_, t, h / 2);
+    }
+  }
+  LaneState& start = splits_damping_ ? work_ : *state_;
+  copy_scalars(start, *next_);
+  const bool last_on_the_way = splits_damping_ && on_the_way;
+  advance(start, maps, last_on_the_way ? factors(after_, t + h / 2, h / 2) : none_.of_row.data(), *next_, report);
+  if (!splits_damping_ || last_on_the_way) return;
+  damp(*next_, t + h / 2, h / 2);
+  LaneValues lost;
+  find_not_finite(next_->z.row(0), system_->size(), lost);
+  for (std::size_t l = 0; l < lost.size(); ++l)
+    if (lost[l] != 0) report.trouble[l] = 1;
+}
+
+const LaneValues& LaneStepper::twice_quadratic_energy(const LaneState& s) {
+  if (!is_measured_) system_->metric()(s.z.row(0), quadratic_);
+  return quadratic_;
+}
+
+void LaneStepper::flow(LaneState& s, double t, double h) {
+  damp_rows(factors(before_, t, h), system_->size(), s.z.row(0));
+  const LaneStep& maps = system_->at(step_size_);
+  if (maps.flow.rows() == 0) return;
+  if (moved_.rows() == 0) moved_ = Panel(s.z.rows());
+  maps.flow.apply(s.z.row(0), moved_.row(0));
+  std::swap(s.z, moved_);
+}
+
+void LaneStepper::potential_of(const LaneState& s, LaneValues& v, LaneValues& magnitude) {
+  v.fill(0);
+  magnitude.fill(0);
+  if (system_->support_size() == 0) return;
+  system_->to_values(s.z.row(system_->support_begin()), values());
+  system_->potential().value_and_magnitude(values(), v, magnitude);
+}
+
+void LaneStepper::energy(std::array<EnergyReading, lanes>& readings) {
+  LaneValues v, v_size, quadratic, size;
+  potential_of(*state_, v, v_size);
+  const double* z = state_->z.row(0);
+  system_->metric()(z, quadratic);
+  Panel absolute(system_->size());
+  for (Index i = 0; i < system_->size() * lanes; ++i) absolute.row(0)[i] = std::abs(z[i]);
+  system_->absolute_metric()(absolute.row(0), size);
+  for (std::size_t l = 0; l < readings.size(); ++l) {
+    quadratic[l] /= 2;
+    readings[l].H = readings[l].modified = quadratic[l] + v[l];
+    readings[l].round_off = readings[l].modified_round_off = 50 * epsilon * (size[l] + v_size[l]);
+  }
+  modified_energy(*state_, quadratic, readings);
+}
+
+std::unique_ptr<LaneStepper> make_lane_stepper(LaneSimulations members, const MethodOptions& options) {
+  const MethodEntry& method = members.front()->method();
+  if (method.closure != ClosureKind::sav && method.closure != ClosureKind::avf) return nullptr;
+  std::unique_ptr<LaneSystem> system = LaneSystem::make(members, method.propagator);
+  if (!system) return nullptr;
+  if (method.closure == ClosureKind::sav) return make_lane_sav(std::move(system), method, options);
+  return make_lane_avf(std::move(system), method);
+}
+
+}  // namespace seiche

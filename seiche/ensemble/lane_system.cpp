@@ -1,0 +1,219 @@
+#include <seiche/ensemble/lane_system.hpp>
+#include <seiche/ensemble/row_loops.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+// The matrix of a map of State::z, between these components of it.
+template <class Map>
+Matrix probe(Index size, const std::vector<Index>& rows, const std::vector<Index>& columns, const Map& map) {
+  Matrix a(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
+  Vector in = Vector::Zero(size);
+  Vector out = Vector::Zero(size);
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    in[columns[j]] = 1;
+    map(in, out);
+    a.col(static_cast<Index>(j)) = out(rows);
+    in[columns[j]] = 0;
+  }
+  return a;
+}
+
+Matrix side_by_side(const Matrix& a, const Matrix& b) {
+  Matrix both(a.rows(), a.cols() + b.cols());
+  both << a, b;
+  return both;
+}
+
+bool has_constant_damping(const Problem& p) {
+  return p.matrices ? p.matrices->D.nonZeros() > 0 : !p.damping.constant.is_zero();
+}
+
+// e^{−hD} of the constant part alone.
+Matrix constant_flow(const Simulation& simulation, double h, const std::vector<Index>& places) {
+  Problem constant = simulation.problem();
+  constant.damping.rate = nullptr;
+  const System system = find_backend(simulation.backend()).system(constant, {});
+  return probe(system.space->size(), places, places, [&](const Vector& in, Vector& out) {
+    out = in;
+    system.damping->flow(0, h, out);
+  });
+}
+
+// May both be held by the same rows of a panel?
+bool have_one_shape(const Problem& a, const Problem& b) {
+  const auto same_axis = [](const GridAxis& x, const GridAxis& y) {
+    return x.intervals == y.intervals && x.boundary == y.boundary;
+  };
+  const bool same_potential = a.potential && b.potential ? a.potential_field == b.potential_field &&
+                                                               a.potential->fields() == b.potential->fields()
+                                                         : !a.potential && !b.potential;
+  return a.field_count() == b.field_count() && same_potential &&
+         std::equal(a.grid.axes.begin(), a.grid.axes.end(), b.grid.axes.begin(), b.grid.axes.end(), same_axis);
+}
+
+}  // namespace
+
+LaneQuadratic::LaneQuadratic(std::span<const Matrix> matrices) : rows_(matrices.front().rows()) {
+  if (!std::all_of(matrices.begin(), matrices.end(), [](const Matrix& a) { return a.isDiagonal(0); })) {
+    map_ = BlockMap(matrices);
+    return;
+  }
+  diagonal_ = Panel(rows_);
+  for (Index j = 0; j < rows_; ++j)
+    for (Index l = 0; l < lanes; ++l)
+      diagonal_(j, l) = matrices[matrices.size() > 1 ? static_cast<std::size_t>(l) : 0](j, j);
+}
+
+void LaneQuadratic::operator()(const double* x, LaneValues& sum) const {
+  if (diagonal() != nullptr) {
+    measure(x, diagonal(), rows_, sum);
+  } else {
+    map_.dot(x, x, sum);
+  }
+}
+
+std::unique_ptr<LaneSystem> LaneSystem::make(LaneSimulations members, PropagatorKind kind) {
+  const Simulation& first = *members.front();
+  for (const Simulation* member : members)
+    if (member->problem().damping.field_rate || member->backend() != first.backend() ||
+        !have_one_shape(member->problem(), first.problem()))
+      return nullptr;
+  std::unique_ptr<LaneSystem> system(new LaneSystem(members, kind));
+  if (!system->find_transform()) return nullptr;
+  system->find_metrics();
+  return system;
+}
+
+LaneSystem::LaneSystem(LaneSimulations members, PropagatorKind kind)
+    : lanes_(members.begin(), members.end()), members_(lanes_), kind_(kind) {
+  if (std::all_of(members_.begin(), members_.end(), [&](const Simulation* s) { return s == members_.front(); }))
+    members_.resize(1);
+}
+
+// The orthonormal matrix by which the backend takes each field to coordinates, the same for all; without its rows of zeros.
+bool LaneSystem::find_transform() {
+  const Problem& problem = lanes_.front()->problem();
+  const Space& space = *lanes_.front()->system().space;
+  const Index points = problem.grid.unknowns();
+  fields_ = problem.field_count();
+  if (space.physical_size() != fields_ * points || space.size() % fields_ != 0) return false;
+  const Index slots = space.size() / fields_;
+
+  Matrix all(space.size(), space.physical_size());
+  Vector z(space.size());
+  for (Index j = 0; j < space.physical_size(); ++j) {
+    space.from_physical(Vector::Unit(space.physical_size(), j), z);
+    all.col(j) = z;
+  }
+  const Matrix T = all.topLeftCorner(slots, points);
+  std::vector<Index> used;
+  for (Index i = 0; i < slots; ++i)
+    if (!T.row(i).isZero(0)) used.push_back(i);
+  for (Index f = 0; f < fields_; ++f) {
+    if (all.block(f * slots, f * points, slots, points) != T) return false;
+    all.block(f * slots, f * points, slots, points).setZero();
+    for (const Index i : used) place_.push_back(f * slots + i);
+  }
+  field_size_ = static_cast<Index>(used.size());
+  const Matrix rows = T(used, Eigen::all);
+  if (!all.isZero(0) || field_size_ != points || !(rows * rows.transpose()).isIdentity(1e-12)) return false;
+  transform_ = FoldedTransform(rows);
+
+  for (const Simulation* member : members_) {
+    damping_moves_potential_ = damping_moves_potential_ || member->system().damping->touches_potential();
+    has_constant_damping_ = has_constant_damping_ || has_constant_damping(member->problem());
+    const RatePointer& rate = member->problem().damping.rate;
+    has_constant_rates_ = has_constant_rates_ && (!rate || rate->is_constant());
+  }
+  if (!problem.potential) return true;
+  support_begin_ = problem.potential_field * field_size_;
+  support_size_ = problem.potential->fields() * field_size_;
+  std::vector<std::shared_ptr<const PointwisePotential>> potentials;
+  for (const Simulation* lane : lanes_) potentials.push_back(lane->problem().potential);
+  potential_ = potentials.front()->for_lanes(potentials, support_size_);
+  return true;
+}
+
+void LaneSystem::find_metrics() {
+  std::vector<Matrix> M, absolute;
+  for (const Simulation* member : members_) {
+    const LinearPart& linear = *member->system().linear;
+    M.push_back(probe(member->system().space->size(), place_, place_,
+                      [&](const Vector& in, Vector& out) { linear.apply_M(in, out); }));
+    absolute.emplace_back(M.back().cwiseAbs());
+  }
+  metric_ = LaneQuadratic(M);
+  absolute_metric_ = LaneQuadratic(absolute);
+}
+
+const LaneStep& LaneSystem::at(double h) {
+  for (const auto& [length, step] : steps_)
+    if (length == h) return step;
+  return steps_.emplace_back(h, make_step(h)).second;
+}
+
+LaneStep LaneSystem::make_step(double h) const {
+  std::vector<Matrix> predict, increment, force, step, all_forces, flow;
+  const std::vector<Index> support(place_.begin() + support_begin_, place_.begin() + support_begin_ + support_size_);
+  for (const Simulation* member : members_) {
+    const System& system = member->system();
+    const Index n = system.space->size();
+    const std::unique_ptr<Propagator> propagator = system.linear->propagator(kind_, h);
+    const Vector zero = Vector::Zero(n);
+    predict.push_back(side_by_side(
+        probe(n, support, place_, [&](const Vector& in, Vector& out) { propagator->predict(in, zero, out); }),
+        probe(n, support, support, [&](const Vector& in, Vector& out) { propagator->predict(zero, in, out); })));
+    const Matrix FM = probe(n, place_, place_, [&](const Vector& in, Vector& out) { propagator->increment(in, out); });
+    const Matrix F = probe(n, place_, support, [&](const Vector& in, Vector& out) { propagator->force(in, out); });
+    increment.emplace_back(FM.middleRows(support_begin_, support_size_));
+    force.emplace_back(F.middleRows(support_begin_, support_size_));
+    step.push_back(side_by_side(FM, F));
+    all_forces.push_back(F);
+    if (has_constant_damping_) flow.push_back(constant_flow(*member, h / 2, place_));
+  }
+  LaneStep maps{BlockMap(predict), BlockMap(increment), LaneQuadratic(force), BlockMap(step), BlockMap(all_forces), {}};
+  if (!flow.empty()) maps.flow = BlockMap(flow);
+  return maps;
+}
+
+void LaneSystem::to_values(const double* support, double* values) const {
+  for (Index row = 0; row < support_size_; row += field_size_)
+    transform_.inverse(support + row * lanes, values + row * lanes);
+}
+
+void LaneSystem::to_coordinates(double* values, double* support) const {
+  for (Index row = 0; row < support_size_; row += field_size_)
+    transform_.forward(values + row * lanes, support + row * lanes);
+}
+
+void LaneSystem::load(const Vector& z, Index lane, Panel& panel) const {
+  for (Index j = 0; j < size(); ++j) panel(j, lane) = z[place_[static_cast<std::size_t>(j)]];
+}
+
+void LaneSystem::store(const Panel& panel, Index lane, Vector& z) const {
+  z.setZero(lanes_[static_cast<std::size_t>(lane)]->system().space->size());
+  for (Index j = 0; j < size(); ++j) z[place_[static_cast<std::size_t>(j)]] = panel(j, lane);
+}
+
+void LaneSystem::decay(double t, double h, std::vector<LaneValues>& factors) const {
+  factors.resize(static_cast<std::size_t>(fields_));
+  for (LaneValues& field : factors) field.fill(1);
+  const Rate* last = nullptr;
+  double factor = 1;
+  for (std::size_t l = 0; l < lanes_.size(); ++l) {
+    const LinearDamping& damping = lanes_[l]->problem().damping;
+    if (!damping.rate) continue;
+    if (damping.rate.get() != last) factor = std::exp(-damping.rate->integral(t, h));
+    last = damping.rate.get();
+    for (std::size_t f = 0; f < factors.size(); ++f)
+      if (damping.rate_fields[f]) factors[f][l] = factor;
+  }
+}
+
+}  // namespace seiche

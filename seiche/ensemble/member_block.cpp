@@ -1,0 +1,95 @@
+#include <seiche/core/error.hpp>
+#include <seiche/ensemble/member_block.hpp>
+
+#include <cmath>
+#include <utility>
+
+namespace seiche {
+
+MemberBlock::MemberBlock(std::span<const EnsembleMember> members, const SimulationOptions& options)
+    : simulations_(members.size(), nullptr), states_(members.size()), statuses_(members.size()) {
+  for (std::size_t m = 0; m < members.size(); ++m) start(static_cast<Index>(m), members[m], options);
+}
+
+void MemberBlock::start(Index member, const EnsembleMember& from, const SimulationOptions& options) {
+  std::unique_ptr<Simulation>& simulation = by_problem_[from.problem.get()];
+  State& s = state(member);
+  try {
+    if (!simulation) {
+      Problem problem = *from.problem;
+      problem.initial = from.initial;
+      simulation = std::make_unique<Simulation>(problem, options);
+      s = simulation->state();
+    } else {
+      const Space& space = *simulation->system().space;
+      s.z.setZero(space.size());
+      space.from_physical(from.initial, s.z);
+      simulation->stepper().begin(s);
+    }
+  } catch (const Error& error) {
+    fail(member, error.what());
+  }
+  simulations_[static_cast<std::size_t>(member)] = simulation.get();
+}
+
+void MemberBlock::step(std::int64_t n, double t, double h, double t_after) {
+  step_all(n, t, h);
+  steps_ = n;
+  t_ = t_after;
+}
+
+void MemberBlock::step_all(std::int64_t n, double t, double h) {
+  for (Index m = 0; m < size(); ++m)
+    if (status(m).running) step_alone(m, n, t, h);
+}
+
+bool MemberBlock::step_alone(Index member, std::int64_t n, double t, double h) {
+  State& s = state(member);
+  s.t = t;
+  s.n = n - 1;
+  StepReport report;
+  try {
+    report = stepper_of(member).stepper().step(s, h);
+  } catch (const Error& error) {  // a propagator that does not exist
+    report.status = StepReport::Status::failed;
+    report.message = error.what();
+  }
+  MemberStatus& status = status_of(member);
+  status.scalar_iterations += report.scalar_iterations;
+  status.fallbacks += report.fallbacks;
+  status.unresolved += report.unresolved;
+  if (report.solved()) return true;
+  fail(member, fmt::format("step {} failed after t = {:.9g}: {}", n, t, report.message));
+  return false;
+}
+
+void MemberBlock::fail(Index member, std::string message) {
+  MemberStatus& status = status_of(member);
+  status.steps = steps_;
+  status.t = t_;
+  status.running = false;
+  status.message = std::move(message);
+}
+
+void MemberBlock::read(std::array<EnergyReading, lanes>& readings) {
+  read_energies(readings);
+  for (Index m = 0; m < size(); ++m) {
+    const EnergyReading& reading = readings[static_cast<std::size_t>(m)];
+    if (!status(m).running || (std::isfinite(reading.H) && std::isfinite(reading.modified))) continue;
+    update_state(m);
+    fail(m, fmt::format("the energy is no longer finite at t = {:.9g} (step {})", t_, steps_));
+  }
+}
+
+void MemberBlock::read_energies(std::array<EnergyReading, lanes>& readings) {
+  for (Index m = 0; m < size(); ++m)
+    if (status(m).running) readings[static_cast<std::size_t>(m)] = stepper_of(m).stepper().energy(state(m));
+}
+
+Vector MemberBlock::physical(Index member) {
+  if (simulation(member) == nullptr || state(member).z.size() == 0) return {};
+  if (status(member).running) update_state(member);
+  return simulation(member)->system().space->physical(state(member).z);
+}
+
+}  // namespace seiche

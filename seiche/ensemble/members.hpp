@@ -1,0 +1,24 @@
+// The members that a case file asks for.
+#pragma once
+
+#include <seiche/config/run_spec.hpp>
+#include <seiche/ensemble/member_block.hpp>
+
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+struct Members {
+  std::vector<EnsembleMember> list;
+  std::vector<std::string> parameters;      // that vary, in the order of the case
+  std::vector<std::vector<double>> values;  // of these, for every member
+};
+
+// Member by member, one after the other from one generator (std::mt19937_64 from the seed): parameters first, then what is
+// added to z₀. More members with the same seed begin with the same ones. Ranges of several parameters run together. Uniform and
+// normal numbers are made here, since the standard leaves the distributions of its library open.
+// Throws Error with the member where a sample is out of bounds or a file does not fit.
+Members make_members(const RunSpec& spec);
+
+}  // namespace seiche

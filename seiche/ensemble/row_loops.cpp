@@ -1,0 +1,102 @@
+#include <seiche/core/pack.hpp>
+#include <seiche/ensemble/row_loops.hpp>
+
+#include <cstdint>
+
+namespace seiche {
+namespace {
+
+// f(row, pack) over all rows and the packs of each.
+template <class F>
+[[gnu::always_inline]] inline void for_packs(Index rows, const F& f) {
+  for (Index j = 0; j < rows; ++j) {
+#pragma GCC unroll 8
+    for (int q = 0; q < packs; ++q) f(j * packs + q, q);
+  }
+}
+
+[[gnu::always_inline]] inline void keep_larger(const Pack& x, Pack& largest) {
+  const Pack size = x < 0 ? -x : x;
+  largest = size > largest ? size : largest;
+  largest = size == size ? largest : size;  // a NaN stays
+}
+
+[[gnu::always_inline]] inline void put(const Pack (&row)[packs], LaneValues& values) {
+  for (int q = 0; q < packs; ++q) packs_of(values.data())[q] = row[q];
+}
+
+}  // namespace
+
+SEICHE_MULTIVERSION void scale_rows(const double* in, const LaneValues& factors, Index rows, double* out) {
+  const Pack* c = packs_of(factors.data());
+  for_packs(
+      rows, [&](Index i, int q) __attribute__((always_inline)) { packs_of(out)[i] = c[q] * packs_of(in)[i]; });
+}
+
+SEICHE_MULTIVERSION void damp_and_measure(const double* in, RowFactors factors, const double* diagonal, Index rows,
+                                          double* out, LaneValues& sum) {
+  Pack total[packs] = {};
+  for (Index j = 0; j < rows; ++j) {
+    const Pack* c = packs_of(factors[j]);
+    const Pack* d = packs_of(diagonal + j * lanes);
+    const Pack* from = packs_of(in + j * lanes);
+    Pack* to = packs_of(out + j * lanes);
+#pragma GCC unroll 8
+    for (int q = 0; q < packs; ++q) {
+      const Pack z = c[q] * from[q];
+      total[q] += d[q] * z * z;
+      to[q] = z;
+    }
+  }
+  put(total, sum);
+}
+
+SEICHE_MULTIVERSION void measure(const double* in, const double* diagonal, Index rows, LaneValues& sum) {
+  Pack total[packs] = {};
+  for_packs(
+      rows, [&](Index i, int q) __attribute__((always_inline)) {
+        total[q] += packs_of(diagonal)[i] * packs_of(in)[i] * packs_of(in)[i];
+      });
+  put(total, sum);
+}
+
+SEICHE_MULTIVERSION void damp_rows(RowFactors factors, Index rows, double* values) {
+  for (Index j = 0; j < rows; ++j) {
+    const Pack* c = packs_of(factors[j]);
+    Pack* to = packs_of(values + j * lanes);
+#pragma GCC unroll 8
+    for (int q = 0; q < packs; ++q) to[q] *= c[q];
+  }
+}
+
+SEICHE_MULTIVERSION void find_not_finite(const double* in, Index rows, LaneValues& flags) {
+  Pack total[packs] = {};
+  for_packs(
+      rows, [&](Index i, int q) __attribute__((always_inline)) { total[q] += 0.0 * packs_of(in)[i]; });
+  put(total, flags);
+}
+
+SEICHE_MULTIVERSION void max_norm(const double* in, Index rows, LaneValues& norms) {
+  Pack largest[packs] = {};
+  for_packs(
+      rows, [&](Index i, int q) __attribute__((always_inline)) { keep_larger(packs_of(in)[i], largest[q]); });
+  put(largest, norms);
+}
+
+SEICHE_MULTIVERSION void max_distance(const double* a, const double* b, Index rows, LaneValues& norms) {
+  Pack largest[packs] = {};
+  for_packs(
+      rows, [&](Index i, int q)
+                __attribute__((always_inline)) { keep_larger(packs_of(a)[i] - packs_of(b)[i], largest[q]); });
+  put(largest, norms);
+}
+
+SEICHE_MULTIVERSION void copy_lanes(const double* in, const LaneValues& mask, Index rows, double* out) {
+  const Pack* chosen = packs_of(mask.data());
+  for_packs(
+      rows, [&](Index i, int q) __attribute__((always_inline)) {
+        packs_of(out)[i] = chosen[q] != 0 ? packs_of(in)[i] : packs_of(out)[i];
+      });
+}
+
+}  // namespace seiche

@@ -1,0 +1,92 @@
+// V(u) = Σ_bars W(n·(u_b − u_a)): bars between the nodes of a truss in the plane, by the part of the displacement along them.
+#pragma once
+
+#include <seiche/core/potential.hpp>
+#include <seiche/potential/polynomial.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace seiche {
+
+// From node a to node b along the unit vector n; a negative node is a support, which does not move.
+struct Bar {
+  Index a, b;
+  double nx, ny;
+};
+
+// Reads two fields, the displacements (x of all nodes, then y).
+template <PointPotential W>
+class BarPotential final : public PointwisePotential {
+ public:
+  BarPotential(W w, std::vector<Bar> bars) : w_(w), bars_(std::move(bars)) {}
+
+  Index fields() const override { return 2; }
+
+  double value(std::span<const double> u) const override {
+    double sum = 0;
+    for (const Bar& bar : bars_) sum += w_.value(elongation(bar, u));
+    return sum;
+  }
+
+  double magnitude(std::span<const double> u) const override {
+    double sum = 0;
+    for (const Bar& bar : bars_) sum += std::abs(w_.value(elongation(bar, u)));
+    return sum;
+  }
+
+  double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    double sum = 0;
+    for (const Bar& bar : bars_) {
+      const double e = elongation(bar, u);
+      sum += w_.value(e);
+      pull(bar, gradient, w_.slope(e));
+    }
+    return sum;
+  }
+
+  void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override {
+    std::fill(mean.begin(), mean.end(), 0.0);
+    for (const Bar& bar : bars_) pull(bar, mean, w_.mean_slope(elongation(bar, a), elongation(bar, b)));
+  }
+
+  int degree() const override {
+    if constexpr (requires { W::degree; }) return W::degree;
+    return 0;
+  }
+
+  void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
+    std::fill(coefficients.begin(), coefficients.end(), 0.0);
+    if constexpr (requires { W::degree; }) {
+      for (const Bar& bar : bars_) w_.add_along(elongation(bar, p), elongation(bar, q), coefficients.data());
+    }
+  }
+
+  bool grows_outward() const override { return w_.grows_outward(); }  // u·∇V = Σ e W'(e)
+
+ private:
+  static double elongation(const Bar& bar, std::span<const double> u) {
+    const std::size_t n = u.size() / 2;
+    double e = 0;
+    if (bar.b >= 0) e += bar.nx * u[static_cast<std::size_t>(bar.b)] + bar.ny * u[n + static_cast<std::size_t>(bar.b)];
+    if (bar.a >= 0) e -= bar.nx * u[static_cast<std::size_t>(bar.a)] + bar.ny * u[n + static_cast<std::size_t>(bar.a)];
+    return e;
+  }
+
+  static void pull(const Bar& bar, std::span<double> gradient, double slope) {
+    const std::size_t n = gradient.size() / 2;
+    for (const auto& [node, sign] : {std::pair{bar.a, -slope}, std::pair{bar.b, slope}}) {
+      if (node < 0) continue;
+      gradient[static_cast<std::size_t>(node)] += sign * bar.nx;
+      gradient[n + static_cast<std::size_t>(node)] += sign * bar.ny;
+    }
+  }
+
+  W w_;
+  std::vector<Bar> bars_;
+};
+
+}  // namespace seiche

@@ -1,0 +1,68 @@
+// Loops over the points of a grid: eight points at a time, for several instruction sets, sums in one fixed order.
+#pragma once
+
+#include <seiche/core/multiversion.hpp>
+#include <seiche/core/vector.hpp>
+
+#include <array>
+#include <cstddef>
+
+namespace seiche {
+
+// Sums that do not wait for one another.
+class LaneSums {
+ public:
+  double& operator[](std::size_t lane) { return sums_[lane]; }
+  double total() const {
+    return ((sums_[0] + sums_[1]) + (sums_[2] + sums_[3])) + ((sums_[4] + sums_[5]) + (sums_[6] + sums_[7]));
+  }
+
+ private:
+  std::array<double, 8> sums_{};
+};
+
+// Σ_j f(j), where f may write to place j.
+template <class F>
+[[gnu::always_inline]] inline double sum_points(std::size_t n, const F& f) {
+  LaneSums sums;
+  std::size_t j = 0;
+  for (; j + 8 <= n; j += 8)
+    for (std::size_t lane = 0; lane < 8; ++lane) sums[lane] += f(j + lane);
+  for (std::size_t lane = 0; j < n; ++j, ++lane) sums[lane] += f(j);
+  return sums.total();
+}
+
+template <class W>
+SEICHE_MULTIVERSION double sum_values(const W& w, const double* u, std::size_t n) {
+  const W local = w;
+  return sum_points(n, [&](std::size_t j) { return local.value(u[j]); });
+}
+
+template <class W>
+SEICHE_MULTIVERSION double sum_values_and_slopes(const W& w, const double* u, double* slope, std::size_t n) {
+  const W local = w;
+  return sum_points(n, [&](std::size_t j) {
+    const double x = u[j];
+    slope[j] = local.slope(x);
+    return local.value(x);
+  });
+}
+
+// With u = in · values: values ← out · W'(u).
+template <class W>
+SEICHE_MULTIVERSION double slopes_in_place(const W& w, double in, double out, double* values, std::size_t n) {
+  const W local = w;
+  return sum_points(n, [&](std::size_t j) {
+    const double x = in * values[j];
+    values[j] = out * local.slope(x);
+    return local.value(x);
+  });
+}
+
+template <class W>
+SEICHE_MULTIVERSION void mean_slopes(const W& w, const double* a, const double* b, double* mean, std::size_t n) {
+  const W local = w;
+  for (std::size_t j = 0; j < n; ++j) mean[j] = local.mean_slope(a[j], b[j]);
+}
+
+}  // namespace seiche

@@ -1,0 +1,116 @@
+#include <seiche/core/error.hpp>
+#include <seiche/potential/chain.hpp>
+#include <seiche/problem/chain.hpp>
+#include <seiche/problem/grid_options.hpp>
+#include <seiche/problem/wave.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace seiche {
+namespace {
+
+Vector first_mode(const Grid& grid, double amplitude) {
+  const GridAxis& axis = grid.axis(0);
+  const double turns = axis.boundary == Boundary::periodic ? 2 : 1;
+  return sample(grid, [&](double x) { return amplitude * std::sin(turns * std::numbers::pi * x / axis.length); });
+}
+
+}  // namespace
+
+Problem chain(const Chain& options) {
+  if (options.boundary == Boundary::neumann)
+    throw Error("a chain has periodic or dirichlet ends, not neumann: its bonds know no free end");
+  const Grid grid = make_grid({.points = {options.points},
+                               .length = {static_cast<double>(options.points)},  // Δx = 1
+                               .boundary = {options.boundary}});
+  const Stencil R = Stencil::laplacian(grid);
+  Problem p = wave_problem("chain", grid, Stencil::identity(options.ground_spring) + -options.neighbour_spring * R,
+                           options.gamma);
+  p.fields = {"u", "p"};
+  p.M(1, 1) = Stencil::identity(1 / options.mass);
+  p.damping.constant(1, 1) = -options.neighbour_damping * R;
+  const Polynomial<4> bond{{0, 0, 0, 0, options.neighbour_cubic / 4}};
+  const Polynomial<4> ground{{0, 0, 0, 0, options.ground_cubic / 4}};
+  p.potential = std::make_shared<ChainPotential<Polynomial<4>>>(bond, ground, options.boundary);
+
+  const Index n = grid.unknowns();
+  if (options.initial == Chain::Initial::first_mode) {
+    p.initial.head(n) = first_mode(grid, options.amplitude);
+  } else {
+    p.initial[n + n / 2] = options.mass * options.amplitude;
+  }
+  return p;
+}
+
+Parameter chain_boundary_parameter(const std::string& default_value) {
+  return {.name = "boundary",
+          .kind = ParameterKind::choice,
+          .default_value = default_value,
+          .meaning = "fixed ends, or a ring",
+          .choices = {"dirichlet", "periodic"}};
+}
+
+Boundary chain_boundary(const ParameterValues& values) {
+  return values.choice("boundary") == "periodic" ? Boundary::periodic : Boundary::dirichlet;
+}
+
+ProblemEntry chain_entry() {
+  return {
+      .name = "chain",
+      .equation =
+          "mü_j = k(d_j − d_{j−1}) + k₃(d_j³ − d_{j−1}³) − gu_j − g₃u_j³ − mγu̇_j + mν(ḋ_j − ḋ_{j−1}), "
+          "d_j = u_{j+1} − u_j",
+      .reference = "Li, Li, Shang, Xu, section 1; Born, von Kármán (1912)",
+      .fields = {"u", "p"},
+      .parameters =
+          {
+              {.name = "points",
+               .kind = ParameterKind::integer,
+               .default_value = "32",
+               .meaning = "N, bonds; N masses on a ring, N − 1 between fixed ends",
+               .minimum = 2,
+               .maximum = 1 << 26},
+              chain_boundary_parameter("dirichlet"),
+              {.name = "mass", .default_value = "1.0", .meaning = "m", .minimum = 0, .minimum_excluded = true},
+              {.name = "neighbour_spring",
+               .default_value = "1.0",
+               .meaning = "k, stiffness of the springs between neighbours",
+               .minimum = 0},
+              {.name = "neighbour_cubic", .default_value = "0.5", .meaning = "k₃, their cubic stiffness"},
+              {.name = "ground_spring",
+               .default_value = "0.1",
+               .meaning = "g, stiffness of the springs to the ground",
+               .minimum = 0},
+              {.name = "ground_cubic", .default_value = "0.1", .meaning = "g₃, their cubic stiffness"},
+              {.name = "neighbour_damping",
+               .default_value = "0.05",
+               .meaning = "ν, dashpots between neighbours over m, 1/time",
+               .minimum = 0},
+              {.name = "gamma",
+               .kind = ParameterKind::rate,
+               .default_value = "0.01",
+               .meaning = "γ, dashpots to the ground over m, 1/time"},
+              {.name = "amplitude", .default_value = "1.0", .meaning = "of the initial data"},
+          },
+      .presets = {"kick", "first_mode"},
+      .make =
+          [](const ParameterValues& v, const std::string& preset) {
+            return chain({.points = v.integer("points"),
+                          .boundary = chain_boundary(v),
+                          .mass = v.real("mass"),
+                          .neighbour_spring = v.real("neighbour_spring"),
+                          .neighbour_cubic = v.real("neighbour_cubic"),
+                          .ground_spring = v.real("ground_spring"),
+                          .ground_cubic = v.real("ground_cubic"),
+                          .neighbour_damping = v.real("neighbour_damping"),
+                          .gamma = v.damping_rate("gamma"),
+                          .initial = preset == "first_mode" ? Chain::Initial::first_mode : Chain::Initial::kick,
+                          .amplitude = v.real("amplitude")});
+          },
+      .default_h = "1/64",
+      .default_end = 50.0,
+  };
+}
+
+}  // namespace seiche

@@ -1,0 +1,81 @@
+#include <seiche/potential/modulus.hpp>
+#include <seiche/problem/nls.hpp>
+#include <seiche/problem/wave.hpp>
+
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+std::complex<double> initial_value(const Nls& options, const Grid& grid, Index point) {
+  const double x = grid.coordinate(point, 0) - grid.axis(0).length / 2;
+  if (options.initial == Nls::Initial::soliton)
+    return nls_soliton(options.kappa, options.amplitude, options.velocity, x, 0);
+  double distance_squared = 0;
+  for (Index a = 0; a < grid.dimension(); ++a)
+    distance_squared += square(grid.coordinate(point, a) - grid.axis(a).length / 2);
+  return std::polar(options.amplitude * std::exp(-distance_squared / 2), options.velocity * x);
+}
+
+}  // namespace
+
+std::complex<double> nls_soliton(double kappa, double amplitude, double velocity, double x, double t) {
+  const double size = amplitude / (kappa > 0 ? std::sqrt(kappa) : 1.0) / std::cosh(amplitude * (x - velocity * t));
+  return size * std::polar(1.0, velocity * x + (square(amplitude) - square(velocity)) * t / 2);
+}
+
+Problem nls(const Nls& options) {
+  const Grid grid = make_grid(options.grid);
+  const Stencil stiffness = -0.5 * Stencil::laplacian(grid, options.grid.discretisation);
+  Problem p = wave_problem("nls", grid, stiffness, options.gamma);
+  p.fields = {"p", "q"};
+  p.M(1, 1) = stiffness;
+  p.damping.rate_fields = {true, true};
+  const Polynomial<2> w{{0, 0, -options.kappa / 4}};
+  p.potential = on_grid(std::make_shared<ModulusPotential<Polynomial<2>>>(w), grid, options.grid);
+  const Index n = grid.unknowns();
+  for (Index i = 0; i < n; ++i) {
+    const std::complex<double> psi = initial_value(options, grid, i);
+    p.initial[i] = psi.real();
+    p.initial[n + i] = psi.imag();
+  }
+  return p;
+}
+
+ProblemEntry nls_entry() {
+  std::vector<Parameter> parameters = grid_parameters("128", "40.0");
+  parameters.insert(
+      parameters.end(),
+      {
+          {.name = "kappa",
+           .default_value = "1.0",
+           .meaning = "κ, strength of the cubic term; positive: focusing, V unbounded below"},
+          {.name = "gamma",
+           .kind = ParameterKind::rate,
+           .default_value = "0.05",
+           .meaning = "γ, damping rate of the amplitude, 1/time"},
+          {.name = "amplitude", .default_value = "1.0", .meaning = "A, of the initial data"},
+          {.name = "velocity", .default_value = "0.5", .meaning = "c, of the initial data along the first axis"},
+      });
+  return {
+      .name = "nls",
+      .equation = "iψ_t + ½Δψ + κ|ψ|²ψ = −iγψ, ψ = p + iq",
+      .reference = "Zakharov, Shabat (1972); with damping: Fibich (2001)",
+      .fields = {"p", "q"},
+      .parameters = std::move(parameters),
+      .presets = {"soliton", "gaussian"},
+      .make =
+          [](const ParameterValues& v, const std::string& preset) {
+            return nls({.grid = grid_options(v),
+                        .kappa = v.real("kappa"),
+                        .gamma = v.damping_rate("gamma"),
+                        .amplitude = v.real("amplitude"),
+                        .velocity = v.real("velocity"),
+                        .initial = preset == "gaussian" ? Nls::Initial::gaussian : Nls::Initial::soliton});
+          },
+      .default_h = "1/64",
+      .default_end = 20.0,
+  };
+}
+
+}  // namespace seiche

@@ -1,0 +1,116 @@
+#include <seiche/core/error.hpp>
+#include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/second_order.hpp>
+#include <seiche/problem/sparse.hpp>
+#include <seiche/problem/wave.hpp>
+
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+SparseMatrix canonical_structure(Index size) {
+  std::vector<Entry> entries;
+  for (Index i = 0; i < size / 2; ++i) {
+    entries.push_back({i, size / 2 + i, 1});
+    entries.push_back({size / 2 + i, i, -1});
+  }
+  return assembled(size, entries);
+}
+
+// diag(K, I) with K = tridiag(−1, 2, −1): a chain held at its ends.
+SparseMatrix chain_metric(Index count) {
+  std::vector<Entry> entries;
+  for (Index i = 0; i < count; ++i) {
+    entries.push_back({i, i, 2});
+    entries.push_back({count + i, count + i, 1});
+    if (i == 0) continue;
+    entries.push_back({i, i - 1, -1});
+    entries.push_back({i - 1, i, -1});
+  }
+  return assembled(2 * count, entries);
+}
+
+Problem from_values(const ParameterValues& v, const std::string&) {
+  SparseSystem options{.fields = v.integer("fields"),
+                       .matrices = {},
+                       .cubic = v.real("cubic"),
+                       .quartic = v.real("quartic"),
+                       .gamma = v.damping_rate("gamma")};
+  const auto& M = v.matrix("M");
+  if (!M && (v.matrix("S") || v.matrix("D") || options.fields != 2))
+    throw Error("problem.M names no file; without it M is that of a chain of 20, and neither S, D nor fields is given");
+  options.matrices.M = M ? *M : chain_metric(20);
+  if (v.matrix("S")) options.matrices.S = *v.matrix("S");
+  if (v.matrix("D")) options.matrices.D = *v.matrix("D");
+  return sparse_problem(std::move(options));
+}
+
+}  // namespace
+
+Problem sparse_problem(SparseSystem options) {
+  SparseOperators& matrices = options.matrices;
+  const Index size = matrices.M.rows();
+  if (size == 0 || size % options.fields != 0)
+    throw Error("M is {} × {}, which is not {} fields of equal size", size, matrices.M.cols(), options.fields);
+  if (matrices.S.size() == 0) {
+    if (options.fields != 2) throw Error("S = [[0, I], [−I, 0]] needs two fields; name a file for S");
+    matrices.S = canonical_structure(size);
+  }
+  if (matrices.D.size() == 0) matrices.D.resize(size, size);
+  matrices.validate();
+  const Index n = size / options.fields;
+  Problem p;
+  p.name = "sparse";
+  p.grid = points_without_place(n);
+  p.fields = options.fields == 2 ? std::vector<std::string>{"u", "v"} : std::vector<std::string>{"u"};
+  p.S = p.M = BlockStencil(options.fields);
+  std::vector<bool> damped(static_cast<std::size_t>(options.fields), false);
+  damped.back() = true;
+  p.damping = rate_damping(options.gamma, p.grid, damped);
+  p.damping.constant = BlockStencil(options.fields);
+  p.matrices = std::make_shared<SparseOperators>(std::move(matrices));
+  if (options.cubic != 0 || options.quartic != 0)
+    p.potential = nodal_polynomial({0, 0, 0, options.cubic / 3, options.quartic / 4});
+  p.initial = Vector::Zero(size);
+  for (Index i = 0; i < n; ++i)
+    p.initial[i] = std::exp(-square((static_cast<double>(i) + 0.5) / static_cast<double>(n) - 0.5) / square(0.1));
+  return p;
+}
+
+ProblemEntry sparse_entry() {
+  const auto file = [](const char* name, const char* meaning) {
+    return Parameter{.name = name, .kind = ParameterKind::matrix, .default_value = "", .meaning = meaning};
+  };
+  return {
+      .name = "sparse",
+      .equation = "ż = S∇H(z) − Dz,  H = ½zᵀMz + a₃/3 Σu³ + a₄/4 Σu⁴",
+      .reference = "Matrix Market files: Boisvert, Pozo, Remington, NISTIR 5935 (1996)",
+      .fields = {"u", "v"},
+      .parameters =
+          {
+              file("M",
+                   "symmetric, positive semidefinite; a Matrix Market file; \"\": a chain of 20, held at its ends"),
+              file("S", "S + Sᵀ negative semidefinite; \"\": [[0, I], [−I, 0]]"),
+              file("D", "constant damping; \"\": none"),
+              {.name = "fields",
+               .kind = ParameterKind::integer,
+               .default_value = "2",
+               .meaning = "z = (u, v), or u alone",
+               .minimum = 1,
+               .maximum = 2},
+              {.name = "cubic", .default_value = "0.0", .meaning = "a₃"},
+              {.name = "quartic", .default_value = "1.0", .meaning = "a₄"},
+              {.name = "gamma",
+               .kind = ParameterKind::rate,
+               .default_value = "0.1",
+               .meaning = "γ, further damping of the last field, 1/time"},
+          },
+      .presets = {"bump"},
+      .make = from_values,
+      .default_h = "1/64",
+      .default_end = 20.0,
+  };
+}
+
+}  // namespace seiche

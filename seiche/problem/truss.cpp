@@ -1,0 +1,137 @@
+#include <seiche/core/error.hpp>
+#include <seiche/potential/bars.hpp>
+#include <seiche/problem/second_order.hpp>
+#include <seiche/problem/truss.hpp>
+#include <seiche/problem/wave.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace seiche {
+namespace {
+
+struct Node {
+  double x, y;
+};
+
+struct Frame {
+  std::vector<Node> nodes;  // those that move
+  std::vector<Bar> bars;
+  std::vector<double> lengths;
+};
+
+Frame pratt(Index panels, double side) {
+  Frame frame;
+  const auto lower = [panels](Index i) { return i == 0 || i == panels ? Index(-1) : i - 1; };
+  const auto upper = [panels](Index i) { return panels - 1 + i - 1; };
+  for (Index i = 1; i < panels; ++i) frame.nodes.push_back({static_cast<double>(i) * side, 0});
+  for (Index i = 1; i < panels; ++i) frame.nodes.push_back({static_cast<double>(i) * side, side});
+  const auto join = [&](Index a, Index b, double dx, double dy) {
+    const double length = std::hypot(dx, dy);
+    frame.bars.push_back({a, b, dx / length, dy / length});
+    frame.lengths.push_back(length * side);
+  };
+  for (Index i = 0; i < panels; ++i) join(lower(i), lower(i + 1), 1, 0);
+  for (Index i = 1; i + 1 < panels; ++i) join(upper(i), upper(i + 1), 1, 0);
+  for (Index i = 1; i < panels; ++i) join(lower(i), upper(i), 0, 1);
+  join(lower(0), upper(1), 1, 1);  // the ends
+  join(upper(panels - 1), lower(panels), 1, -1);
+  for (Index i = 1; i + 1 < panels; ++i)
+    2 * i < panels ? join(upper(i), lower(i + 1), 1, -1) : join(lower(i), upper(i + 1), 1, 1);
+  return frame;
+}
+
+// Σ c_bar b bᵀ, where bᵀu is the elongation of the bar.
+template <class Constant>
+SparseMatrix sum_over_bars(const Frame& frame, const Constant& constant) {
+  const Index n = static_cast<Index>(frame.nodes.size());
+  std::vector<Entry> entries;
+  for (std::size_t k = 0; k < frame.bars.size(); ++k) {
+    const Bar& bar = frame.bars[k];
+    std::vector<Entry> b;  // row, –, entry of b
+    for (const auto& [node, sign] : {std::pair{bar.a, -1.0}, std::pair{bar.b, 1.0}}) {
+      if (node < 0) continue;
+      b.push_back({node, 0, sign * bar.nx});
+      b.push_back({n + node, 0, sign * bar.ny});
+    }
+    for (const Entry& i : b)
+      for (const Entry& j : b) entries.push_back({i.row, j.row, constant(k) * (i.value * j.value)});
+  }
+  return assembled(2 * n, entries);
+}
+
+}  // namespace
+
+Problem truss(const Truss& options) {
+  if (options.panels < 2) throw Error("a truss of {} panels has no node that moves; at least 2", options.panels);
+  const Frame frame = pratt(options.panels, options.side);
+  const Index n = static_cast<Index>(frame.nodes.size());
+  const SparseMatrix stiffness =
+      sum_over_bars(frame, [&](std::size_t k) { return options.stiffness / frame.lengths[k]; });
+  const SparseMatrix dashpots = sum_over_bars(frame, [&](std::size_t) { return options.dashpot; });
+  const Grid grid = points_without_place(n);
+  Problem p = second_order_problem("truss", grid, stiffness,
+                                   {.fields = {"x", "y", "px", "py"},
+                                    .inverse_mass = 1 / options.mass,
+                                    .dashpots = options.dashpot != 0 ? dashpots : SparseMatrix(2 * n, 2 * n)});
+  const LinearDamping drag = rate_damping(options.gamma, grid, {false, false, true, true});
+  p.damping.rate = drag.rate;
+  p.damping.rate_fields = drag.rate_fields;
+  p.potential =
+      std::make_shared<BarPotential<Polynomial<4>>>(Polynomial<4>{{0, 0, 0, options.cubic / 3, options.quartic / 4}},
+                                                    frame.bars);
+  const double span = static_cast<double>(options.panels) * options.side;
+  for (Index i = 0; i < n; ++i)
+    p.initial[n + i] =
+        -options.amplitude * std::sin(std::numbers::pi * frame.nodes[static_cast<std::size_t>(i)].x / span);
+  return p;
+}
+
+ProblemEntry truss_entry() {
+  const auto positive = [](const char* name, const char* value, const char* meaning) {
+    return Parameter{.name = name, .default_value = value, .meaning = meaning, .minimum = 0, .minimum_excluded = true};
+  };
+  return {
+      .name = "truss",
+      .equation = "m ü = −Σ_bars n (EA/ℓ e + a₃e² + a₄e³ + c ė) − γ m u̇,  e = n·(u_b − u_a)",
+      .reference = "Argyris and Mlejnek, Dynamics of Structures (1991)",
+      .fields = {"x", "y", "px", "py"},
+      .parameters =
+          {
+              {.name = "panels",
+               .kind = ParameterKind::integer,
+               .default_value = "6",
+               .meaning = "squares between the two supports",
+               .minimum = 2,
+               .maximum = 1 << 22},
+              positive("side", "1.0", "of a square, length"),
+              positive("mass", "1.0", "m, of every node"),
+              positive("stiffness", "100.0", "EA: a bar of length ℓ is a spring of EA/ℓ"),
+              {.name = "cubic", .default_value = "0.0", .meaning = "a₃ of the force −a₃e² of a bar"},
+              {.name = "quartic", .default_value = "200.0", .meaning = "a₄ of the force −a₄e³ of a bar"},
+              {.name = "dashpot", .default_value = "0.2", .meaning = "c, force per rate of elongation", .minimum = 0},
+              {.name = "gamma",
+               .kind = ParameterKind::rate,
+               .default_value = "0.05",
+               .meaning = "γ, drag of the air, 1/time"},
+              {.name = "amplitude", .default_value = "0.1", .meaning = "of the initial deflection, length"},
+          },
+      .presets = {"deflected"},
+      .make =
+          [](const ParameterValues& v, const std::string&) {
+            return truss({.panels = v.integer("panels"),
+                          .side = v.real("side"),
+                          .mass = v.real("mass"),
+                          .stiffness = v.real("stiffness"),
+                          .cubic = v.real("cubic"),
+                          .quartic = v.real("quartic"),
+                          .dashpot = v.real("dashpot"),
+                          .gamma = v.rate("gamma"),
+                          .amplitude = v.real("amplitude")});
+          },
+      .default_h = "1/64",
+      .default_end = 20.0,
+  };
+}
+
+}  // namespace seiche

@@ -1,0 +1,151 @@
+// [ensemble] in a case file: its members, its mistakes, and the files that a run leaves.
+#include "support/temporary_directory.hpp"
+
+#include <seiche/config/case_file.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/ensemble/members.hpp>
+#include <seiche/ensemble/statistics.hpp>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace seiche::test {
+namespace {
+
+RunSpec ensemble_case(const std::string& section) {
+  return parse_case("[problem]\nname = \"klein_gordon\"\nalpha = 1.0\n[time]\nend = 1.0\n[ensemble]\n" + section,
+                    "a.toml");
+}
+
+std::string complaint(const std::string& section) {
+  try {
+    make_members(ensemble_case(section));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(EnsembleCase, SamplesRepeatWithTheSeedAndMoreMembersBeginWithTheSameOnes) {
+  const std::string samples =
+      "gamma = { uniform = [0.1, 0.2] }\nalpha = { normal = [1, 0.1] }\nperturb_initial = 0.01\n";
+  const Members five = make_members(ensemble_case("members = 5\nseed = 7\n" + samples));
+  const Members again = make_members(ensemble_case("members = 8\nseed = 7\n" + samples));
+  const Members other = make_members(ensemble_case("members = 5\nseed = 8\n" + samples));
+  EXPECT_EQ(five.parameters, (std::vector<std::string>{"gamma", "alpha"}));
+  for (std::size_t m = 0; m < 5; ++m) {
+    EXPECT_EQ(five.values[m], again.values[m]);
+    EXPECT_EQ(five.list[m].initial, again.list[m].initial);
+    EXPECT_NE(five.values[m], other.values[m]);
+    EXPECT_GE(five.values[m][0], 0.1);
+    EXPECT_LE(five.values[m][0], 0.2);
+    EXPECT_DOUBLE_EQ(five.list[m].problem->damping.rate->value(0), five.values[m][0]);
+  }
+}
+
+TEST(EnsembleCase, NormalSamplesHaveTheirMeanAndDeviation) {
+  const Members members = make_members(ensemble_case("members = 2000\nomega_squared = { normal = [3, 0.5] }\n"));
+  std::vector<double> values;
+  for (const std::vector<double>& v : members.values) values.push_back(v[0]);
+  const Statistics s = statistics(values);
+  EXPECT_NEAR(s.mean, 3, 4 * 0.5 / std::sqrt(2000));
+  EXPECT_NEAR(s.standard_deviation, 0.5, 0.04);
+  EXPECT_NEAR(s.high - 3, 1.6449 * 0.5, 0.08);
+}
+
+TEST(EnsembleCase, RangesAreEvenlySpacedAndTheSectionIsWrittenAsItIsRead) {
+  const RunSpec spec = ensemble_case("members = 5\nkappa = { from = 0.1, to = 0.3 }\nalpha = { uniform = [0, 1] }\n");
+  const Members members = make_members(spec);
+  EXPECT_DOUBLE_EQ(members.values[0][0], 0.1);
+  EXPECT_DOUBLE_EQ(members.values[1][0], 0.15);
+  EXPECT_DOUBLE_EQ(members.values[4][0], 0.3);
+  EXPECT_EQ(parse_case(write_case(spec), "b.toml").ensemble, spec.ensemble);
+}
+
+TEST(EnsembleCase, MistakesAreOneSentenceWithTheKey) {
+  EXPECT_NE(complaint("members = 0\n").find("ensemble.members = 0 must be ≥ 1"), std::string::npos);
+  EXPECT_NE(complaint("seed = 1\n").find("has no members"), std::string::npos);
+  EXPECT_NE(complaint("members = 2\ngama = { from = 0, to = 1 }\n").find("did you mean 'gamma'"), std::string::npos);
+  EXPECT_NE(complaint("members = 2\ngamma = 0.1\n").find("must be { from"), std::string::npos);
+  EXPECT_NE(complaint("members = 2\ngamma = { form = 0, to = 1 }\n").find("did you mean 'from'"), std::string::npos);
+  EXPECT_NE(complaint("members = 2\ngamma = { from = 0 }\n").find("must be { from"), std::string::npos);
+  EXPECT_NE(complaint("members = 2\ngamma = { uniform = [2, 1] }\n").find("≤ the second"), std::string::npos);
+  EXPECT_NE(complaint("members = 2\ngamma = { normal = [2, -1] }\n").find("deviation must be ≥ 0"), std::string::npos);
+  EXPECT_NE(complaint("members = 2\nkappa = { from = -1, to = 1 }\n").find("kappa"), std::string::npos);
+  EXPECT_NE(complaint("members = 9\nkappa = { normal = [0, 1] }\n").find("of the ensemble: problem.kappa"),
+            std::string::npos);
+  EXPECT_NE(complaint("members = 2\nperturb_initial = -1\n").find("must be ≥ 0"), std::string::npos);
+  EXPECT_NE(complaint("members = 2\ninitial = { files = [] }\n").find("files = ["), std::string::npos);
+  EXPECT_NE(complaint("initial = { files = [\"nowhere.txt\"] }\n").find("does not exist"), std::string::npos);
+}
+
+class EnsembleProgram : public InTemporaryDirectory {
+ protected:
+  // The exit code of a run of this case into `out`.
+  int run_case(const std::string& ensemble, const std::string& more = "", const std::string& arguments = "") const {
+    std::ofstream(directory / "case.toml") << "[problem]\nname = \"klein_gordon\"\nalpha = -1.0\n[method]\nh = 0.0625\n"
+                                           << more << "[time]\nend = 1.0\n[ensemble]\n"
+                                           << ensemble;
+    const std::string command = "cd '" + directory.string() +
+                                "' && '" SEICHE_PROGRAM "' run case.toml --out out --quiet " + arguments +
+                                " >stdout.txt 2>stderr.txt";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::vector<std::string> lines(const std::string& name) const {
+    std::ifstream in(directory / name);
+    std::vector<std::string> all;
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    return all;
+  }
+};
+
+TEST_F(EnsembleProgram, LeavesARowForEveryMemberAndTheStatisticsOfTheEnergies) {
+  ASSERT_EQ(run_case("members = 19\ngamma = { from = 0.0, to = 0.18 }\nperturb_initial = 0.01\n", "", "--threads 2"),
+            0);
+  const std::vector<std::string> members = lines("out/members.csv");
+  ASSERT_EQ(members.size(), 20U);
+  EXPECT_EQ(members[0].substr(0, 31), "member,gamma,status,steps,t,H_i");
+  EXPECT_EQ(members[1].substr(0, 17), "1,0,success,16,1,");
+  EXPECT_EQ(lines("out/energy.csv").size(), 18U);  // a header, and t = 0, h, …, 1
+  EXPECT_EQ(lines("out/finals.csv").size(), 20U);
+  std::ifstream file(directory / "out/summary.json");
+  const nlohmann::json summary = nlohmann::json::parse(file);
+  EXPECT_EQ(summary["status"], "success");
+  EXPECT_EQ(summary["statuses"]["success"], 19);
+  EXPECT_EQ(summary["laws"]["holds"], 19);
+  EXPECT_EQ(summary["side_by_side"], true);
+
+  const std::vector<std::string> finals = lines("out/finals.csv");
+  ASSERT_EQ(run_case("members = 19\ngamma = { from = 0.0, to = 0.18 }\nperturb_initial = 0.01\n"), 0);
+  EXPECT_EQ(lines("out/finals.csv"), finals) << "one thread or two";
+}
+
+TEST_F(EnsembleProgram, SaysWhichMembersFailedAndKeepsTheOthers) {
+  // C = 1 is too small for the members whose perturbation makes V(z₀) < −1.
+  EXPECT_EQ(run_case("members = 40\nperturb_initial = 0.6\n", "C = 1\n"), 1);
+  const std::vector<std::string> members = lines("out/members.csv");
+  const auto failed = std::count_if(members.begin(), members.end(), [](const std::string& line) {
+    return line.find(",failed,") != std::string::npos && line.find("C = 1 is too small") != std::string::npos;
+  });
+  EXPECT_GT(failed, 0);
+  EXPECT_LT(failed, 40);
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(members.size()), 41);
+}
+
+TEST_F(EnsembleProgram, RefusesACaseThatIsWrongBeforeAnythingIsWritten) {
+  EXPECT_EQ(run_case("members = 2\nC = { from = 1, to = 2 }\n"), 2);
+  EXPECT_EQ(run_case("members = 2\n", "name = \"avf\"\nauxiliary = \"frozen\"\n"), 2);
+  EXPECT_FALSE(std::filesystem::exists(directory / "out"));
+}
+
+}  // namespace
+}  // namespace seiche::test

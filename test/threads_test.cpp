@@ -1,0 +1,39 @@
+// Threads change how long a step takes, and nothing else.
+#include <gtest/gtest.h>
+#include <seiche/config/simulation.hpp>
+#include <seiche/damping/rates.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+
+namespace seiche::test {
+namespace {
+
+Vector after_some_steps(const Problem& problem, const std::string& method, int threads) {
+  Simulation simulation(problem, {.method = method, .backend = "modal", .backend_options = {.threads = threads}});
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(simulation.step(1.0 / 32).solved());
+  Vector all(simulation.state().z.size() + 2);
+  all << simulation.state().z, simulation.state().r_squared, simulation.energy().H;
+  return all;
+}
+
+TEST(Threads, DoNotChangeASingleBitOnAnyGrid) {
+  using enum Boundary;
+  struct Case {
+    std::vector<Index> points;
+    std::vector<Boundary> boundary;
+  };
+  // Large enough for several blocks of modes, of rows and of columns.
+  for (const Case& c : {Case{{40000}, {periodic}}, Case{{20001}, {dirichlet}}, Case{{150, 130}, {periodic}},
+                        Case{{150, 130}, {dirichlet, neumann}}, Case{{131, 150}, {periodic, dirichlet}},
+                        Case{{24, 30, 28}, {periodic}}, Case{{24, 30, 28}, {neumann, periodic, dirichlet}}}) {
+    const Problem problem = klein_gordon({.grid = {.points = c.points, .length = {7.0}, .boundary = c.boundary},
+                                          .alpha = 1,
+                                          .gamma = constant_rate(0.1)});
+    for (const char* method : {"seisav", "seavf", "seidm"}) {
+      const Vector one = after_some_steps(problem, method, 1);
+      for (const int threads : {2, 3}) EXPECT_EQ(after_some_steps(problem, method, threads), one) << method;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seiche::test
