@@ -2,6 +2,7 @@
 PREFIX ?= /usr/local
 OUT ?= out/paper
 ARGS ?=
+WP_ARGS ?=
 JOBS ?= 2
 
 .DEFAULT_GOAL := help
@@ -28,11 +29,12 @@ test: configure  ## build and run all tests
 	@cmake --build --preset release
 	@ctest --preset release --parallel $(JOBS)
 
-bench:  ## build and run the benchmarks (ARGS go to the program)
+bench:  ## build and run the benchmarks: step cost (ARGS), then work and precision (WP_ARGS=--quick, --help)
 	@bash scripts/install-deps --bench
 	@cmake --preset bench >/dev/null
 	@cmake --build --preset bench
 	@build/bench/bench/seiche_bench $(ARGS)
+	@build/bench/bench/seiche_work_precision $(WP_ARGS)
 
 install: build  ## library, headers and program into PREFIX (default /usr/local)
 	@cmake --install build/release --prefix "$(PREFIX)"

@@ -8,7 +8,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include "floor.hpp"
+
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -44,6 +47,36 @@ void step_cost(benchmark::State& state, const Problem& problem, const std::strin
   state.SetItemsProcessed(state.iterations() * problem.grid.unknowns());  // items: grid points
 }
 
+// A step of seisav, four transforms and a triad in turns, on a grid that is periodic along every axis: nanoseconds per
+// point, and the ratio of the step to its own transforms and to those of FFTW.
+void floor_cost(benchmark::State& state, const Problem& problem, int threads) {
+  const double per_point = 1e9 / static_cast<double>(problem.grid.unknowns());
+  seiche::bench::Floor floor;
+  for (auto _ : state) {
+    floor = seiche::bench::measure_floor(problem, {.threads = threads});
+    state.SetIterationTime(floor.step);
+  }
+  state.counters["ns_per_point"] = floor.step * per_point;
+  state.counters["own_FFTs"] = floor.transforms * per_point;
+  state.counters["FFTW"] = floor.fftw * per_point;
+  state.counters["triad"] = floor.triad * per_point;
+  state.counters["step/own"] = floor.step / floor.transforms;
+  state.counters["step/FFTW"] = floor.step / floor.fftw;
+}
+
+void add_floor(const std::vector<Index>& points, int threads) {
+  std::vector<double> length;
+  std::string label = "floor/seisav";
+  for (const Index n : points) {
+    length.push_back(0.1 * static_cast<double>(n));
+    label += "/" + std::to_string(n);
+  }
+  if (threads > 1) label += "/threads:" + std::to_string(threads);
+  const Problem problem = seiche::klein_gordon(
+      {.grid = {.points = points, .length = length}, .alpha = 1.0, .gamma = seiche::constant_rate(0.1)});
+  benchmark::RegisterBenchmark(label.c_str(), floor_cost, problem, threads)->UseManualTime()->Iterations(1);
+}
+
 void add(const std::string& name, const Problem& problem, Index points, const std::string& method,
          const std::string& backend) {
   try {
@@ -72,6 +105,10 @@ int main(int argc, char** argv) {
     if (points <= 64) add("klein_gordon", klein_gordon(points), points, "seisav", "dense");
     add("klein_gordon", klein_gordon(points), points, "seisav", "modal");
   }
+  for (const Index points : {20, 64, 512, 4096, 65536, 1 << 20}) add_floor({points}, 1);
+  for (const int threads : {1, 2})
+    for (const std::vector<Index>& points : {std::vector<Index>{256, 256}, {1024, 1024}, {128, 128, 128}})
+      add_floor(points, threads);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

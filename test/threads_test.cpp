@@ -22,13 +22,13 @@ TEST(Threads, DoNotChangeASingleBitOnAnyGrid) {
     std::vector<Boundary> boundary;
   };
   // Large enough for several blocks of modes, of rows and of columns.
-  for (const Case& c : {Case{{40000}, {periodic}}, Case{{20001}, {dirichlet}}, Case{{150, 130}, {periodic}},
-                        Case{{150, 130}, {dirichlet, neumann}}, Case{{131, 150}, {periodic, dirichlet}},
-                        Case{{24, 30, 28}, {periodic}}, Case{{24, 30, 28}, {neumann, periodic, dirichlet}}}) {
+  for (const Case& c : {Case{{9000}, {periodic}}, Case{{8401}, {dirichlet}}, Case{{98, 90}, {periodic}},
+                        Case{{98, 90}, {dirichlet, neumann}}, Case{{91, 98}, {periodic, dirichlet}},
+                        Case{{20, 22, 24}, {periodic}}, Case{{20, 22, 24}, {neumann, periodic, dirichlet}}}) {
     const Problem problem = klein_gordon({.grid = {.points = c.points, .length = {7.0}, .boundary = c.boundary},
                                           .alpha = 1,
                                           .gamma = constant_rate(0.1)});
-    for (const char* method : {"seisav", "seavf", "seidm"}) {
+    for (const char* method : {"seisav", "seavf"}) {
       const Vector one = after_some_steps(problem, method, 1);
       for (const int threads : {2, 3}) EXPECT_EQ(after_some_steps(problem, method, threads), one) << method;
     }

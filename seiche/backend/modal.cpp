@@ -10,7 +10,9 @@
 #include <seiche/core/truncated_potential.hpp>
 
 #include <array>
+#include <complex>
 #include <optional>
+#include <type_traits>
 
 namespace seiche {
 namespace {
@@ -97,11 +99,10 @@ class ModalLinear final : public LinearPart {
   }
 
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
-    switch (extent_.fields) {  // blocks of a size known to the compiler: no allocation per mode
-      case 1: return sized_propagator<1>(kind, h);
-      case 2: return sized_propagator<2>(kind, h);
-      default: return sized_propagator<Eigen::Dynamic>(kind, h);
-    }
+    if (metric_ && has_fused_propagator(extent_, metric_->unit))
+      return extent_.layout == ModeLayout::complex_pairs ? fused<std::complex<double>>(kind, h)
+                                                         : fused<double>(kind, h);
+    return mapped(kind, h);
   }
 
  private:
@@ -127,36 +128,55 @@ class ModalLinear final : public LinearPart {
     return extent_.layout == ModeLayout::singles ? ModeLayout::singles : ModeLayout::real_pairs;
   }
 
-  template <int m>
-  std::unique_ptr<Propagator> sized_propagator(PropagatorKind kind, double h) const {
-    using SizedBlock = Eigen::Matrix<std::complex<double>, m, m>;
-    const auto maps_of = [&](Index k) {
-      return force_maps<SizedBlock>(kind, S_symbol_.symbol(modes_[k]), M_symbol_.symbol(modes_[k]), h);
-    };
-    const Index fields = extent_.fields;
-    if (metric_ && has_fused_propagator(extent_, metric_->unit)) {
-      ModalForceMaps maps{ModeArrays(extent_.modes, fields, fields, extent_.layout),
-                          ModeArrays(extent_.modes, fields, fields, extent_.layout)};
-      for (Index k = 0; k < extent_.modes; ++k) {
-        const ForceMaps<SizedBlock> block = maps_of(k);
-        for (Index i = 0; i < fields; ++i) {
-          for (Index j = 0; j < fields; ++j) {
-            maps.F.set(k, i, j, block.F(i, j));
-            maps.Q.set(k, i, j, block.Q(i, j));
+  template <class Scalar>
+  std::unique_ptr<Propagator> fused(PropagatorKind kind, double h) const {
+    return extent_.fields == 1 ? fused<Scalar, 1>(kind, h) : fused<Scalar, 2>(kind, h);
+  }
+
+  // Blocks of a size known to the compiler, real where they can be: no allocation per mode but for the symbols.
+  template <class Scalar, int m>
+  std::unique_ptr<Propagator> fused(PropagatorKind kind, double h) const {
+    using SizedBlock = Eigen::Matrix<Scalar, m, m>;
+    const auto block_of = [&](const BlockStencil& symbol, Index k) {
+      SizedBlock block;
+      for (Index i = 0; i < m; ++i) {
+        for (Index j = 0; j < m; ++j) {
+          const std::complex<double> c = symbol(i, j).symbol(modes_[k]);
+          if constexpr (std::is_same_v<Scalar, double>) {
+            block(i, j) = c.real();
+          } else {
+            block(i, j) = c;
           }
         }
       }
-      return fused_propagator(extent_, *metric_, std::move(maps));
+      return block;
+    };
+    ModalForceMaps maps{ModeArrays(extent_.modes, m, m, extent_.layout),
+                        ModeArrays(extent_.modes, m, m, extent_.layout)};
+    for (Index k = 0; k < extent_.modes; ++k) {
+      const ForceMaps<SizedBlock> block =
+          force_maps<SizedBlock>(kind, block_of(S_symbol_, k), block_of(M_symbol_, k), h);
+      for (Index i = 0; i < m; ++i) {
+        for (Index j = 0; j < m; ++j) {
+          maps.F.set(k, i, j, block.F(i, j));
+          maps.Q.set(k, i, j, block.Q(i, j));
+        }
+      }
     }
+    return fused_propagator(extent_, *metric_, std::move(maps));
+  }
+
+  std::unique_ptr<Propagator> mapped(PropagatorKind kind, double h) const {
     std::vector<std::array<Block, 4>> blocks;
     blocks.reserve(static_cast<std::size_t>(extent_.modes));
     for (Index k = 0; k < extent_.modes; ++k) {
-      const ForceMaps<SizedBlock> block = maps_of(k);
       const Block M = M_symbol_.symbol(modes_[k]);
+      const ForceMaps<Block> block = force_maps<Block>(kind, S_symbol_.symbol(modes_[k]), M, h);
       blocks.push_back({block.F, block.F * M, block.Q, block.Q * M});
     }
     const auto map_of = [&](std::size_t which) {
-      return ModeMap(modes_, fields, [&, which](Index k) { return blocks[static_cast<std::size_t>(k)][which]; });
+      return ModeMap(modes_, extent_.fields,
+                     [&, which](Index k) { return blocks[static_cast<std::size_t>(k)][which]; });
     };
     const Potential::Support support{extent_.first * extent_.slots(), extent_.count * extent_.slots()};
     return std::make_unique<MappedPropagator>(support, map_of(0), map_of(1), map_of(2), map_of(3));

@@ -1,8 +1,7 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/physical_memory.hpp>
 #include <seiche/core/truncated_potential.hpp>
 #include <seiche/problem/grid_options.hpp>
-
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -17,10 +16,6 @@ T of_axis(const std::vector<T>& list, std::size_t axis) {
 Boundary boundary_named(const std::string& name) {
   if (name == "dirichlet") return Boundary::dirichlet;
   return name == "neumann" ? Boundary::neumann : Boundary::periodic;
-}
-
-double physical_memory() {  // bytes
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
 // Before anything is allocated. The modal backend peaks at about a kilobyte per point while it builds the propagators of

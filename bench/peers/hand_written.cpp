@@ -1,0 +1,18 @@
+#include <bench/peers/hand_written.hpp>
+
+#include <fftw3.h>
+
+namespace seiche::bench {
+
+PeerGroup hand_written_peers() {
+  constexpr auto origin = Origin::hand_written;
+  constexpr auto sweep = Sweep::step_size;
+  const std::string own = "hand-written";
+  PeerGroup group{.library = {.name = "FFTW", .version = fftw_version, .note = "plans measured, in set-up"},
+                  .peers = {{"ETDRK4", own, origin, sweep, any_equation, make_etdrk4},
+                            {"Strang exact flow", own, origin, sweep, any_equation, make_strang}}};
+  for (Peer& peer : rkn_peers()) group.peers.push_back(std::move(peer));
+  return group;
+}
+
+}  // namespace seiche::bench

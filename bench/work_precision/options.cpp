@@ -1,0 +1,84 @@
+#include <bench/work_precision/options.hpp>
+#include <bench/work_precision/test_problems.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/method/methods.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <map>
+
+namespace seiche::bench {
+namespace {
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    parts.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+double positive(const std::string& option, const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(value > 0)) throw Error("{} {}: a positive number is needed", option, text);
+  return value;
+}
+
+}  // namespace
+
+const char* const usage =
+    "seiche_work_precision: error against CPU time, Seiche's methods beside other integrators\n"
+    "  --out DIR         where work_precision.csv, index.html and figures/ go (out/work_precision)\n"
+    "  --problem LIST    of kg20,kg4096,kgs,kg2d,fpu,gkdv (all)\n"
+    "  --method LIST     of Seiche's methods (all that apply); peers are always measured\n"
+    "  --quick           every second step size, short runs only: for trying\n"
+    "  --repeats N       timed runs of which the median is taken (5)\n"
+    "  --cap SECONDS     runs expected to take longer are skipped, and the table says so (1; quick 0.05)\n"
+    "  --budget SECONDS  per problem, shared equally among its integrators (100; quick 6)\n";
+
+Options Options::parse(const std::vector<std::string>& arguments) {
+  Options options;
+  options.quick = std::find(arguments.begin(), arguments.end(), "--quick") != arguments.end();
+  if (options.quick) {
+    options.repeats = 3;
+    options.cap_seconds = 0.05;
+    options.problem_seconds = 6;
+  }
+  std::string option;
+  const std::map<std::string, std::function<void(const std::string&)>> with_value = {
+      {"--out", [&](const std::string& text) { options.out = text; }},
+      {"--problem", [&](const std::string& text) { options.problems = split(text); }},
+      {"--method", [&](const std::string& text) { options.methods = split(text); }},
+      {"--repeats",
+       [&](const std::string& text) { options.repeats = std::max(1, static_cast<int>(positive(option, text))); }},
+      {"--cap", [&](const std::string& text) { options.cap_seconds = positive(option, text); }},
+      {"--budget", [&](const std::string& text) { options.problem_seconds = positive(option, text); }},
+  };
+  std::vector<std::string> names = {"--quick", "--help"};
+  for (const auto& [name, set] : with_value) names.push_back(name);
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    option = arguments[i];
+    if (option == "--quick") continue;
+    if (option == "--help") {
+      options.help = true;
+      continue;
+    }
+    const auto found = with_value.find(option);
+    if (found == with_value.end()) throw unknown_name("option", option, names);
+    if (++i == arguments.size()) throw Error("{} needs a value", option);
+    found->second(arguments[i]);
+  }
+  const std::vector<std::string> keys = test_problem_keys();
+  for (const std::string& key : options.problems) {
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) throw unknown_name("problem", key, keys);
+  }
+  for (const std::string& method : options.methods) find_method(method);
+  if (options.problems.empty()) options.problems = keys;
+  return options;
+}
+
+}  // namespace seiche::bench
