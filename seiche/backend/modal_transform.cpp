@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <vector>
 
 namespace seiche {
@@ -88,8 +89,8 @@ class ModalTransform final : public FieldTransform {
       for_blocks(columns->blocks(), threads_, [&](Index block) { columns->to_slots(slots.data(), block); });
   }
   void columns_to_values(std::span<double> slots) const {
-    for (auto columns = columns_.rbegin(); columns != columns_.rend(); ++columns)
-      for_blocks((*columns)->blocks(), threads_, [&](Index block) { (*columns)->to_values(slots.data(), block); });
+    for (const auto& columns : columns_ | std::views::reverse)
+      for_blocks(columns->blocks(), threads_, [&](Index block) { columns->to_values(slots.data(), block); });
   }
 
   Index n_;

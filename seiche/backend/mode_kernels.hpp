@@ -113,7 +113,7 @@ struct Increment {
 struct Force {
   template <class S, class V>
   [[gnu::always_inline]] static inline void at(const Operands<S>& o, Index slot) {
-    std::array<V, S::fields> f;
+    std::array<V, S::fields> f{};
     for (int j = 0; j < S::fields; ++j) f[j] = load<V>(o.z[j] + slot);
     for (int i = 0; i < S::fields; ++i) store<V>(o.out[i] + slot, row<S, V>(o, i, slot, f));
   }

@@ -1,5 +1,6 @@
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/physical_memory.hpp>
 
 namespace seiche {
 namespace {
@@ -17,12 +18,32 @@ const BackendEntry& choose_backend(const std::string& name, const Problem& probl
   return name == "auto" ? automatic_backend(problem) : find_backend(name);
 }
 
+// Doubles per unknown of a run on the modal backend, all told (docs/performance.md).
+double doubles_per_unknown(ClosureKind closure) {
+  switch (closure) {
+    case ClosureKind::sav: return 12;
+    case ClosureKind::dm: return 21;
+    case ClosureKind::avf: return 22;
+    case ClosureKind::lm: break;
+  }
+  return 27;
+}
+
+void require_memory(const MethodEntry& method, const Problem& problem) {
+  const double bytes = 8 * doubles_per_unknown(method.closure) * static_cast<double>(problem.size());
+  if (bytes > physical_memory())
+    throw Error("{} on {} unknowns needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points{}",
+                method.name, problem.size(), bytes, physical_memory(),
+                method.closure == ClosureKind::sav ? "" : ", or seisav, which needs the least");
+}
+
 }  // namespace
 
 Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
     : method_(find_method(options.method)), problem_(as_integrated(method_, problem)) {
   const BackendEntry& backend = choose_backend(options.backend, problem_);
   backend_name_ = backend.name;
+  require_memory(method_, problem_);
   system_ = backend.system(problem_, options.backend_options);
   stepper_ = make_stepper(method_, system_, options.method_options);
   restart();

@@ -20,6 +20,8 @@ struct SimulationOptions {
 class Simulation {
  public:
   explicit Simulation(const Problem& problem, const SimulationOptions& options = {});
+  Simulation(const Simulation&) = delete;  // the stepper refers to the system beside it
+  Simulation& operator=(const Simulation&) = delete;
 
   // Back to z₀ at t = 0. Throws Error where the method cannot start there (C too small for a given C).
   void restart();

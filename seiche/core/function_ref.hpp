@@ -14,19 +14,17 @@ template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:
   template <class F>
-    requires(!std::is_same_v<std::remove_cvref_t<F>, FunctionRef>)
-  FunctionRef(
-      F&& f)  // NOLINT(google-explicit-constructor, bugprone-forwarding-reference-overload): a lambda passes for it
-      : object_(const_cast<void*>(static_cast<const void*>(std::addressof(f)))),
-        call_([](void* object, Arguments... arguments) -> Result {
-          return (*static_cast<std::remove_reference_t<F>*>(object))(std::forward<Arguments>(arguments)...);
+    requires(!std::is_same_v<F, FunctionRef>)
+  FunctionRef(const F& f)  // NOLINT(google-explicit-constructor): a lambda passes for it
+      : object_(std::addressof(f)), call_([](const void* object, Arguments... arguments) -> Result {
+          return (*static_cast<const F*>(object))(std::forward<Arguments>(arguments)...);
         }) {}
 
   Result operator()(Arguments... arguments) const { return call_(object_, std::forward<Arguments>(arguments)...); }
 
  private:
-  void* object_;
-  Result (*call_)(void*, Arguments...);
+  const void* object_;
+  Result (*call_)(const void*, Arguments...);
 };
 
 }  // namespace seiche

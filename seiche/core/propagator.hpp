@@ -33,9 +33,9 @@ class Propagator {
   virtual void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before = {}) const = 0;
 
   struct Powers {
-    double of_increment;                     // fᵀFMz⁻
-    double of_force;                         // fᵀFf
-    std::optional<double> quadratic_energy;  // ½z⁻ᵀMz⁻, where it costs nothing
+    double of_increment = 0.0;                              // fᵀFMz⁻
+    double of_force = 0.0;                                  // fᵀFf
+    std::optional<double> quadratic_energy = std::nullopt;  // ½z⁻ᵀMz⁻, where it costs nothing
   };
   using Factor = FunctionRef<double(const Powers&)>;
   // z ← Λ'(z⁻ + FMz⁻ + c Ff), with Λ' the half-flow after the substep and c chosen by `factor`. If that is not a finite

@@ -138,7 +138,7 @@ constexpr std::size_t stride(bool shared) { return shared ? 1 : static_cast<std:
 template <int columns, bool shared, class Sink>
 [[gnu::always_inline]] inline void BlockMap::visit_small(const Block& block, const double* in, Sink& sink) const {
   const std::size_t* column = indices_.data() + block.column;
-  Pack x[columns > 0 ? columns : 1][packs];
+  Pack x[std::max(columns, 1)][packs];
 #pragma GCC unroll 8
   for (int j = 0; j < columns; ++j) {
     const Pack* from = packs_of(in + column[j]);
@@ -210,18 +210,21 @@ template <class Sink>
 }
 
 SEICHE_MULTIVERSION void BlockMap::apply(const double* in, double* out) const {
-  Store sink{out};
+  Store sink{};
+  sink.out = out;
   visit(in, sink);
 }
 
 SEICHE_MULTIVERSION void BlockMap::add_to(const double* base, const double* in, double* out) const {
-  StoreSum sink{base, out};
+  StoreSum sink{base, nullptr};
+  sink.out = out;
   visit(in, sink);
 }
 
 SEICHE_MULTIVERSION void BlockMap::finish(const double* base, const double* in, const double* const* factors,
                                           double* out, LaneValues& lost) const {
-  StoreDamped sink{base, factors, out, {}};
+  StoreDamped sink{base, factors, nullptr, {}};
+  sink.out = out;
   visit(in, sink);
   Pack* to = packs_of(lost.data());
 #pragma GCC unroll 8

@@ -190,10 +190,10 @@ void FoldedTransform::forward(double* values, double* coordinates) const {
 // A fold is symmetric, and so are two of them on the same four rows: their order is all that turns round.
 void FoldedTransform::inverse(const double* coordinates, double* values) const {
   inverse_.apply(coordinates, values);
-  for (auto folds = folds_.rbegin(); folds != folds_.rend(); ++folds) {
-    fold_mirrors(folds->second, values);
-    fold_twice(folds->both, values);
-    fold_mirrors(folds->first, values);
+  for (std::size_t i = folds_.size(); i-- > 0;) {
+    fold_mirrors(folds_[i].second, values);
+    fold_twice(folds_[i].both, values);
+    fold_mirrors(folds_[i].first, values);
   }
 }
 

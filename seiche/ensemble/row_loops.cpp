@@ -18,7 +18,7 @@ template <class F>
 [[gnu::always_inline]] inline void keep_larger(const Pack& x, Pack& largest) {
   const Pack size = x < 0 ? -x : x;
   largest = size > largest ? size : largest;
-  largest = size == size ? largest : size;  // a NaN stays
+  largest = 0.0 * size == 0.0 ? largest : size;  // a NaN stays
 }
 
 [[gnu::always_inline]] inline void put(const Pack (&row)[packs], LaneValues& values) {

@@ -18,15 +18,15 @@ Boundary boundary_named(const std::string& name) {
   return name == "neumann" ? Boundary::neumann : Boundary::periodic;
 }
 
-// Before anything is allocated. The modal backend peaks at about a kilobyte per point while it builds the propagators of
-// two fields.
+// Before anything is allocated: what the leanest method takes for two fields (docs/performance.md). Simulation asks again
+// for the method at hand.
 void require_memory(const Grid& grid) {
-  constexpr double bytes_per_point = 1000;
+  constexpr double bytes_per_point = 200;
   double points = 1;
   for (const GridAxis& axis : grid.axes) points *= static_cast<double>(axis.unknowns());
   const double needed = bytes_per_point * points;
   if (needed > physical_memory())
-    throw Error("a grid of {:.0f} points needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points",
+    throw Error("a grid of {:.0f} points needs at least {:.3g} bytes, and this machine has {:.3g}; choose fewer points",
                 points, needed, physical_memory());
 }
 

@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/run/energy_book.hpp>
 #include <seiche/run/integrate.hpp>
+#include <seiche/run/time_grid.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -8,29 +9,6 @@
 
 namespace seiche {
 namespace {
-
-// The times t₀ + k h, k = 0 … steps; the last one is t_end.
-struct TimeGrid {
-  double start, h, end;
-  std::int64_t steps = 0;
-  double last_h = 0.0;
-
-  TimeGrid(double t_start, const IntegrateOptions& options) : start(t_start), h(options.h), end(options.t_end) {
-    if (!std::isfinite(h) || h <= 0) throw Error("the step size h must be finite and > 0, but it is {}", h);
-    if (!std::isfinite(end) || end < start) throw Error("t_end = {} must not lie before the start t = {}", end, start);
-    const double quotient = (end - start) / h;
-    if (quotient > 1e15) throw Error("h = {} would take {:.3g} steps to t = {}", h, quotient, end);
-    const double nearest = std::round(quotient);
-    const double round_off = 16 * epsilon * (std::abs(start) + std::abs(end)) / h;
-    const bool divides = std::abs(quotient - nearest) <= round_off;
-    steps = static_cast<std::int64_t>(divides ? nearest : std::ceil(quotient));
-    last_h = divides ? h : end - (start + static_cast<double>(steps - 1) * h);
-  }
-
-  double time(std::int64_t k) const { return k == steps ? end : start + static_cast<double>(k) * h; }
-  double step_size(std::int64_t k) const { return k == steps ? last_h : h; }  // of the step that ends at time(k)
-  bool last_is_shortened() const { return last_h != h; }
-};
 
 bool is_finite(const EnergyReading& reading) { return std::isfinite(reading.H) && std::isfinite(reading.modified); }
 
@@ -46,7 +24,7 @@ class Run {
         state_(state),
         options_(options),
         observers_(observers),
-        grid_(state.t, options),
+        grid_(state.t, options.h, options.t_end),
         book_(options.law, stepper.has_modified_energy()),
         good_(state) {}
 
