@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <vector>
 
 namespace seiche {
@@ -89,8 +88,10 @@ class ModalTransform final : public FieldTransform {
       for_blocks(columns->blocks(), threads_, [&](Index block) { columns->to_slots(slots.data(), block); });
   }
   void columns_to_values(std::span<double> slots) const {
-    for (const auto& columns : columns_ | std::views::reverse)
-      for_blocks(columns->blocks(), threads_, [&](Index block) { columns->to_values(slots.data(), block); });
+    for (std::size_t i = columns_.size(); i-- > 0;) {
+      const Columns& columns = *columns_[i];
+      for_blocks(columns.blocks(), threads_, [&](Index block) { columns.to_values(slots.data(), block); });
+    }
   }
 
   Index n_;
