@@ -35,17 +35,18 @@ struct Weights {
 
 double narrow(Real x) { return static_cast<double>(x); }
 
+class Etdrk4Run : public ModalRun {
+ protected:
+  Etdrk4Run(const Equation& equation, double h) : ModalRun(equation, h) {
+    for (std::vector<double>* v : {&stage_, &base_, &n0_, &na_, &nb_, &nc_}) v->resize(u_.size());
+  }
+  std::vector<double> stage_, base_, n0_, na_, nb_, nc_;  // what enters N, its linear part, and N of z, a, b, c
+};
+
 // N acts on v̂ and depends on û, so stages need û alone, and of every weight its second column.
-class WaveEtdrk4 : public ModalRun {
+class WaveEtdrk4 : public Etdrk4Run {
  public:
-  WaveEtdrk4(const Equation& equation, double h)
-      : ModalRun(equation, h),
-        stage_(u_.size()),
-        base_(u_.size()),
-        n0_(u_.size()),
-        na_(u_.size()),
-        nb_(u_.size()),
-        nc_(u_.size()) {
+  WaveEtdrk4(const Equation& equation, double h) : Etdrk4Run(equation, h) {
     weights_.reserve(u_.size());
     const std::vector<Matrix2> blocks = wave_blocks(equation, symbols_);
     for (std::size_t k = 0; k < blocks.size(); ++k) {
@@ -94,20 +95,12 @@ class WaveEtdrk4 : public ModalRun {
   }
 
   std::vector<Slot> weights_;
-  std::vector<double> stage_, base_, n0_, na_, nb_, nc_;
 };
 
 // gkdv: one complex number per mode.
-class ScalarEtdrk4 : public ModalRun {
+class ScalarEtdrk4 : public Etdrk4Run {
  public:
-  ScalarEtdrk4(const Equation& equation, double h)
-      : ModalRun(equation, h),
-        stage_(u_.size()),
-        base_(u_.size()),
-        n0_(u_.size()),
-        na_(u_.size()),
-        nb_(u_.size()),
-        nc_(u_.size()) {
+  ScalarEtdrk4(const Equation& equation, double h) : Etdrk4Run(equation, h) {
     for (const Complex& block : scalar_blocks(equation, symbols_)) weights_.emplace_back(block, Real{h});
   }
 
@@ -166,7 +159,6 @@ class ScalarEtdrk4 : public ModalRun {
   }
 
   std::vector<Mode> weights_;
-  std::vector<double> stage_, base_, n0_, na_, nb_, nc_;
 };
 
 }  // namespace

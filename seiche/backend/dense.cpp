@@ -152,7 +152,7 @@ System dense_system(const Problem& problem, const BackendOptions&) {
   const auto matrix = [&](const BlockStencil& stencil, SparseMatrix SparseOperators::*sparse) -> Matrix {
     return problem.matrices ? Matrix((*problem.matrices).*sparse) : stencil.matrix(problem.grid);
   };
-  system.potential = std::make_unique<GridPotential>(problem, identity);
+  system.potential = std::make_unique<GridPotential>(problem.potential, problem.potential_field, identity);
   system.linear = std::make_unique<DenseLinear>(matrix(problem.S, &SparseOperators::S),
                                                 matrix(problem.M, &SparseOperators::M), system.potential->support());
 

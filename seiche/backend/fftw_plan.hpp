@@ -1,6 +1,8 @@
 // FFTW's plans as values, and its memory. Installed headers do without FFTW's own.
 #pragma once
 
+#include <seiche/core/vector.hpp>
+
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -53,5 +55,16 @@ FftwPlans make_plans(bool measure, const Make& make) {
   return {.aligned = FftwPlan([&] { return make(plan_flags(measure)); }),
           .any = FftwPlan([&] { return make(unaligned_plan_flags()); })};
 }
+
+// A transform of many lines in batches of `full` lines, and of the `rest` that is left (0: none).
+struct BatchPlans {
+  template <class Make>  // make(lines, flags)
+  BatchPlans(Index full_lines, Index rest_lines, bool measure, const Make& make)
+      : full(make_plans(measure, [&](unsigned flags) { return make(static_cast<int>(full_lines), flags); })) {
+    if (rest_lines != 0)
+      rest = make_plans(measure, [&](unsigned flags) { return make(static_cast<int>(rest_lines), flags); });
+  }
+  FftwPlans full, rest;
+};
 
 }  // namespace seiche

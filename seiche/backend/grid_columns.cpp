@@ -35,27 +35,16 @@ class Blocks {
   Index width_, per_outer_;
 };
 
-struct BlockPlan {
-  template <class Make>
-  BlockPlan(const Blocks& blocks, bool measure, const Make& make)
-      : full(make_plans(measure, [&](unsigned flags) { return make(static_cast<int>(blocks.width()), flags); })) {
-    if (blocks.rest() != 0)
-      rest = make_plans(measure, [&](unsigned flags) { return make(static_cast<int>(blocks.rest()), flags); });
-  }
-  fftw_plan of(const Blocks& blocks, Index block, const double* at) const {
-    return (blocks.is_rest(block) ? rest : full).of(at, at);
-  }
-  FftwPlans full, rest;
-};
-
 class FourierColumns final : public Columns {
  public:
   FourierColumns(const Lines& lines, bool measure)
       : lines_(lines),
         blocks_(lines),
         buffer_(fftw_buffer(static_cast<std::size_t>(2 * lines.length * lines.inner))),
-        forward_(blocks_, measure, [&](int count, unsigned flags) { return plan(count, FFTW_FORWARD, flags); }),
-        inverse_(blocks_, measure, [&](int count, unsigned flags) { return plan(count, FFTW_BACKWARD, flags); }) {
+        forward_(blocks_.width(), blocks_.rest(), measure,
+                 [&](int count, unsigned flags) { return plan(count, FFTW_FORWARD, flags); }),
+        inverse_(blocks_.width(), blocks_.rest(), measure,
+                 [&](int count, unsigned flags) { return plan(count, FFTW_BACKWARD, flags); }) {
     buffer_.reset();  // planned upon only
   }
 
@@ -70,15 +59,15 @@ class FourierColumns final : public Columns {
     fftw_complex* data = pairs(buffer_.get());
     return fftw_plan_many_dft(1, &n, count, data, nullptr, stride, 1, data, nullptr, stride, 1, sign, flags);
   }
-  void execute(const BlockPlan& plan, double* data, Index block) const {
+  void execute(const BatchPlans& plans, double* data, Index block) const {
     double* at = data + 2 * blocks_.begin(block);
-    fftw_execute_dft(plan.of(blocks_, block, at), pairs(at), pairs(at));
+    fftw_execute_dft((blocks_.is_rest(block) ? plans.rest : plans.full).of(at, at), pairs(at), pairs(at));
   }
 
   Lines lines_;
   Blocks blocks_;
   FftwBuffer buffer_;
-  BlockPlan forward_, inverse_;
+  BatchPlans forward_, inverse_;
 };
 
 class RealColumns final : public Columns {
@@ -88,9 +77,9 @@ class RealColumns final : public Columns {
         blocks_(lines),
         alone_(modes_alone(axis)),
         buffer_(fftw_buffer(static_cast<std::size_t>(lines.length * lines.inner))),
-        forward_(blocks_, measure,
+        forward_(blocks_.width(), blocks_.rest(), measure,
                  [&](int count, unsigned flags) { return plan(count, kinds_of(axis.boundary).forward, flags); }),
-        inverse_(blocks_, measure,
+        inverse_(blocks_.width(), blocks_.rest(), measure,
                  [&](int count, unsigned flags) { return plan(count, kinds_of(axis.boundary).inverse, flags); }) {
     buffer_.reset();
   }
@@ -113,9 +102,9 @@ class RealColumns final : public Columns {
     double* data = buffer_.get();
     return fftw_plan_many_r2r(1, &n, count, data, nullptr, stride, 1, data, nullptr, stride, 1, &r2r_kind, flags);
   }
-  void execute(const BlockPlan& plan, double* data, Index block) const {
+  void execute(const BatchPlans& plans, double* data, Index block) const {
     double* at = data + blocks_.begin(block);
-    fftw_execute_r2r(plan.of(blocks_, block, at), at, at);
+    fftw_execute_r2r((blocks_.is_rest(block) ? plans.rest : plans.full).of(at, at), at, at);
   }
   void scale_alone(double* data, Index block, double factor) const {
     const Index width = blocks_.is_rest(block) ? blocks_.rest() : blocks_.width();
@@ -129,7 +118,7 @@ class RealColumns final : public Columns {
   Blocks blocks_;
   std::vector<Index> alone_;
   FftwBuffer buffer_;
-  BlockPlan forward_, inverse_;
+  BatchPlans forward_, inverse_;
 };
 
 }  // namespace

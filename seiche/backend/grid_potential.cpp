@@ -5,10 +5,11 @@
 
 namespace seiche {
 
-GridPotential::GridPotential(const Problem& problem, std::shared_ptr<const FieldTransform> transform)
-    : pointwise_(problem.potential), transform_(std::move(transform)) {
+GridPotential::GridPotential(std::shared_ptr<const PointwisePotential> pointwise, Index first_field,
+                             std::shared_ptr<const FieldTransform> transform)
+    : pointwise_(std::move(pointwise)), transform_(std::move(transform)) {
   const Index fields = pointwise_ ? pointwise_->fields() : 0;
-  support_ = {problem.potential_field * transform_->slots(), fields * transform_->slots()};
+  support_ = {first_field * transform_->slots(), fields * transform_->slots()};
   for (Vector* scratch : {&a_, &b_, &slope_}) scratch->setZero(fields * transform_->unknowns());
 }
 

@@ -3,7 +3,6 @@
 
 #include <seiche/backend/transform.hpp>
 #include <seiche/core/potential.hpp>
-#include <seiche/core/problem.hpp>
 
 #include <memory>
 
@@ -12,7 +11,9 @@ namespace seiche {
 // V of one or several fields: inverse transform, pointwise, forward transform. A problem without potential has V = 0.
 class GridPotential final : public Potential {
  public:
-  GridPotential(const Problem& problem, std::shared_ptr<const FieldTransform> transform);
+  // V of the fields from `first_field` on; null: V = 0.
+  GridPotential(std::shared_ptr<const PointwisePotential> pointwise, Index first_field,
+                std::shared_ptr<const FieldTransform> transform);
   double value(const Vector& z) const override;
   double magnitude(const Vector& z) const override;
   double value_and_gradient(const Vector& z, Vector& gradient) const override;

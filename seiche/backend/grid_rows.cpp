@@ -20,18 +20,6 @@ Index batch_of(Index length, Index rows) {
 
 fftw_complex* pairs(double* p) { return reinterpret_cast<fftw_complex*>(p); }
 
-// For a full batch, and for the rows that are left.
-struct BatchPlan {
-  template <class Make>
-  BatchPlan(Index batch, Index rows, bool measure, const Make& make)
-      : full(make_plans(measure, [&](unsigned flags) { return make(static_cast<int>(batch), flags); })) {
-    if (rows % batch != 0)
-      rest = make_plans(measure, [&](unsigned flags) { return make(static_cast<int>(rows % batch), flags); });
-  }
-  FftwPlans full, rest;
-  const FftwPlans& of(Index batch, Index rows) const { return rows == batch ? full : rest; }
-};
-
 // â_k = w_k Σ_j u_j e^{−2πijk/N} for k = 0 … N/2.
 class FourierRows final : public Rows {
  public:
@@ -41,14 +29,14 @@ class FourierRows final : public Rows {
         alone_are_real_(alone_are_real),
         values_(fftw_buffer(static_cast<std::size_t>(batch_ * length))),
         slots_(fftw_buffer(static_cast<std::size_t>(batch_ * slots()))),
-        forward_(batch_, rows, measure,
+        forward_(batch_, rows % batch_, measure,
                  [&](int count, unsigned flags) {
                    const int n = static_cast<int>(length_);
                    const int modes = n / 2 + 1;
                    return fftw_plan_many_dft_r2c(1, &n, count, values_.get(), nullptr, 1, n, pairs(slots_.get()),
                                                  nullptr, 1, modes, flags);
                  }),
-        inverse_(batch_, rows, measure, [&](int count, unsigned flags) {
+        inverse_(batch_, rows % batch_, measure, [&](int count, unsigned flags) {
           const int n = static_cast<int>(length_);
           const int modes = n / 2 + 1;
           return fftw_plan_many_dft_c2r(1, &n, count, pairs(slots_.get()), nullptr, 1, modes, values_.get(), nullptr, 1,
@@ -63,13 +51,14 @@ class FourierRows final : public Rows {
   Index batch() const override { return batch_; }
 
   void to_slots(const double* values, double* slots, Index rows) const override {
-    fftw_execute_dft_r2c(forward_.of(batch_, rows).of(values, slots), const_cast<double*>(values),
+    fftw_execute_dft_r2c((rows == batch_ ? forward_.full : forward_.rest).of(values, slots),
+                         const_cast<double*>(values),
                          pairs(slots));  // keeps its input
     scale_alone(slots, rows, 1 / sqrt2);
   }
   void to_values(double* slots, double* values, Index rows) const override {
     scale_alone(slots, rows, sqrt2);
-    fftw_execute_dft_c2r(inverse_.of(batch_, rows).of(slots, values), pairs(slots), values);
+    fftw_execute_dft_c2r((rows == batch_ ? inverse_.full : inverse_.rest).of(slots, values), pairs(slots), values);
   }
 
  private:
@@ -88,7 +77,7 @@ class FourierRows final : public Rows {
   Index length_, batch_;
   bool alone_are_real_;
   FftwBuffer values_, slots_;
-  BatchPlan forward_, inverse_;
+  BatchPlans forward_, inverse_;
 };
 
 // Sines, cosines or half-complex coefficients by FFTW's own real transforms.
@@ -100,11 +89,11 @@ class RealRows final : public Rows {
         alone_(modes_alone(axis)),
         values_(fftw_buffer(static_cast<std::size_t>(batch_ * length_))),
         slots_(fftw_buffer(static_cast<std::size_t>(batch_ * length_))),
-        forward_(batch_, rows, measure,
+        forward_(batch_, rows % batch_, measure,
                  [&](int count, unsigned flags) {
                    return plan(values_, slots_, count, kinds_of(axis.boundary).forward, flags);
                  }),
-        inverse_(batch_, rows, measure, [&](int count, unsigned flags) {
+        inverse_(batch_, rows % batch_, measure, [&](int count, unsigned flags) {
           return plan(slots_, values_, count, kinds_of(axis.boundary).inverse, flags);
         }) {
     values_.reset();
@@ -116,13 +105,13 @@ class RealRows final : public Rows {
   Index batch() const override { return batch_; }
 
   void to_slots(const double* values, double* slots, Index rows) const override {
-    fftw_execute_r2r(forward_.of(batch_, rows).of(values, slots), const_cast<double*>(values),
+    fftw_execute_r2r((rows == batch_ ? forward_.full : forward_.rest).of(values, slots), const_cast<double*>(values),
                      slots);  // keeps its input
     scale_alone(slots, rows, 1 / sqrt2);
   }
   void to_values(double* slots, double* values, Index rows) const override {
     scale_alone(slots, rows, sqrt2);
-    fftw_execute_r2r(inverse_.of(batch_, rows).of(slots, values), slots, values);
+    fftw_execute_r2r((rows == batch_ ? inverse_.full : inverse_.rest).of(slots, values), slots, values);
   }
 
  private:
@@ -140,7 +129,7 @@ class RealRows final : public Rows {
   Index length_, batch_;
   std::vector<Index> alone_;
   FftwBuffer values_, slots_;
-  BatchPlan forward_, inverse_;
+  BatchPlans forward_, inverse_;
 };
 
 // Sines by the Fourier transform of the odd continuation, of twice the length: faster than FFTW's own sine transform

@@ -71,9 +71,7 @@ class LanczosPropagator final : public Propagator {
 };
 
 SparseMatrix with_diagonal(const SparseMatrix& M) {
-  SparseMatrix one(M.rows(), M.cols());
-  one.setIdentity();
-  SparseMatrix a = M + SparseMatrix(0 * one);
+  SparseMatrix a = M + SparseMatrix(0 * identity_matrix(M.rows()));
   a.makeCompressed();
   return a;
 }
@@ -85,9 +83,7 @@ SkewSystem::SkewSystem(const SparseMatrix& S, const SparseMatrix& M) : S_(S), M_
     throw Error(
         "exponential = \"lanczos\" needs a skew S; with damping merged into S, or another S, use exponential = \"pade\"");
   constexpr double least = 1e-12;
-  SparseMatrix lowered(M_.rows(), M_.cols());
-  lowered.setIdentity();
-  lowered = M_ - SparseMatrix(least * M_.norm() * lowered);
+  const SparseMatrix lowered = M_ - SparseMatrix(least * M_.norm() * identity_matrix(M_.rows()));
   if (const auto x = negative_direction(lowered))
     throw Error(
         "exponential = \"lanczos\" needs M positive definite, but zᵀMz = {:.3g} for a z of norm 1; use exponential = "

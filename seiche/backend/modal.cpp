@@ -210,14 +210,15 @@ void require_symmetric(const BlockStencil& a, std::string_view name) {
 std::unique_ptr<Potential> modal_potential(const Problem& problem,
                                            const std::shared_ptr<const FieldTransform>& transform) {
   const auto* truncated = dynamic_cast<const TruncatedPotential*>(problem.potential.get());
-  if (truncated == nullptr) return std::make_unique<GridPotential>(problem, transform);
-  Problem whole = problem;
-  whole.potential = truncated->whole();
+  const auto on_grid = [&](const std::shared_ptr<const PointwisePotential>& V) {
+    return std::make_unique<GridPotential>(V, problem.potential_field, transform);
+  };
+  if (truncated == nullptr) return on_grid(problem.potential);
   const Modes modes(problem.grid);
   Vector mask(truncated->fields() * modes.slots());
   for (Index i = 0; i < mask.size(); ++i)
     mask[i] = is_kept(modes[i % modes.slots() / 2]) ? 1.0 : 0.0;  // pairs of slots
-  return std::make_unique<MaskedPotential>(std::make_unique<GridPotential>(whole, transform), std::move(mask));
+  return std::make_unique<MaskedPotential>(on_grid(truncated->whole()), std::move(mask));
 }
 
 }  // namespace

@@ -11,12 +11,6 @@ SparseMatrix block(const SparseMatrix& a, Index row, Index column, Index n) {
   return b;
 }
 
-SparseMatrix identity(Index n) {
-  SparseMatrix i(n, n);
-  i.setIdentity();
-  return i;
-}
-
 bool equal(const SparseMatrix& a, const SparseMatrix& b) { return SparseMatrix(a - b).norm() == 0; }
 
 bool is_symmetric(const SparseMatrix& a) { return equal(a, SparseMatrix(a.transpose())); }
@@ -30,7 +24,7 @@ void to_result(const Eigen::VectorXcd& x, std::complex<double> p, Vector& out) {
 // hB − p, with a place for every diagonal entry.
 template <class Scalar>
 Eigen::SparseMatrix<Scalar> shifted(const SparseMatrix& B, double h, std::complex<double> p) {
-  const Eigen::SparseMatrix<Scalar> one = identity(B.rows()).cast<Scalar>();
+  const Eigen::SparseMatrix<Scalar> one = identity_matrix(B.rows()).cast<Scalar>();
   Eigen::SparseMatrix<Scalar> a = SparseMatrix(h * B).cast<Scalar>() - as(p, Scalar()) * one;
   a.makeCompressed();
   return a;
@@ -147,7 +141,7 @@ class WaveResolvent final : public Resolvent {
 std::optional<WaveStructure> wave_structure(const SparseMatrix& S, const SparseMatrix& M) {
   if (S.rows() % 2 != 0) return std::nullopt;
   const Index n = S.rows() / 2;
-  const SparseMatrix one = identity(n);
+  const SparseMatrix one = identity_matrix(n);
   if (block(S, 0, 0, n).nonZeros() > 0 || !equal(block(S, 0, n, n), one) ||
       !equal(block(S, n, 0, n), SparseMatrix(-one)) || block(M, 0, n, n).nonZeros() > 0 ||
       block(M, n, 0, n).nonZeros() > 0)
@@ -180,7 +174,7 @@ struct ResolventFactory::Shared {
 ResolventFactory::ResolventFactory(const SparseMatrix& S, const SparseMatrix& M) {
   auto shared = std::make_shared<Shared>();
   if (auto wave = wave_structure(S, M)) {
-    shared->all = 0 * (wave->K + wave->G + identity(wave->K.rows()));
+    shared->all = 0 * (wave->K + wave->G + identity_matrix(wave->K.rows()));
     shared->all.makeCompressed();
     shared->pattern = std::make_shared<LdltPattern>(shared->all);
     shared->wave = std::make_shared<WaveStructure>(*std::move(wave));

@@ -27,7 +27,7 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
   System system;
   system.fields = problem.field_count();
   system.space = std::make_unique<GridSpace>(problem.field_count(), identity);
-  system.potential = std::make_unique<GridPotential>(problem, identity);
+  system.potential = std::make_unique<GridPotential>(problem.potential, problem.potential_field, identity);
 
   SparseOperators own;
   if (!problem.matrices)

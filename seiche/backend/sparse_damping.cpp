@@ -25,21 +25,15 @@ class DiagonalMap final : public LinearMap {
 };
 
 bool is_diagonal(const SparseMatrix& a) {
-  for (Index j = 0; j < a.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator entry(a, j); entry; ++entry)
-      if (entry.row() != j && entry.value() != 0) return false;
-  return true;
+  bool diagonal = true;
+  for_entries(a, [&](Index i, Index j, double value) { diagonal = diagonal && (i == j || value == 0); });
+  return diagonal;
 }
 
 // e^{−hD} as the exponential of hSM with S = −I and M = D.
 struct DampingSystem {
   explicit DampingSystem(const SparseMatrix& damping)
-      : D(damping), minus_I(negative_identity(D.rows())), factory(minus_I, D), radius(spectral_radius_bound(D)) {}
-  static SparseMatrix negative_identity(Index n) {
-    SparseMatrix i(n, n);
-    i.setIdentity();
-    return -i;
-  }
+      : D(damping), minus_I(-identity_matrix(D.rows())), factory(minus_I, D), radius(spectral_radius_bound(D)) {}
   SparseMatrix D, minus_I;
   ResolventFactory factory;
   double radius;

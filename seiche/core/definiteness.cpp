@@ -20,9 +20,8 @@ SparseMatrix symmetric_part(const SparseMatrix& A) { return 0.5 * (A + SparseMat
 std::optional<NegativeDirection> negative_direction(const SparseMatrix& A) {
   const double size = largest_row_sum(A);
   if (size == 0) return std::nullopt;
-  SparseMatrix shifted(A.rows(), A.cols());
-  shifted.setIdentity();
-  shifted = A + SparseMatrix(round_off * size * shifted);  // a pivot that should be 0 is now positive
+  const SparseMatrix shifted =
+      A + SparseMatrix(round_off * size * identity_matrix(A.rows()));  // a pivot that should be 0 is now positive
   Eigen::SimplicialLDLT<SparseMatrix> ldlt(shifted);
   if (ldlt.info() != Eigen::Success)
     throw Error("whether a matrix of {} unknowns is positive semidefinite was not decided: LDLᵀ met a pivot 0",

@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/core/law_matrices.hpp>
+#include <seiche/core/law_of_damping.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -36,7 +37,7 @@ Extreme hermitian_extremes(const Grid& grid, const Symbol& symbol) {
   return extreme;
 }
 
-Eigen::MatrixXcd rate_projection(const Problem& problem) {
+Eigen::MatrixXcd rate_symbol(const Problem& problem) {
   Eigen::MatrixXcd p = Eigen::MatrixXcd::Zero(problem.field_count(), problem.field_count());
   for (Index i = 0; i < problem.field_count(); ++i) p(i, i) = problem.damping.rate_fields[static_cast<std::size_t>(i)];
   return p;
@@ -97,10 +98,8 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
   const LinearDamping& damping = problem.damping;
   if (!problem.has_damping()) return {true, "sym(S) ⪯ 0 and no damping flow"};
 
-  if (damping.rate) {
-    const double t_bad = damping.rate->first_negative_time(t_end);
-    if (t_bad >= 0) return {false, fmt::format("the rate {} is negative at t = {:.6g}", damping.rate->text(), t_bad)};
-  }
+  if (const std::string complaint = complaint_about_rate(damping.rate.get(), t_end); !complaint.empty())
+    return {false, complaint};
   if (damping.field_rate) {
     const std::string complaint = complaint_about_field_rate(problem, t_end);
     if (!complaint.empty()) return {false, complaint};
@@ -111,22 +110,13 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
   Extreme varying{0, 0, 0};
   if (damping.rate) {
     varying = hermitian_extremes(problem.grid, [&](const Mode& mode) -> Eigen::MatrixXcd {
-      return problem.M.symbol(mode) * rate_projection(problem);
+      return problem.M.symbol(mode) * rate_symbol(problem);
     });
   }
   if (!constant.is_nonnegative() || !varying.is_nonnegative()) {
     return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
   }
-  if (!problem.damping_moves_potential()) {
-    return {true, "sym(MD) ⪰ 0 and V does not depend on the damped fields"};
-  }
-  // Damping moves what V depends on: sym(MD) ⪰ 0 is not enough. D = γI lets V fall where u·∇V(u) ≥ 0.
-  const bool scalar = damping.constant.is_zero() &&
-                      std::all_of(damping.rate_fields.begin(), damping.rate_fields.end(), [](bool b) { return b; });
-  if (scalar && problem.potential->grows_outward()) return {true, "D = γI and u·∇V(u) ≥ 0 for every u"};
-  return {false,
-          "the damping moves the field that V depends on, and V can rise when it shrinks: the "
-          "energy-compatible damping condition is not guaranteed"};
+  return promise_given_semidefinite_MD(problem);
 }
 
 }  // namespace seiche

@@ -24,13 +24,7 @@ Problem with_matrix_merged(const Problem& problem) {
   const SparseOperators& old = *problem.matrices;
   const LinearDamping& damping = problem.damping;
   SparseMatrix D = old.D;
-  if (damping.rate) {
-    SparseMatrix rate(D.rows(), D.cols());
-    for (Index i = 0; i < D.rows(); ++i)
-      if (damping.rate_fields[static_cast<std::size_t>(i / problem.grid.unknowns())])
-        rate.insert(i, i) = damping.rate->value(0);
-    D += rate;
-  }
+  if (damping.rate) D += damping.rate->value(0) * rate_matrix(problem);
   for (Index column = 0; column < D.outerSize(); ++column) {
     double diagonal = 0;
     bool alone = !problem.potential_depends_on(column / problem.grid.unknowns());
@@ -61,8 +55,9 @@ bool Problem::potential_depends_on(Index field) const {
   return potential && field >= potential_field && field < potential_field + potential->fields();
 }
 
-bool Problem::has_damping() const {
-  if (damping.rate || damping.field_rate) return true;
+bool Problem::has_damping() const { return damping.rate || damping.field_rate || has_constant_damping(); }
+
+bool Problem::has_constant_damping() const {
   return matrices ? matrices->D.nonZeros() > 0 : !damping.constant.is_zero();
 }
 
@@ -76,6 +71,13 @@ bool Problem::damping_moves_potential() const {
   for (Index field = 0; field < field_count(); ++field)
     if (potential_depends_on(field) && damping_moves(field)) return true;
   return false;
+}
+
+SparseMatrix rate_matrix(const Problem& problem) {
+  SparseMatrix p(problem.size(), problem.size());
+  for (Index i = 0; i < problem.size(); ++i)
+    if (problem.damping.rate_fields[static_cast<std::size_t>(i / problem.grid.unknowns())]) p.insert(i, i) = 1;
+  return p;
 }
 
 Problem with_damping_merged(const Problem& problem) {

@@ -40,9 +40,13 @@ struct Problem {
   Index size() const { return field_count() * grid.unknowns(); }
   bool potential_depends_on(Index field) const;
   bool has_damping() const;
+  bool has_constant_damping() const;      // beside γ
   bool damping_moves(Index field) const;  // does the field change under Ψ?
   bool damping_moves_potential() const;   // does V?
 };
+
+// P of LinearDamping as a matrix: ones on the diagonal in the rows of `rate_fields`.
+SparseMatrix rate_matrix(const Problem& problem);
 
 // ż = S'∇H with S' = S − D: the form that the `whole` methods need. Possible where Dz = D∇H(z), that is where a
 // constant D acts on fields with ∇_vH = v. Throws Error with the reason where it is not.

@@ -7,12 +7,6 @@
 namespace seiche {
 namespace {
 
-template <class Visit>
-void for_entries(const SparseMatrix& a, const Visit& visit) {
-  for (Index column = 0; column < a.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator entry(a, column); entry; ++entry) visit(entry.row(), column, entry.value());
-}
-
 void require_shape(const char* name, const SparseMatrix& a, Index size) {
   if (a.rows() != a.cols()) throw Error("{} is {} × {} and must be square", name, a.rows(), a.cols());
   if (a.rows() != size) throw Error("{} is {} × {} but M is {} × {}", name, a.rows(), a.cols(), size, size);
@@ -32,6 +26,12 @@ void require_symmetric(const SparseMatrix& M) {
 }
 
 }  // namespace
+
+SparseMatrix identity_matrix(Index size) {
+  SparseMatrix i(size, size);
+  i.setIdentity();
+  return i;
+}
 
 bool SparseOperators::damping_moves(Index begin, Index size) const {
   bool moves = false;

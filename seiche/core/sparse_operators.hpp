@@ -9,6 +9,15 @@ namespace seiche {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
+SparseMatrix identity_matrix(Index size);
+
+// visit(row, column, value) for every stored entry, column after column.
+template <class Visit>
+void for_entries(const SparseMatrix& a, const Visit& visit) {
+  for (Index column = 0; column < a.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(a, column); entry; ++entry) visit(entry.row(), column, entry.value());
+}
+
 // Square, of the size of z in physical coordinates, field after field. Contract: M symmetric.
 struct SparseOperators {
   SparseMatrix S = {}, M = {}, D = {};  // D: the constant part of the damping

@@ -30,10 +30,6 @@ Matrix side_by_side(const Matrix& a, const Matrix& b) {
   return both;
 }
 
-bool has_constant_damping(const Problem& p) {
-  return p.matrices ? p.matrices->D.nonZeros() > 0 : !p.damping.constant.is_zero();
-}
-
 // e^{−hD} of the constant part alone.
 Matrix constant_flow(const Simulation& simulation, double h, const std::vector<Index>& places) {
   Problem constant = simulation.problem();
@@ -127,7 +123,7 @@ bool LaneSystem::find_transform() {
 
   for (const Simulation* member : members_) {
     damping_moves_potential_ = damping_moves_potential_ || member->system().damping->touches_potential();
-    has_constant_damping_ = has_constant_damping_ || has_constant_damping(member->problem());
+    has_constant_damping_ = has_constant_damping_ || member->problem().has_constant_damping();
     const RatePointer& rate = member->problem().damping.rate;
     has_constant_rates_ = has_constant_rates_ && (!rate || rate->is_constant());
   }
