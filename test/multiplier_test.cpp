@@ -78,8 +78,13 @@ TEST(Multiplier, MethodsWorkAndKeepTheirLawForAPotentialThatIsNoPolynomial) {
       EXPECT_EQ(e.failure, "");
       errors.push_back(e.solution);
     }
-    EXPECT_NEAR(fitted_order(h, errors), 2.0, method.closure == ClosureKind::lm ? 0.3 : 0.1)
-        << method.name << table(h, errors);
+    if (method.order == 2) {
+      EXPECT_NEAR(fitted_order(h, errors), 2.0, method.closure == ClosureKind::lm ? 0.3 : 0.1)
+          << method.name << table(h, errors);
+    } else {
+      EXPECT_LE(errors[1], std::max(1e-13, errors[0] * std::pow(2.0, 0.5 - method.order)))
+          << method.name << table(h, errors);
+    }
     Simulation simulation(sine_gordon, {.method = std::string(method.name)});
     EnergyReading before = simulation.energy();
     for (int n = 0; n < 500; ++n) {

@@ -68,9 +68,9 @@ TEST(Nls, TheAveragedCrankNicolsonSchemeLosesMassAtExactlyTwiceTheRateOfTheDampi
     for (const double h : {1.0 / 8, 1.0 / 32}) EXPECT_LE(mass_defect("savf", gamma, h), 1e-12) << gamma << " " << h;
 }
 
-TEST(Nls, TheOtherMethodsKeepTheLawOfMassToOrderTwo) {
+TEST(Nls, TheOtherMethodsOfOrderTwoKeepTheLawOfMassToOrderTwo) {
   for (const MethodEntry& method : methods()) {
-    if (method.composition == Composition::whole || method.name == "savf") continue;
+    if (method.composition == Composition::whole || method.name == "savf" || method.order > 2) continue;
     const double coarse = mass_defect(method.name, 0.1, 1.0 / 32);
     const double fine = mass_defect(method.name, 0.1, 1.0 / 128);
     EXPECT_GT(fine, 1e-8) << method.name;  // these do not keep it exactly

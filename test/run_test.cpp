@@ -28,6 +28,7 @@ class NoPotential : public Potential {
   void mean_gradient(const Vector&, const Vector&, Vector&) const override {}
   int degree() const override { return 0; }
   void along(const Vector&, const Vector&, std::span<double>) const override {}
+  void along_ray(const Vector&, std::span<double>) const override {}
   Support support() const override { return {}; }
 };
 

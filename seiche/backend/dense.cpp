@@ -1,4 +1,5 @@
 #include <seiche/backend/dense.hpp>
+#include <seiche/backend/dense_phi.hpp>
 #include <seiche/backend/force_map.hpp>
 #include <seiche/backend/grid_damping.hpp>
 #include <seiche/backend/grid_potential.hpp>
@@ -153,8 +154,13 @@ System dense_system(const Problem& problem, const BackendOptions&) {
     return problem.matrices ? Matrix((*problem.matrices).*sparse) : stencil.matrix(problem.grid);
   };
   system.potential = std::make_unique<GridPotential>(problem.potential, problem.potential_field, identity);
-  system.linear = std::make_unique<DenseLinear>(matrix(problem.S, &SparseOperators::S),
-                                                matrix(problem.M, &SparseOperators::M), system.potential->support());
+  const Matrix S = matrix(problem.S, &SparseOperators::S);
+  const Matrix M = matrix(problem.M, &SparseOperators::M);
+  const Potential::Support support = system.potential->support();
+  system.linear = std::make_unique<DenseLinear>(S, M, support);
+  const Matrix D0 =
+      problem.matrices ? Matrix(frozen_damping_matrix(problem)) : frozen_damping(problem).matrix(problem.grid);
+  system.make_phi = [S, M, D0, support] { return dense_phi(S, M, D0, support); };
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;

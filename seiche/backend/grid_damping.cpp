@@ -12,6 +12,7 @@ GridDamping::GridDamping(const Problem& problem, std::shared_ptr<const FieldTran
       constant_(std::move(constant)),
       make_flow_(std::move(make_flow)),
       rate_(problem.damping.rate),
+      frozen_rate_(seiche::frozen_rate(problem)),
       rate_fields_(problem.damping.rate_fields),
       touches_potential_(problem.damping_moves_potential()),
       scratch_(problem.field_count() * slots_) {
@@ -72,11 +73,19 @@ void GridDamping::apply(double t, const Vector& z, Vector& out) const {
   } else {
     out.setZero();
   }
-  const double gamma = rate_ ? rate_->value(t) : 0.0;
+  add_rates(rate_ ? rate_->value(t) : 0.0, t, z, out);
+}
+
+void GridDamping::apply_rest(double t, const Vector& z, Vector& out) const {
+  out.setZero();
+  if (!is_frozen()) add_rates((rate_ ? rate_->value(t) : 0.0) - frozen_rate_, t, z, out);
+}
+
+void GridDamping::add_rates(double gamma, double t, const Vector& z, Vector& out) const {
   for (std::size_t f = 0; f < rate_fields_.size(); ++f) {
     const Index begin = static_cast<Index>(f) * slots_;
     if (!rate_fields_[f]) continue;
-    if (rate_) out.segment(begin, slots_) += gamma * z.segment(begin, slots_);
+    out.segment(begin, slots_) += gamma * z.segment(begin, slots_);
     if (!field_rate_) continue;
     scratch_.head(slots_) = z.segment(begin, slots_);
     field_rate_->multiply(field_rate_->values(t), segment(scratch_, 0, slots_));

@@ -29,12 +29,15 @@ class GridDamping final : public Damping {
   bool touches_potential() const override { return touches_potential_; }
   void flow(double t, double h, Vector& z) const override;
   void apply(double t, const Vector& z, Vector& out) const override;
+  bool is_frozen() const override { return !field_rate_ && (!rate_ || rate_->is_constant()); }
+  void apply_rest(double t, const Vector& z, Vector& out) const override;
   bool field_factors(double t, double h, std::span<double> factors) const override;
 
  private:
   const LinearMap& flow_map(double h) const;
   void constant_flow(double h, Vector& z) const;
-  double rate_decay(double t, double h) const;  // e^{−∫γ}
+  double rate_decay(double t, double h) const;                                 // e^{−∫γ}
+  void add_rates(double gamma, double t, const Vector& z, Vector& out) const;  // out += (γ + γ(x, t))P z
 
   struct CachedFlow {
     double h;
@@ -44,6 +47,7 @@ class GridDamping final : public Damping {
   std::unique_ptr<LinearMap> constant_;  // null: none
   MakeFlow make_flow_;
   RatePointer rate_;
+  double frozen_rate_;
   std::unique_ptr<FieldDecay> field_rate_;  // null: none
   std::vector<bool> rate_fields_;
   bool touches_potential_;

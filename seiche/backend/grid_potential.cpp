@@ -73,4 +73,17 @@ void GridPotential::along(const Vector& p, const Vector& q, std::span<double> co
   pointwise_->along(values_of(p, a_), values_of(q, b_), coefficients);
 }
 
+void GridPotential::along_ray(const Vector& z, std::span<double> coefficients) const {
+  std::fill(coefficients.begin(), coefficients.end(), 0.0);
+  if (!pointwise_) return;
+  ++counts_.values;
+  const std::span<const double> u = values_of(z, b_);
+  if (const int d = pointwise_->homogeneity(); d > 0) {
+    coefficients[static_cast<std::size_t>(d)] = pointwise_->value(u);
+    return;
+  }
+  a_.setZero();
+  pointwise_->along(all(a_), u, coefficients);
+}
+
 }  // namespace seiche

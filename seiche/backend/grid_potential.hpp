@@ -20,6 +20,7 @@ class GridPotential final : public Potential {
   void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const override;
   int degree() const override { return pointwise_ ? pointwise_->degree() : 1; }
   void along(const Vector& p, const Vector& q, std::span<double> coefficients) const override;
+  void along_ray(const Vector& z, std::span<double> coefficients) const override;
   Support support() const override { return support_; }
 
  private:

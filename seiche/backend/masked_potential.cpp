@@ -42,4 +42,9 @@ void MaskedPotential::along(const Vector& p, const Vector& q, std::span<double> 
   potential_->along(masked(p, a_), masked(q, b_), coefficients);
 }
 
+void MaskedPotential::along_ray(const Vector& z, std::span<double> coefficients) const {
+  ++counts_.values;
+  potential_->along_ray(masked(z, a_), coefficients);
+}
+
 }  // namespace seiche

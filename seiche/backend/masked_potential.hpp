@@ -17,6 +17,7 @@ class MaskedPotential final : public Potential {
   void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const override;
   int degree() const override { return potential_->degree(); }
   void along(const Vector& p, const Vector& q, std::span<double> coefficients) const override;
+  void along_ray(const Vector& z, std::span<double> coefficients) const override;
   Support support() const override { return potential_->support(); }
 
  private:

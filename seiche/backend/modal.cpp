@@ -4,6 +4,7 @@
 #include <seiche/backend/grid_space.hpp>
 #include <seiche/backend/masked_potential.hpp>
 #include <seiche/backend/modal.hpp>
+#include <seiche/backend/modal_phi.hpp>
 #include <seiche/backend/modal_propagator.hpp>
 #include <seiche/backend/mode_map.hpp>
 #include <seiche/core/error.hpp>
@@ -241,6 +242,14 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
   system.space = std::make_unique<GridSpace>(problem.field_count(), transform);
   system.linear = std::make_unique<ModalLinear>(problem, options.threads);
   system.potential = modal_potential(problem, transform);
+  const ModalOperators operators{.grid = problem.grid,
+                                 .S = problem.S,
+                                 .M = problem.M,
+                                 .D0 = frozen_damping(problem),
+                                 .first = problem.potential_field,
+                                 .count = problem.potential ? problem.potential->fields() : 0,
+                                 .threads = options.threads};
+  system.make_phi = [operators] { return modal_phi(operators); };
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;

@@ -24,6 +24,7 @@ double doubles_per_unknown(ClosureKind closure) {
     case ClosureKind::sav: return 12;
     case ClosureKind::dm: return 21;
     case ClosureKind::avf: return 22;
+    case ClosureKind::none: return 60;
     case ClosureKind::lm: break;
   }
   return 27;

@@ -15,6 +15,9 @@ class Damping {
   // z ← Ψ(t, t+h) z = exp(−∫ₜᵗ⁺ʰ D) z. The length h is passed instead of the end so that equal steps reuse one matrix.
   virtual void flow(double t, double h, Vector& z) const = 0;
   virtual void apply(double t, const Vector& z, Vector& out) const = 0;  // D(t) z
+  // Beside the constant D₀ that exponential methods take into L = SM − D₀ (frozen_damping): is D(t) = D₀?
+  virtual bool is_frozen() const = 0;
+  virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀) z
   // Where Ψ(t, t+h) multiplies each field by a number: those numbers, and true. A step then need not make a pass of it.
   virtual bool field_factors(double /*t*/, double /*h*/, std::span<double> /*factors*/) const { return false; }
 };

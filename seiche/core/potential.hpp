@@ -32,6 +32,8 @@ class PointwisePotential {
   // Degree of V as a polynomial, or 0 if V is none; `along` needs degree + 1 coefficients and a polynomial V.
   virtual int degree() const = 0;
   virtual void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const = 0;
+  // d if V(xu) = xᵈV(u) for every u, or 0 if there is no such d: then `along` from the origin is known from V(u).
+  virtual int homogeneity() const { return 0; }
   // True if u·∇V(u) ≥ 0 for every u by the form of V: then damping that acts on u cannot raise V.
   virtual bool grows_outward() const = 0;
   // `members`, of which this is one, side by side in the lanes of panels with `rows` values each; one after the other where
@@ -60,6 +62,7 @@ class Potential {
   virtual void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const = 0;
   virtual int degree() const = 0;
   virtual void along(const Vector& p, const Vector& q, std::span<double> coefficients) const = 0;
+  virtual void along_ray(const Vector& z, std::span<double> coefficients) const = 0;  // of x ↦ V(xz)
   virtual Support support() const = 0;
 
   void gradient(const Vector& z, Vector& out) const { value_and_gradient(z, out); }

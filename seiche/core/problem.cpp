@@ -80,6 +80,28 @@ SparseMatrix rate_matrix(const Problem& problem) {
   return p;
 }
 
+double frozen_rate(const Problem& problem) {
+  double rate = problem.damping.rate ? problem.damping.rate->value(0) : 0.0;
+  if (!problem.damping.field_rate) return rate;
+  Vector gamma(problem.grid.unknowns());
+  problem.damping.field_rate->values(0, {gamma.data(), static_cast<std::size_t>(gamma.size())});
+  return rate + gamma.mean();
+}
+
+BlockStencil frozen_damping(const Problem& problem) {
+  BlockStencil D = problem.damping.constant;
+  const double rate = frozen_rate(problem);
+  for (Index f = 0; rate != 0 && f < problem.field_count(); ++f)
+    if (problem.damping.rate_fields[static_cast<std::size_t>(f)]) D(f, f) += Stencil::identity(rate);
+  return D;
+}
+
+SparseMatrix frozen_damping_matrix(const Problem& problem) {
+  const double rate = frozen_rate(problem);
+  if (rate == 0) return problem.matrices->D;
+  return problem.matrices->D + rate * rate_matrix(problem);
+}
+
 Problem with_damping_merged(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
   if (!problem.has_damping()) return problem;

@@ -4,6 +4,7 @@
 #include <seiche/core/vector.hpp>
 
 #include <cstdint>
+#include <vector>
 
 namespace seiche {
 
@@ -15,6 +16,11 @@ struct State {
   double r_squared = 0.0;
   double shift = 0.0;  // C
   double energy_scale = 0.0;
+  // Methods that keep the law by projection: what H(z) is to be, which it is to round-off.
+  double energy = 0.0;
+  // Collocation: the forces at the nodes of the last step, whose length was history_h; none after a start or restart.
+  std::vector<Vector> history = {};
+  double history_h = 0.0;
 };
 
 }  // namespace seiche

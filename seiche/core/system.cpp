@@ -14,6 +14,20 @@ void System::gradient(const Vector& z, Vector& out) const {
   out += nonlinear;
 }
 
+System::Dissipation System::dissipation(double t, const Vector& z, const Vector& potential_gradient, Vector& scratch,
+                                        Vector& gradient_H) const {
+  linear->apply_M(z, gradient_H);
+  gradient_H += potential_gradient;
+  damping->apply(t, z, scratch);
+  Dissipation result;
+  result.rate = gradient_H.dot(scratch);
+  result.round_off = gradient_H.cwiseAbs().dot(scratch.cwiseAbs());
+  linear->apply_S(gradient_H, scratch);
+  result.rate -= gradient_H.dot(scratch);
+  result.round_off = 100 * epsilon * (result.round_off + gradient_H.cwiseAbs().dot(scratch.cwiseAbs()));
+  return result;
+}
+
 void System::right_hand_side(double t, const Vector& z, Vector& out) const {
   Vector gradient_H(z.size());
   gradient(z, gradient_H);

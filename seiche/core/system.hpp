@@ -3,10 +3,12 @@
 
 #include <seiche/core/damping.hpp>
 #include <seiche/core/linear_part.hpp>
+#include <seiche/core/phi.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/space.hpp>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,13 +19,21 @@ struct System {
   std::unique_ptr<LinearPart> linear;
   std::unique_ptr<Potential> potential;
   std::unique_ptr<Damping> damping;
-  Vector initial;    // z₀
-  Index fields = 1;  // of equal size, one after the other in State::z
+  std::function<std::unique_ptr<PhiEvaluator>()> make_phi;  // of L = SM − D₀; methods that split have no use for it
+  Vector initial;                                           // z₀
+  Index fields = 1;                                         // of equal size, one after the other in State::z
 
   double energy(const Vector& z) const { return linear->quadratic_energy(z) + potential->value(z); }
   // 50ε times the sizes of the terms of H: no energy computed in double precision means more than this.
   double energy_round_off(const Vector& z) const;
-  void gradient(const Vector& z, Vector& out) const;                   // ∇H
+  void gradient(const Vector& z, Vector& out) const;  // ∇H
+  // −dH/dt = ∇HᵀDz − ∇Hᵀ S∇H, from ∇V(z), which may be left zero where neither damping nor sym(S) sees it.
+  struct Dissipation {
+    double rate = 0.0;
+    double round_off = 0.0;  // 100ε times the sizes of its terms
+  };
+  Dissipation dissipation(double t, const Vector& z, const Vector& potential_gradient, Vector& scratch,
+                          Vector& gradient_H) const;
   void right_hand_side(double t, const Vector& z, Vector& out) const;  // S∇H − Dz
 };
 

@@ -29,6 +29,7 @@ class TruncatedPotential final : public PointwisePotential {
   void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override;
   int degree() const override { return potential_->degree(); }
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override;
+  int homogeneity() const override { return potential_->homogeneity(); }
   bool grows_outward() const override { return potential_->grows_outward(); }  // u·P∇V(Pu) = Pu·∇V(Pu)
 
  private:

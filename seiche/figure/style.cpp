@@ -32,6 +32,10 @@ const std::vector<MethodStyle>& table() {
       {"eilm",   "EILM",   {"#332288", triangle_down, true,  solid,       thin,  1.00}, false},
       {"seavf",  "SEAVF",  {"#117733", circle,        true,  solid,       thin,  1.75}, false},
       {"seidm",  "SEIDM",  {"#AA4499", star,          true,  solid,       thin,  1.00}, false},
+      {"egc2",   "EGC2",   {"#B0C4A0", diamond,       true,  long_dashed, thin,  1.00}, false},
+      {"egc4",   "EGC4",   {"#5E8C61", square,        true,  long_dashed, thin,  1.00}, false},
+      {"egc6",   "EGC6",   {"#2F5D50", circle,        true,  long_dashed, thin,  1.00}, false},
+      {"egc8",   "EGC8",   {"#0B3B2E", pentagon,      true,  long_dashed, thin,  1.00}, false},
       {"seisav", "SEISAV", {"#D55E00", square,        true,  solid,       heavy, 1.35}, true},
       {"seilm",  "SEILM",  {"#0072B2", triangle,      true,  solid,       heavy_on_top, 0.75}, true},
   };

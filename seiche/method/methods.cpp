@@ -2,6 +2,7 @@
 #include <seiche/method/avf.hpp>
 #include <seiche/method/compositions.hpp>
 #include <seiche/method/directed_multiplier.hpp>
+#include <seiche/method/egc.hpp>
 #include <seiche/method/lm.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/method/sav.hpp>
@@ -19,6 +20,8 @@ using enum Composition;
 constexpr std::string_view paper = "Li, Li, Shang, Xu: energy-stable splitting exponential integrators";
 constexpr std::string_view here = "Seiche: the paper's closure, exponential, without splitting";
 
+constexpr std::string_view collocated = "Seiche: exponential Gauss collocation, docs/design.md";
+
 // clang-format off
 constexpr std::array list = {
     MethodEntry{"avf",    avf, cayley,      whole,  2, "H",          "Celledoni et al. (2012), J. Comput. Phys. 231"},
@@ -34,6 +37,10 @@ constexpr std::array list = {
     MethodEntry{"seisav", sav, exponential, strang, 2, "H_modified", paper},
     MethodEntry{"seilm",  lm,  exponential, strang, 2, "H",          paper},
     MethodEntry{"seidm",  dm,  exponential, strang, 2, "H",          "Seiche: directed multiplier, docs/design.md"},
+    MethodEntry{"egc2",   none, exponential, collocation, 2, "H",    collocated},
+    MethodEntry{"egc4",   none, exponential, collocation, 4, "H",    collocated},
+    MethodEntry{"egc6",   none, exponential, collocation, 6, "H",    collocated},
+    MethodEntry{"egc8",   none, exponential, collocation, 8, "H",    collocated},
 };
 // clang-format on
 
@@ -43,6 +50,7 @@ std::unique_ptr<Closure> make_closure(const MethodEntry& method, const System& s
     case sav: return make_sav_closure(system, options);
     case lm: return make_lm_closure(system, options);
     case dm: return make_dm_closure(system);
+    case none: break;
   }
   throw Error("method {} has no closure", method.name);
 }
@@ -72,7 +80,7 @@ void MethodOptions::validate(const MethodEntry& method) const {
     throw Error("scalar_solver = \"newton\" belongs to the lm family; {} solves no equation for η", method.name);
   }
   if (auxiliary == AuxiliaryMode::transport) return;
-  if (method.closure == avf || method.closure == dm) {
+  if (method.closure == avf || method.closure == dm || method.closure == none) {
     throw Error("auxiliary belongs to the sav and lm families; {} carries no auxiliary through the damping",
                 method.name);
   }
@@ -87,6 +95,7 @@ void MethodOptions::validate(const MethodEntry& method) const {
 
 std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system, const MethodOptions& options) {
   options.validate(method);
+  if (method.composition == collocation) return make_egc(system, method.order / 2);
   if (method.composition == whole) {
     if (!system.damping->is_zero()) throw Error("{} needs its damping merged into S first", method.name);
     return make_whole(system, method.propagator, make_closure(method, system, options));
@@ -95,12 +104,15 @@ std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& s
 }
 
 std::string to_string(ClosureKind closure) {
-  constexpr std::array names = {"avf", "sav", "lm", "dm"};
+  constexpr std::array names = {"avf", "sav", "lm", "dm", "none"};
   return names[static_cast<std::size_t>(closure)];
 }
 
 std::string to_string(PropagatorKind propagator) { return propagator == exponential ? "exponential" : "cayley"; }
 
-std::string to_string(Composition composition) { return composition == whole ? "whole" : "strang"; }
+std::string to_string(Composition composition) {
+  constexpr std::array names = {"whole", "strang", "collocation"};
+  return names[static_cast<std::size_t>(composition)];
+}
 
 }  // namespace seiche

@@ -1,4 +1,4 @@
-// The list of methods: closure × propagator × composition. One row is one method.
+// The list of methods: closure × propagator × composition, and collocation. One row is one method.
 #pragma once
 
 #include <seiche/core/stepper.hpp>
@@ -13,8 +13,8 @@
 
 namespace seiche {
 
-enum class ClosureKind { avf, sav, lm, dm };
-enum class Composition { whole, strang };
+enum class ClosureKind { avf, sav, lm, dm, none };
+enum class Composition { whole, strang, collocation };
 enum class AuxiliaryMode { transport, frozen, refresh };
 enum class ScalarSolver { robust, newton };
 

@@ -65,6 +65,7 @@ class BarPotential final : public PointwisePotential {
     }
   }
 
+  int homogeneity() const override { return homogeneity_of(w_); }
   bool grows_outward() const override { return w_.grows_outward(); }  // u·∇V = Σ e W'(e)
 
  private:

@@ -60,6 +60,7 @@ class BondPotential final : public PointwisePotential {
     }
   }
 
+  int homogeneity() const override { return homogeneity_of(w_); }
   bool grows_outward() const override { return w_.grows_outward(); }
 
   const W& w() const { return w_; }

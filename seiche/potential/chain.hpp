@@ -49,6 +49,10 @@ class ChainPotential final : public PointwisePotential {
     }
   }
 
+  int homogeneity() const override {
+    const int of_ground = homogeneity_of(ground_);
+    return of_ground == bonds_.homogeneity() ? of_ground : 0;
+  }
   bool grows_outward() const override { return bonds_.grows_outward() && ground_.grows_outward(); }
 
  private:

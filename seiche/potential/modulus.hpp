@@ -72,6 +72,7 @@ class ModulusPotential final : public PointwisePotential {
     }
   }
 
+  int homogeneity() const override { return 2 * homogeneity_of(w_); }
   bool grows_outward() const override { return w_.grows_outward(); }  // ψ·∇V = 2ρW'(ρ)
 
  private:

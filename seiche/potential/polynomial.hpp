@@ -56,11 +56,29 @@ struct Polynomial {
     }
   }
 
+  // The only power there is, or 0.
+  int homogeneity() const {
+    int power = 0;
+    for (int i = 0; i <= Degree; ++i) {
+      if (c[static_cast<std::size_t>(i)] == 0) continue;
+      if (power != 0 || i == 0) return 0;
+      power = i;
+    }
+    return power;
+  }
+
   bool grows_outward() const {
     for (std::size_t i = 1; i <= Degree; ++i)
       if (c[i] < 0 || (i % 2 == 1 && c[i] != 0)) return false;
     return true;
   }
 };
+
+// 0 for what is not a polynomial.
+template <PointPotential W>
+int homogeneity_of(const W& w) {
+  if constexpr (requires { w.homogeneity(); }) return w.homogeneity();
+  return 0;
+}
 
 }  // namespace seiche

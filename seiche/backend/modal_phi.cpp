@@ -1,0 +1,302 @@
+#include <seiche/backend/modal_phi.hpp>
+#include <seiche/backend/modal_propagator.hpp>
+#include <seiche/backend/mode_table.hpp>
+#include <seiche/backend/phi_functions.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
+#include <array>
+#include <complex>
+#include <type_traits>
+
+namespace seiche {
+namespace {
+
+using Block = Eigen::MatrixXcd;
+
+// S, L = SM − D₀ and Q of one mode, real where they can be and of a size known to the compiler where it is common.
+template <class Matrix>
+struct ModeBlocks {
+  Matrix S, L, Q;
+};
+
+struct Symbols {
+  Modes modes;
+  BlockStencil S, M, D0;
+
+  template <class Matrix>
+  static Matrix block_of(const BlockStencil& stencil, const Mode& mode) {
+    const Index m = stencil.fields();
+    Matrix block(m, m);
+    for (Index i = 0; i < m; ++i) {
+      for (Index j = 0; j < m; ++j) {
+        const std::complex<double> c = stencil(i, j).symbol(mode);
+        if constexpr (std::is_same_v<typename Matrix::Scalar, double>) {
+          block(i, j) = c.real();
+        } else {
+          block(i, j) = c;
+        }
+      }
+    }
+    return block;
+  }
+
+  template <class Matrix>
+  ModeBlocks<Matrix> blocks(Index k) const {
+    const Mode mode = modes[k];
+    const Matrix s = block_of<Matrix>(S, mode);
+    const Matrix m = block_of<Matrix>(M, mode);
+    const Matrix d = block_of<Matrix>(D0, mode);
+    return {s, s * m - d, dissipation_matrix<Matrix>(s, m, d)};
+  }
+
+  bool are_real() const {
+    for (const BlockStencil* a : {&S, &M, &D0})
+      for (Index i = 0; i < a->fields(); ++i)
+        for (Index j = 0; j < a->fields(); ++j)
+          if (!(*a)(i, j).is_symmetric()) return false;
+    return true;
+  }
+};
+
+// The columns that the sums of a map take: the fields of z, then those of each force.
+class Columns {
+ public:
+  Columns(const PhiRows& rows, const ModalExtent& extent) : slots_(extent.slots()) {
+    const bool gradients = rows.kind == PhiRows::Forces::gradients;
+    if (rows.of_state)
+      for (Index f = 0; f < extent.fields; ++f) columns_.push_back({0, f});
+    for (Index j = 0; j < rows.forces; ++j)
+      for (Index f = gradients ? extent.first : 0; f < (gradients ? extent.first + extent.count : extent.fields); ++f)
+        columns_.push_back({j + 1, f});
+    pointers_.resize(columns_.size());
+  }
+
+  struct Column {
+    Index block;  // of PhiRowBlocks: 0 for z, 1 for the first force, …
+    Index field;
+  };
+  Index size() const { return static_cast<Index>(columns_.size()); }
+  const Column& operator[](Index j) const { return columns_[static_cast<std::size_t>(j)]; }
+
+  std::span<const double* const> of(const Vector& z, std::span<const Vector> forces) const {
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      const auto& [block, field] = columns_[j];
+      const Vector& v = block == 0 ? z : forces[static_cast<std::size_t>(block) - 1];
+      pointers_[j] = v.data() + field * slots_;
+    }
+    return pointers_;
+  }
+
+ private:
+  Index slots_;
+  std::vector<Column> columns_;
+  mutable std::vector<const double*> pointers_;
+};
+
+class ModalPhiMap final : public PhiMap {
+ public:
+  ModalPhiMap(const PhiRows& rows, const ModalExtent& extent)
+      : columns_(rows, extent),
+        first_(rows.outputs == PhiRows::Outputs::support ? extent.first : 0),
+        count_(rows.outputs == PhiRows::Outputs::support ? extent.count : extent.fields),
+        slots_(extent.slots()),
+        threads_(extent.threads),
+        table_(extent.layout, extent.modes, static_cast<Index>(rows.rows.size()) * count_, columns_.size()) {
+    out_.resize(rows.rows.size() * static_cast<std::size_t>(count_));
+  }
+
+  template <class Matrix>
+  void fill(const PhiRows& rows, const Symbols& symbols, double h) {
+    for (Index k = 0; k < symbols.modes.count(); ++k) {
+      const ModeBlocks<Matrix> mode = symbols.blocks<Matrix>(k);
+      PhiRowBlocks<Matrix> blocks(rows, mode.L, mode.S, h);
+      for (std::size_t i = 0; i < rows.rows.size(); ++i) {
+        const std::vector<Matrix>& row = blocks.of(rows.rows[i]);
+        for (Index f = 0; f < count_; ++f)
+          for (Index j = 0; j < columns_.size(); ++j)
+            table_.set(k, static_cast<Index>(i) * count_ + f, j,
+                       row[static_cast<std::size_t>(columns_[j].block)](first_ + f, columns_[j].field));
+      }
+    }
+  }
+
+  void apply(const Vector& z, std::span<const Vector> forces, std::span<Vector> out) const override {
+    std::size_t i = 0;
+    for (Vector& v : out)
+      for (Index f = 0; f < count_; ++f) out_[i++] = v.data() + (first_ + f) * slots_;
+    table_.apply(columns_.of(z, forces), out_, threads_);
+  }
+
+ private:
+  Columns columns_;
+  Index first_, count_, slots_;
+  int threads_;
+  ModeTable table_;
+  mutable std::vector<double*> out_;
+};
+
+class ModalPhiForms final : public PhiForms {
+ public:
+  ModalPhiForms(std::span<const PhiEvaluator::Form> forms, const ModalExtent& extent)
+      : columns_(forms.front().rows, extent),
+        threads_(extent.threads),
+        forms_(extent.layout, extent.modes, static_cast<Index>(forms.size()), columns_.size()) {}
+
+  template <class Matrix>
+  void fill(std::span<const PhiEvaluator::Form> forms, const Symbols& symbols, double h) {
+    using Wide = Eigen::Matrix<typename Matrix::Scalar, Matrix::RowsAtCompileTime, Eigen::Dynamic>;
+    using Gram = Eigen::Matrix<typename Matrix::Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+    Wide row(symbols.S.fields(), columns_.size());
+    for (Index k = 0; k < symbols.modes.count(); ++k) {
+      const ModeBlocks<Matrix> mode = symbols.blocks<Matrix>(k);
+      for (std::size_t l = 0; l < forms.size(); ++l) {
+        PhiRowBlocks<Matrix> blocks(forms[l].rows, mode.L, mode.S, h);
+        Gram gram = Gram::Zero(columns_.size(), columns_.size());
+        for (std::size_t i = 0; i < forms[l].rows.rows.size(); ++i) {
+          const std::vector<Matrix>& of_row = blocks.of(forms[l].rows.rows[i]);
+          for (Index j = 0; j < columns_.size(); ++j)
+            row.col(j) = of_row[static_cast<std::size_t>(columns_[j].block)].col(columns_[j].field);
+          gram += forms[l].coefficients[i] * (row.adjoint() * (mode.Q * row));
+        }
+        for (Index i = 0; i < columns_.size(); ++i)
+          for (Index j = i; j < columns_.size(); ++j) forms_.set(k, static_cast<Index>(l), i, j, gram(i, j));
+      }
+    }
+  }
+
+  void apply(const Vector& z, std::span<const Vector> forces, std::span<double> values) const override {
+    forms_.apply(columns_.of(z, forces), values, threads_);
+  }
+
+ private:
+  Columns columns_;
+  int threads_;
+  ModeForms forms_;
+};
+
+// body<Matrix>() with the type of the blocks.
+template <class Body>
+auto with_block_type(const Symbols& symbols, const Body& body) {
+  const Index m = symbols.S.fields();
+  const auto sized = [&]<class Scalar>() {
+    if (m == 1) return body.template operator()<Eigen::Matrix<Scalar, 1, 1>>();
+    if (m == 2) return body.template operator()<Eigen::Matrix<Scalar, 2, 2>>();
+    return body.template operator()<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>();
+  };
+  return symbols.are_real() ? sized.template operator()<double>() : sized.template operator()<std::complex<double>>();
+}
+
+class ModalPhi final : public PhiEvaluator {
+ public:
+  explicit ModalPhi(const ModalOperators& o)
+      : symbols_{Modes(o.grid), o.S, o.M, o.D0},
+        extent_{.fields = o.S.fields(),
+                .modes = symbols_.modes.count(),
+                .layout = layout(),
+                .first = o.first,
+                .count = o.count,
+                .threads = o.threads} {
+    judge_dissipation();
+    find_casimirs();
+  }
+
+  std::unique_ptr<PhiMap> map(const PhiRows& rows, double h) const override {
+    return with_block_type(symbols_, [&]<class Matrix>() {
+      auto map = std::make_unique<ModalPhiMap>(rows, extent_);
+      map->fill<Matrix>(rows, symbols_, h);
+      return map;
+    });
+  }
+
+  std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const override {
+    return with_block_type(symbols_, [&]<class Matrix>() {
+      auto made = std::make_unique<ModalPhiForms>(forms, extent_);
+      made->fill<Matrix>(forms, symbols_, h);
+      return made;
+    });
+  }
+
+  Dissipation dissipation() const override { return dissipation_; }
+
+  bool without_casimirs(const Vector& z, Vector& d) const override {
+    if (casimirs_.empty()) return false;
+    d = z;
+    const Index slots = extent_.slots();
+    const bool pairs = extent_.layout != ModeLayout::singles;
+    for (const auto& [k, projector] : casimirs_) {
+      for (Index i = 0; i < extent_.fields; ++i) {
+        std::complex<double> part = 0;
+        for (Index j = 0; j < extent_.fields; ++j) {
+          const double* at = z.data() + j * slots + (pairs ? 2 * k : k);
+          part += projector(i, j) * std::complex<double>(at[0], pairs ? at[1] : 0.0);
+        }
+        double* at = d.data() + i * slots + (pairs ? 2 * k : k);
+        at[0] -= part.real();
+        if (pairs) at[1] -= part.imag();
+      }
+    }
+    return true;
+  }
+
+ private:
+  ModeLayout layout() const {
+    if (!symbols_.modes.are_pairs()) return ModeLayout::singles;
+    return symbols_.are_real() ? ModeLayout::real_pairs : ModeLayout::complex_pairs;
+  }
+
+  // Damping and sym(S) must leave alone what V depends on for Q to be quadratic.
+  void judge_dissipation() {
+    dissipation_ = {true, true, true};
+    double smallest = 0;
+    double largest = 0;
+    for (Index k = 0; k < symbols_.modes.count(); ++k) {
+      const Block S = symbols_.S.symbol(symbols_.modes[k]);
+      const Block twice_sym = S + S.adjoint();
+      const Block D0 = symbols_.D0.symbol(symbols_.modes[k]);
+      for (Index f = extent_.first; f < extent_.first + extent_.count; ++f)
+        dissipation_.is_quadratic = dissipation_.is_quadratic && D0.row(f).isZero(0) && twice_sym.row(f).isZero(0);
+      if (D0.isZero(0) && twice_sym.isZero(0)) continue;
+      dissipation_.is_zero = false;
+      const Block Q = dissipation_matrix<Block>(S, symbols_.M.symbol(symbols_.modes[k]), D0);
+      const Eigen::VectorXd rates = Eigen::SelfAdjointEigenSolver<Block>(Q, Eigen::EigenvaluesOnly).eigenvalues();
+      smallest = std::min(smallest, rates.minCoeff());
+      largest = std::max(largest, rates.maxCoeff());
+    }
+    dissipation_.is_nonnegative = smallest >= -1e-13 * largest;
+  }
+
+  void find_casimirs() {
+    double size = 0;
+    for (Index k = 0; k < symbols_.modes.count(); ++k)
+      size = std::max(size, symbols_.S.symbol(symbols_.modes[k]).cwiseAbs().maxCoeff());
+    for (Index k = 0; k < symbols_.modes.count(); ++k) {
+      const Block S = symbols_.S.symbol(symbols_.modes[k]);
+      // A determinant may be small and S not singular, but never the other way round.
+      if (std::abs(S.determinant()) > std::pow(1e-13 * size, static_cast<double>(extent_.fields))) continue;
+      const Eigen::JacobiSVD<Block> svd(S, Eigen::ComputeFullV);
+      Block projector = Block::Zero(extent_.fields, extent_.fields);
+      for (Index i = 0; i < extent_.fields; ++i)
+        if (svd.singularValues()[i] <= 1e-13 * size) projector += svd.matrixV().col(i) * svd.matrixV().col(i).adjoint();
+      casimirs_.push_back({k, projector});
+    }
+  }
+
+  struct Casimir {
+    Index mode;
+    Block projector;
+  };
+  Symbols symbols_;
+  ModalExtent extent_;
+  Dissipation dissipation_;
+  std::vector<Casimir> casimirs_;
+};
+
+}  // namespace
+
+std::unique_ptr<PhiEvaluator> modal_phi(const ModalOperators& operators) {
+  return std::make_unique<ModalPhi>(operators);
+}
+
+}  // namespace seiche

@@ -1,0 +1,62 @@
+// Sums over a few vectors with factors of their own for each mode, in one pass.
+#pragma once
+
+#include <seiche/backend/mode_arrays.hpp>
+#include <seiche/core/lanes.hpp>
+
+#include <complex>
+#include <span>
+#include <vector>
+
+namespace seiche {
+
+// So many factors per mode in the order in which a pass reads them: eight slots are taken at a time, and their factors lie
+// side by side. One stream through memory, however many factors there are.
+class ModeFactors {
+ public:
+  ModeFactors(ModeLayout layout, Index modes, Index per_mode);
+  void set(Index mode, Index which, std::complex<double> factor);
+
+  ModeLayout layout() const { return layout_; }
+  Index slots() const { return slots_; }
+  Index chunks() const { return (slots_ + lane_count - 1) / lane_count; }
+  Index stride() const { return lane_count / slots_per_mode(layout_) * factors_per_mode(layout_); }
+  const double* of_chunk(Index chunk) const { return factors_.data() + chunk * per_mode_ * stride(); }
+
+ private:
+  ModeLayout layout_;
+  Index slots_, per_mode_;
+  std::vector<double> factors_;
+};
+
+// Inputs and outputs are the slots of one field each.
+class ModeTable {
+ public:
+  ModeTable(ModeLayout layout, Index modes, Index rows, Index columns);
+  void set(Index mode, Index row, Index column, std::complex<double> factor) {
+    factors_.set(mode, row * columns_ + column, factor);
+  }
+  // out[i] ← Σ_j factor(i, j) · in[j]; an output may be an input.
+  void apply(std::span<const double* const> in, std::span<double* const> out, int threads) const;
+
+ private:
+  Index columns_;
+  ModeFactors factors_;
+};
+
+// Hermitian forms, several of the same inputs.
+class ModeForms {
+ public:
+  ModeForms(ModeLayout layout, Index modes, Index forms, Index columns);
+  // i ≤ j: the factor of (j, i) is its conjugate.
+  void set(Index mode, Index form, Index i, Index j, std::complex<double> factor);
+  // values[l] ← Σ_modes Re Σ_ij x̄_i factor_l(i, j) x_j, in an order that does not depend on the threads
+  void apply(std::span<const double* const> in, std::span<double> values, int threads) const;
+
+ private:
+  Index columns_, forms_;
+  ModeFactors factors_;
+  mutable std::vector<double> sums_;
+};
+
+}  // namespace seiche

@@ -1,0 +1,231 @@
+#include <seiche/core/error.hpp>
+#include <seiche/method/egc.hpp>
+#include <seiche/method/energy_interval.hpp>
+#include <seiche/method/energy_projection.hpp>
+#include <seiche/method/gauss.hpp>
+#include <seiche/method/step_cache.hpp>
+#include <seiche/method/step_dissipation.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+constexpr int max_halvings = 8;
+constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| is no solution
+
+// Weights of z(θ) in the forces at the nodes: k! θ^{k+1} C_kj.
+std::vector<double> collocation_weights(const Eigen::MatrixXd& C, double theta) {
+  const Index s = C.rows();
+  std::vector<double> weights;
+  for (Index j = 0; j < s; ++j) {
+    double factor = theta;
+    for (Index k = 0; k < s; ++k) {
+      weights.push_back(factor * C(k, j));
+      factor *= theta * static_cast<double>(k + 1);
+    }
+  }
+  return weights;
+}
+
+class Collocation final : public Stepper {
+ public:
+  Collocation(const System& system, int stages)
+      : system_(system),
+        phi_(system.make_phi()),
+        rule_(stages),
+        output_{.forces = stages,
+                .order = stages,
+                .kind = system.damping->is_frozen() ? PhiRows::Forces::gradients : PhiRows::Forces::states,
+                .weights = [C = interpolation(rule_.nodes)](double theta) { return collocation_weights(C, theta); }},
+        dissipation_(system, *phi_, output_, rule_, GaussRule(stages + 2)),
+        projection_(system, *phi_),
+        forces_(static_cast<std::size_t>(stages)) {
+    const Index size = system.space->size();
+    for (Vector& f : forces_) f.setZero(size);
+    result_.assign(1, Vector::Zero(size));
+    for (Vector* v : {&gradient_, &rest_}) v->setZero(size);
+  }
+
+  void begin(State& s) override {
+    s.energy = system_.energy(s.z);
+    if (!std::isfinite(s.energy))
+      throw Error("the energy of the initial state is not a finite number (H = {})", s.energy);
+    s.history.assign(forces_.size(), Vector::Zero(s.z.size()));
+    s.history_h = 0;
+  }
+
+  StepReport step(State& s, double h) override {
+    StepReport report;
+    if (take(s, s.t, h, report)) {
+      ++s.n;
+      s.t += h;
+      return report;
+    }
+    saved_ = s;
+    if (take_halves(s, s.t, h, 1, report)) {
+      s.n = saved_.n + 1;
+      s.t = saved_.t + h;
+      return report;
+    }
+    s = saved_;
+    report.status = StepReport::Status::failed;
+    report.message = fmt::format(
+        "no point near the solution has an energy H ≤ {:.9g} in the step from t = {:.6g} with h = {:.6g}, nor after {} "
+        "halvings of it: H(0) = {:.6g}",
+        s.energy, s.t, h, max_halvings, projection_.energy_of_rest());
+    return report;
+  }
+
+  EnergyReading energy(const State& s) const override {
+    EnergyReading reading;
+    reading.H = reading.modified = system_.energy(s.z);
+    reading.round_off = reading.modified_round_off = system_.energy_round_off(s.z);
+    return reading;
+  }
+  bool has_modified_energy() const override { return false; }
+
+ private:
+  int stages() const { return static_cast<int>(forces_.size()); }
+
+  struct Tables {
+    std::unique_ptr<PhiMap> nodes;  // forces → Z_i
+    std::unique_ptr<PhiMap> end;    // forces → ẑ
+    std::unique_ptr<PhiMap> free;   // e^{hL}z
+  };
+
+  Tables& tables(double h) {
+    return cache_.at(h, [&] {
+      auto made = std::make_unique<Tables>();
+      const bool all = evaluates_states();
+      made->nodes = phi_->map(output_.at(rule_.nodes, all ? PhiRows::Outputs::all : PhiRows::Outputs::support), h);
+      made->end = phi_->map(output_.at(Eigen::VectorXd::Ones(1), PhiRows::Outputs::all), h);
+      made->free = phi_->map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h);
+      return made;
+    });
+  }
+
+  // Are all components of Z_i looked at, or those that V depends on?
+  bool evaluates_states() const {
+    return output_.kind == PhiRows::Forces::states || dissipation_.kind() == StepDissipation::Kind::general;
+  }
+
+  // v ← N(t, v), or ∇V(v) where forces are gradients.
+  void evaluate(double t, Vector& v, double weight, StepDissipation::Amount* dissipated) {
+    const bool gradients = output_.kind == PhiRows::Forces::gradients;
+    if (gradients && dissipated == nullptr) {
+      system_.potential->value_and_gradient(v, v);
+      return;
+    }
+    system_.potential->gradient(v, gradient_);
+    if (dissipated != nullptr) dissipation_.add(t, v, gradient_, weight, dissipated->coarse, dissipated->negative);
+    if (gradients) {
+      v.swap(gradient_);
+      return;
+    }
+    system_.damping->apply_rest(t, v, rest_);
+    system_.linear->apply_S(gradient_, v);
+    v -= rest_;
+  }
+
+  // First guess of the forces: those of the last step, extrapolated; or N(zⁿ) throughout. Returns how many sweeps it needs.
+  int predict(const State& s, double t, double h) {
+    if (s.history_h == 0) {
+      forces_[0] = s.z;
+      evaluate(t, forces_[0], 0, nullptr);
+      for (std::size_t i = 1; i < forces_.size(); ++i) forces_[i] = forces_[0];
+      return 2 * stages();
+    }
+    if (const double ratio = h / s.history_h; ratio != ratio_) {
+      ratio_ = ratio;
+      extrapolation_ = evaluation(rule_.nodes, Eigen::VectorXd::Ones(stages()) + ratio * rule_.nodes);
+    }
+    constexpr Index chunk = 1024;  // stays in the first-level cache for all forces
+    for (Index begin = 0; begin < s.z.size(); begin += chunk) {
+      const Index size = std::min(chunk, s.z.size() - begin);
+      for (Index i = 0; i < stages(); ++i) {
+        auto out = forces_[static_cast<std::size_t>(i)].segment(begin, size);
+        out = extrapolation_(i, 0) * s.history[0].segment(begin, size);
+        for (Index j = 1; j < stages(); ++j)
+          out += extrapolation_(i, j) * s.history[static_cast<std::size_t>(j)].segment(begin, size);
+      }
+    }
+    return stages();
+  }
+
+  // One step; false, with s as it was, where no admissible point was found.
+  bool take(State& s, double t, double h, StepReport& report) {
+    const Tables& of_h = tables(h);
+    const int sweeps = predict(s, t, h);
+    const bool general = dissipation_.kind() == StepDissipation::Kind::general;
+    StepDissipation::Amount coarse;
+    for (int sweep = 1; sweep <= sweeps; ++sweep) {
+      of_h.nodes->apply(s.z, forces_, forces_);
+      for (Index i = 0; i < stages(); ++i)
+        evaluate(t + rule_.nodes[i] * h, forces_[static_cast<std::size_t>(i)], h * rule_.weights[i],
+                 general && sweep == sweeps ? &coarse : nullptr);
+    }
+    of_h.end->apply(s.z, forces_, result_);
+    Vector& z = result_[0];
+
+    const double growth = z.norm() / s.z.norm();
+    const bool resolved = std::isfinite(growth) ? growth <= gross_growth : z.isZero(0);
+    double target = s.energy;
+    double cap = s.energy;
+    if (resolved) {
+      const auto amount = dissipation_.measure(t, h, s.z, forces_, general ? &coarse : nullptr);
+      const EnergyTarget wanted =
+          energy_target(s.energy, system_.energy(z), projection_.energy_of_rest(), amount, dissipation_.kind());
+      target = wanted.H;
+      cap = wanted.cap;
+    } else {
+      of_h.free->apply(s.z, {}, result_);
+      ++report.fallbacks;
+    }
+    const EnergyProjection::Outcome outcome = projection_.project(z, target, cap);
+    report.scalar_iterations += outcome.iterations;
+    report.fallbacks += outcome.by_bisection ? 1 : 0;
+    if (!outcome.admissible || !z.allFinite()) return false;
+    s.energy = outcome.H_is_target ? target : outcome.H;
+    s.z.swap(z);
+    s.history.swap(forces_);
+    s.history_h = resolved ? h : 0;
+    return true;
+  }
+
+  // The same time in two steps, or more where that does not help either.
+  bool take_halves(State& s, double t, double h, int depth, StepReport& report) {
+    if (depth > max_halvings) return false;
+    ++report.fallbacks;
+    for (const double begin : {t, t + h / 2}) {
+      s.history_h = 0;
+      if (!take(s, begin, h / 2, report) && !take_halves(s, begin, h / 2, depth + 1, report)) return false;
+    }
+    s.history_h = 0;
+    return true;
+  }
+
+  const System& system_;
+  std::unique_ptr<PhiEvaluator> phi_;
+  GaussRule rule_;
+  DenseOutput output_;
+  StepDissipation dissipation_;
+  EnergyProjection projection_;
+  StepCache<Tables> cache_{8};
+  Eigen::MatrixXd extrapolation_;
+  double ratio_ = 0;
+  std::vector<Vector> forces_, result_;
+  Vector gradient_, rest_;
+  State saved_;
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_egc(const System& system, int stages) {
+  if (!system.make_phi)
+    throw Error("the sparse backend has no φ-functions for egc methods; use backend \"modal\" or \"dense\"");
+  return std::make_unique<Collocation>(system, stages);
+}
+
+}  // namespace seiche

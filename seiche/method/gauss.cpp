@@ -1,0 +1,46 @@
+#include <seiche/method/gauss.hpp>
+
+#include <boost/math/special_functions/legendre.hpp>
+
+#include <vector>
+
+namespace seiche {
+namespace {
+
+// Extended precision: the Vandermonde matrices of four nodes lose two digits.
+using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+LongMatrix powers(const Eigen::VectorXd& points, Eigen::Index count) {
+  LongMatrix v(points.size(), count);
+  for (Eigen::Index i = 0; i < points.size(); ++i) {
+    long double power = 1;
+    for (Eigen::Index k = 0; k < count; ++k, power *= points[i]) v(i, k) = power;
+  }
+  return v;
+}
+
+LongMatrix inverse_of_powers(const Eigen::VectorXd& nodes) { return powers(nodes, nodes.size()).fullPivLu().inverse(); }
+
+}  // namespace
+
+GaussRule::GaussRule(int s) : nodes(s), weights(s) {
+  const std::vector<long double> zeros = boost::math::legendre_p_zeros<long double>(s);  // those ≥ 0
+  const auto set = [&](int i, long double x) {
+    const long double slope = boost::math::legendre_p_prime<long double>(s, x);
+    nodes[i] = static_cast<double>((1 + x) / 2);
+    weights[i] = static_cast<double>(1 / ((1 - x * x) * slope * slope));
+  };
+  const int upper = static_cast<int>(zeros.size());
+  for (int i = 0; i < upper; ++i) {
+    set(s - upper + i, zeros[static_cast<std::size_t>(i)]);
+    set(upper - 1 - i, -zeros[static_cast<std::size_t>(i)]);
+  }
+}
+
+Eigen::MatrixXd interpolation(const Eigen::VectorXd& nodes) { return inverse_of_powers(nodes).cast<double>(); }
+
+Eigen::MatrixXd evaluation(const Eigen::VectorXd& nodes, const Eigen::VectorXd& points) {
+  return (powers(points, nodes.size()) * inverse_of_powers(nodes)).cast<double>();
+}
+
+}  // namespace seiche

@@ -1,0 +1,36 @@
+// What a method computes once for each step size.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace seiche {
+
+// The least recently used entry goes first.
+template <class T>
+class StepCache {
+ public:
+  explicit StepCache(std::size_t capacity) : capacity_(capacity) {}
+
+  // make(): a std::unique_ptr<T>, asked for where h is new.
+  template <class Make>
+  T& at(double h, const Make& make) {
+    const auto found = std::find_if(entries_.begin(), entries_.end(), [h](const auto& e) { return e.first == h; });
+    if (found == entries_.end()) {
+      auto made = make();
+      if (entries_.size() == capacity_) entries_.pop_back();
+      entries_.insert(entries_.begin(), {h, std::move(made)});
+    } else {
+      std::rotate(entries_.begin(), found, found + 1);
+    }
+    return *entries_.front().second;
+  }
+
+ private:
+  std::size_t capacity_;
+  std::vector<std::pair<double, std::unique_ptr<T>>> entries_;
+};
+
+}  // namespace seiche

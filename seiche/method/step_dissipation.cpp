@@ -1,0 +1,94 @@
+#include <seiche/method/step_dissipation.hpp>
+
+#include <array>
+
+namespace seiche {
+
+PhiRows DenseOutput::at(const Eigen::VectorXd& thetas, PhiRows::Outputs outputs) const {
+  PhiRows rows{.rows = {}, .forces = forces, .order = order, .kind = kind, .outputs = outputs};
+  for (const double theta : thetas) rows.rows.push_back({theta, weights(theta)});
+  return rows;
+}
+
+StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output,
+                                 const GaussRule& coarse, const GaussRule& fine)
+    : system_(system), phi_(phi), output_(std::move(output)), coarse_(coarse), fine_(fine) {
+  const PhiEvaluator::Dissipation d = phi.dissipation();
+  const bool frozen = system.damping->is_frozen();
+  kind_ = !frozen                              ? Kind::general
+          : d.is_zero                          ? Kind::none
+          : d.is_quadratic && d.is_nonnegative ? Kind::quadratic
+                                               : Kind::general;
+  needs_gradient_ = !d.is_quadratic || system.damping->touches_potential();
+  if (kind_ != Kind::general) return;
+  const Index size = system.space->size();
+  node_.assign(1, Vector::Zero(size));
+  for (Vector* v : {&gradient_, &scratch_, &gradient_H_}) v->setZero(size);
+}
+
+StepDissipation::Tables& StepDissipation::tables(double h) {
+  return cache_.at(h, [&] {
+    auto made = std::make_unique<Tables>();
+    if (kind_ == Kind::quadratic) {
+      const auto form = [&](const GaussRule& rule) {
+        PhiEvaluator::Form f{output_.at(rule.nodes, PhiRows::Outputs::all), {}};
+        for (const double w : rule.weights) f.coefficients.push_back(h * w);
+        return f;
+      };
+      const std::array forms = {form(fine_), form(coarse_)};
+      made->forms = phi_.forms(forms, h);
+      return made;
+    }
+    const auto nodes = [&](const GaussRule& rule) {
+      std::vector<std::unique_ptr<PhiMap>> maps;
+      for (const double theta : rule.nodes)
+        maps.push_back(phi_.map(output_.at(Eigen::VectorXd::Constant(1, theta), PhiRows::Outputs::all), h));
+      return maps;
+    };
+    made->fine = nodes(fine_);
+    made->coarse = nodes(coarse_);
+    return made;
+  });
+}
+
+void StepDissipation::add(double t, const Vector& z, const Vector& gradient, double weight, double& sum,
+                          bool& negative) {
+  const System::Dissipation q = system_.dissipation(t, z, gradient, scratch_, gradient_H_);
+  sum += weight * q.rate;
+  negative = negative || q.rate < -q.round_off;
+}
+
+void StepDissipation::add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces,
+                                const GaussRule& rule, const NodeMaps& maps, double& sum, bool& negative) {
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const auto at = static_cast<Index>(i);
+    maps[i]->apply(z, forces, node_);
+    if (needs_gradient_) system_.potential->gradient(node_[0], gradient_);
+    add(t + rule.nodes[at] * h, node_[0], gradient_, h * rule.weights[at], sum, negative);
+  }
+}
+
+StepDissipation::Amount StepDissipation::measure(double t, double h, const Vector& z, std::span<const Vector> forces,
+                                                 const Amount* coarse) {
+  Amount amount;
+  switch (kind_) {
+    case Kind::none: break;
+    case Kind::quadratic: {
+      std::array<double, 2> values{};
+      tables(h).forms->apply(z, forces, values);
+      amount.fine = values[0];
+      amount.coarse = values[1];
+      break;
+    }
+    case Kind::general:
+      if (coarse != nullptr)
+        amount = *coarse;
+      else
+        add_nodes(t, h, z, forces, coarse_, tables(h).coarse, amount.coarse, amount.negative);
+      add_nodes(t, h, z, forces, fine_, tables(h).fine, amount.fine, amount.negative);
+      break;
+  }
+  return amount;
+}
+
+}  // namespace seiche

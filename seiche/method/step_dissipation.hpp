@@ -1,0 +1,70 @@
+// What damping takes from H over one step, ∫ Q dt with Q = ∇Hᵀ(Dz − S∇H), by two quadratures on the dense output of a method.
+#pragma once
+
+#include <seiche/core/system.hpp>
+#include <seiche/method/gauss.hpp>
+#include <seiche/method/step_cache.hpp>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace seiche {
+
+// The dense output of a method: its solution at θ = (t − tₙ)/h as a sum of φ-functions of the forces of the step.
+struct DenseOutput {
+  Index forces = 0;
+  Index order = 0;
+  PhiRows::Forces kind = PhiRows::Forces::gradients;
+  std::function<std::vector<double>(double theta)> weights;  // of PhiRow
+
+  PhiRows at(const Eigen::VectorXd& thetas, PhiRows::Outputs outputs) const;
+};
+
+class StepDissipation {
+ public:
+  // `system` and `phi` outlive it.
+  StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, const GaussRule& coarse,
+                  const GaussRule& fine);
+
+  // How Q can be known.
+  enum class Kind {
+    none,       // Q = 0
+    quadratic,  // Q ⪰ 0 is a form of z: both quadratures together cost one pass over the modes, and no gradient
+    general,    // Q is evaluated node by node
+  };
+  Kind kind() const { return kind_; }
+
+  struct Amount {
+    double fine = 0.0, coarse = 0.0;
+    bool negative =
+        false;  // is some Q beyond round-off below zero? Then the energy-compatible damping condition fails.
+  };
+  // Of the step from (t, z) with these forces. `coarse`: where it is known already (general), else null.
+  Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Amount* coarse = nullptr);
+
+  // sum += weight · Q(z) at time t; negative is set where Q is below zero.
+  void add(double t, const Vector& z, const Vector& potential_gradient, double weight, double& sum, bool& negative);
+
+ private:
+  using NodeMaps = std::vector<std::unique_ptr<PhiMap>>;  // one for each node of a rule
+  struct Tables {
+    std::unique_ptr<PhiForms> forms;  // quadratic
+    NodeMaps fine, coarse;            // general
+  };
+  void add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces, const GaussRule& rule,
+                 const NodeMaps& maps, double& sum, bool& negative);
+  Tables& tables(double h);
+
+  const System& system_;
+  const PhiEvaluator& phi_;
+  DenseOutput output_;
+  GaussRule coarse_, fine_;
+  Kind kind_;
+  bool needs_gradient_;
+  StepCache<Tables> cache_{8};
+  std::vector<Vector> node_;
+  Vector gradient_, scratch_, gradient_H_;
+};
+
+}  // namespace seiche
