@@ -85,7 +85,7 @@ Floor measure_floor(const Problem& problem, const FloorOptions& options) {
   Vector slots = Vector::Zero(transform->slots());
   const std::span<double> all(slots.data(), static_cast<std::size_t>(slots.size()));
   const auto transforms = [&] {
-    for (int i = 0; i < 2; ++i) transform->through_values(all, [](std::span<double>) { return 0.0; });
+    for (int i = 0; i < 2; ++i) transform->through_values(all, all, [](std::span<double>) { return 0.0; });
   };
   const Index n = problem.grid.unknowns();
   Vector a = Vector::Zero(n), b = Vector::Ones(n), c = Vector::Ones(n);

@@ -42,12 +42,13 @@ double GridPotential::magnitude(const Vector& z) const {
 double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) const {
   if (!pointwise_) return 0;
   ++counts_.gradients;
-  if (&z != &gradient) gradient.segment(support_.begin, support_.size) = z.segment(support_.begin, support_.size);
   const auto slopes = [this](std::span<double> values) {
     return pointwise_->value_and_gradient_in_place(transform_->value_scale(), transform_->slot_scale(), values);
   };
   if (pointwise_->is_local())
-    return transform_->through_values(segment(gradient, support_.begin, support_.size), slopes);
+    return transform_->through_values(segment(z, support_.begin, support_.size),
+                                      segment(gradient, support_.begin, support_.size), slopes);
+  if (&z != &gradient) gradient.segment(support_.begin, support_.size) = z.segment(support_.begin, support_.size);
   const Index n = transform_->unknowns();
   const Index slots = transform_->slots();
   const auto field = [&](Index f) { return segment(gradient, support_.begin + f * slots, slots); };

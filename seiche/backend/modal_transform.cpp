@@ -64,7 +64,14 @@ class ModalTransform final : public FieldTransform {
     });
   }
 
-  double through_values(std::span<double> slots, const Pointwise& f) const override {
+  double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const override {
+    if (from.data() != slots.data()) {
+      // On all threads: one alone would draw into its cache what the passes over the modes have left in those of others.
+      for_blocks(batch_count_, threads_, [&](Index batch) {
+        const Index begin = row(batch) * rows_->slots();
+        std::copy_n(from.data() + begin, rows_in(batch) * rows_->slots(), slots.data() + begin);
+      });
+    }
     columns_to_values(slots);
     for_blocks(batch_count_, threads_, [&](Index batch) {
       double* at = slots.data() + row(batch) * rows_->slots();

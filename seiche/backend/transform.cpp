@@ -18,7 +18,10 @@ class IdentityTransform final : public FieldTransform {
   void to_values(std::span<double> slots, std::span<double> values) const override {
     std::copy(slots.begin(), slots.end(), values.begin());
   }
-  double through_values(std::span<double> slots, const Pointwise& f) const override { return f(slots); }
+  double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const override {
+    if (from.data() != slots.data()) std::copy(from.begin(), from.end(), slots.begin());
+    return f(slots);
+  }
 
  private:
   Index n_;

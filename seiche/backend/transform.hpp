@@ -25,10 +25,11 @@ class FieldTransform {
   virtual void to_slots(std::span<const double> values, std::span<double> slots) const = 0;
   virtual void to_values(std::span<double> slots, std::span<double> values) const = 0;
 
-  // slots ← to_slots(f(to_values(slots))), where f overwrites the values of some points and returns a number; the sum of
-  // these. f must treat every point alike and alone. Blocks of points pass through the cache, on several threads.
+  // slots ← to_slots(f(to_values(from))), where f overwrites the values of some points and returns a number; the sum of
+  // these. f must treat every point alike and alone. Blocks of points pass through the cache, on several threads. `from`
+  // has as many coordinates as `slots`, and is the same array or apart from it; then it is kept.
   using Pointwise = std::function<double(std::span<double> values)>;
-  virtual double through_values(std::span<double> slots, const Pointwise& f) const = 0;
+  virtual double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const = 0;
 };
 
 std::unique_ptr<FieldTransform> identity_transform(Index unknowns);
