@@ -16,13 +16,15 @@
 #include <seiche/output/progress.hpp>
 #include <seiche/output/snapshots.hpp>
 #include <seiche/output/summary.hpp>
+#include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <memory>
+#include <span>
 
 namespace seiche::cli {
 namespace {
@@ -50,6 +52,23 @@ ExitCode exit_code(const RunReport& report) {
   return report.law == LawVerdict::violated ? law_violated : success;
 }
 
+RunReport integrate(Simulation& simulation, const RunSpec& spec, const LawPromise& law, const std::atomic<bool>& stop,
+                    std::span<Observer* const> observers) {
+  const auto objection = [&] { return negative_rate(simulation.problem()); };
+  if (spec.tolerance) {
+    const AdaptiveOptions options{.tolerance = *spec.tolerance,
+                                  .t_end = spec.t_end,
+                                  .first_h = spec.h,
+                                  .law = law,
+                                  .objection = objection,
+                                  .stop = &stop};
+    return integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(), options,
+                              observers);
+  }
+  const IntegrateOptions options{.h = spec.h, .t_end = spec.t_end, .law = law, .objection = objection, .stop = &stop};
+  return integrate(simulation.system(), simulation.stepper(), simulation.state(), options, observers);
+}
+
 ExitCode run(const RunArguments& arguments) {
   RunSpec spec = load_case(arguments.case_argument);
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
@@ -75,23 +94,19 @@ ExitCode run(const RunArguments& arguments) {
   const bool modified = simulation.stepper().has_modified_energy();
   EnergyTrace trace(directory / "energy.csv", modified, {.every_steps = spec.energy_every});
   Snapshots snapshots(directory / "snapshots.csv", simulation.problem(), *simulation.system().space,
-                      {.every_steps = spec.snapshot_every});
-  Progress progress(stderr, static_cast<std::int64_t>(std::ceil(spec.t_end / spec.h)));
+                      {.every_steps = spec.snapshot_every}, spec.snapshot_interval);
+  Progress progress(stderr, spec.t_end);
   std::vector<Observer*> observers = {&trace, &snapshots};
   if (ProgressBar::is_wanted(arguments.quiet)) observers.push_back(&progress);
 
-  const IntegrateOptions options{.h = spec.h,
-                                 .t_end = spec.t_end,
-                                 .law = law,
-                                 .objection = [&] { return negative_rate(simulation.problem()); },
-                                 .stop = &stop};
-  RunReport report = integrate(simulation.system(), simulation.stepper(), simulation.state(), options, observers);
+  RunReport report = integrate(simulation, spec, law, stop, observers);
   if (!remarks.empty()) report.message += "; " + remarks;
 
   const RunIdentity identity{.problem = problem.name,
                              .method = spec.method,
                              .backend = simulation.backend(),
-                             .h = spec.h,
+                             .h = spec.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec.h,
+                             .tolerance = spec.tolerance,
                              .versions = versions()};
   try {
     write_final_state(directory / "final.txt", simulation.physical());

@@ -24,5 +24,6 @@
 #include <seiche/problem/nls.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/sine_gordon.hpp>
+#include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
 #include <seiche/version.hpp>

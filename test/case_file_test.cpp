@@ -198,7 +198,7 @@ TEST(CaseFile, UnknownSectionsAndKeysAreRefusedWithTheNearestName) {
                     HasSubstr("problem, method, backend, time, output")));
   EXPECT_THAT(complaint(minimal + "[method]\nC = 1\nauxilary = \"frozen\"\n"),
               AllOf(StartsWith("x.toml:5:1: "), HasSubstr("'auxilary'; did you mean 'auxiliary'?"),
-                    HasSubstr("Allowed: name, h, C, auxiliary, scalar_solver")));
+                    HasSubstr("Allowed: name, h, tolerance, C, auxiliary, scalar_solver")));
   EXPECT_THAT(complaint(minimal + "kapa = 1\n"), AllOf(StartsWith("x.toml:3:1: "), HasSubstr("did you mean 'kappa'?")));
   EXPECT_THAT(complaint("h = 1\n" + minimal), HasSubstr("x.toml:1:1: the key 'h' stands outside every section; it "
                                                         "belongs into [method]"));
@@ -444,6 +444,24 @@ TEST(CaseFile, ParametersThatDoNotFitTogetherNameTheCase) {
   const RunSpec spec =
       parse_case("[problem]\nname = \"alpha_fpu\"\nformulation = \"dissipative\"\ngamma = \"exp(-t)\"\n", "x.toml");
   EXPECT_THAT(complaint_of([&] { make_problem(spec); }), AllOf(StartsWith("x.toml: "), HasSubstr("conservative")));
+}
+
+TEST(CaseFile, AToleranceStandsInsteadOfAStepSize) {
+  const RunSpec spec =
+      parse_case(minimal + "[method]\nname = \"egc6\"\ntolerance = 1e-8\n[output]\nsnapshot_interval = 0.5\n",
+                 "x.toml");
+  EXPECT_EQ(spec.tolerance, 1e-8);
+  EXPECT_EQ(spec.h, 0);
+  EXPECT_EQ(spec.snapshot_interval, 0.5);
+  const RunSpec again = parse_case(write_case(spec), "again.toml");
+  EXPECT_EQ(again.tolerance, spec.tolerance);
+  EXPECT_EQ(again.h, 0);
+  EXPECT_EQ(again.snapshot_interval, 0.5);
+  EXPECT_EQ(parse_case(minimal + "[method]\nh = 0.25\ntolerance = 1e-3\n", "x.toml").h, 0.25) << "the first step";
+
+  EXPECT_THAT(complaint(minimal + "[method]\ntolerance = 0\n"), HasSubstr("method.tolerance = 0 must be > 0"));
+  EXPECT_THAT(complaint(minimal + "[method]\ntolerance = 2\n"), HasSubstr("< 1"));
+  EXPECT_THAT(complaint(minimal + "[output]\nsnapshot_interval = 0.5\n"), HasSubstr("needs method.tolerance"));
 }
 
 }  // namespace

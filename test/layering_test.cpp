@@ -52,7 +52,7 @@ const std::vector<ThirdParty> third_party = {
     {"nlohmann/", {"output", "study", "cli"}},
     {"CLI/", {"cli"}},
     {"boost/numeric/odeint", {"study"}},
-    {"boost/math/", {"damping", "study", "method"}},
+    {"boost/math/", {"damping", "study", "method", "run"}},
 };
 
 struct Include {

@@ -179,7 +179,7 @@ TEST(Progress, NeverAsksForARecordAndDrawsAtMostTenTimesASecond) {
   std::FILE* terminal = std::tmpfile();
   ASSERT_TRUE(terminal);
   setenv("NO_COLOR", "1", 1);
-  Progress progress(terminal, 1'000'000'000);
+  Progress progress(terminal, 1e9);
   State state;
   const auto begin = std::chrono::steady_clock::now();
   while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(350)) {

@@ -22,10 +22,10 @@ constexpr std::size_t at_the_end = std::numeric_limits<std::size_t>::max();
 std::vector<std::string> section_names() { return {"problem", "method", "backend", "time", "output", "ensemble"}; }
 
 std::vector<std::string> keys_of(const std::string& section, const ProblemEntry* problem) {
-  if (section == "method") return {"name", "h", "C", "auxiliary", "scalar_solver"};
+  if (section == "method") return {"name", "h", "tolerance", "C", "auxiliary", "scalar_solver"};
   if (section == "backend") return {"name", "plan", "exponential", "pade_degree", "lanczos_dimension"};
   if (section == "time") return {"end"};
-  if (section == "output") return {"directory", "energy_every", "snapshot_every"};
+  if (section == "output") return {"directory", "energy_every", "snapshot_every", "snapshot_interval"};
   if (section == "ensemble") return ensemble_keys(problem);
   std::vector<std::string> keys = {"name", "initial"};
   if (problem != nullptr)
@@ -166,6 +166,7 @@ class Reader {
       spec_.method = read_name("method", value, method_names());
       method = &find_method(spec_.method);
     });
+    read_tolerance();
     read_step_size();
     read_option("C", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
       if (value.kind == CaseValue::Kind::text && value.text == "auto") return;
@@ -196,6 +197,15 @@ class Reader {
     });
   }
 
+  void read_tolerance() {
+    on("method", "tolerance", [&](const std::string& key, const CaseValue& value) {
+      const double tolerance = read_number(key, value);
+      if (tolerance <= 0 || tolerance >= 1)
+        throw Error("{} = {} must be > 0 and < 1: the error of values at the end of the run", key, value.shown());
+      spec_.tolerance = tolerance;
+    });
+  }
+
   void read_step_size() {
     const auto read = [&](const std::string& key, const CaseValue& value) {
       const double h = read_number(key, value);
@@ -205,7 +215,7 @@ class Reader {
       if (spec_.t_end / h > 1e15) throw Error("{} = {} would take {:.3g} steps", key, value.shown(), spec_.t_end / h);
       spec_.h = h;
     };
-    if (on("method", "h", read) || problem_ == nullptr) return;
+    if (on("method", "h", read) || problem_ == nullptr || spec_.tolerance) return;
     spec_.h = read_number("method.h", text_value(problem_->default_h));
     if (spec_.h <= spec_.t_end) return;
     spec_.h = spec_.t_end;
@@ -238,6 +248,7 @@ class Reader {
 
   // A step size typed wrong must not fill the disk.
   void refuse_endless_files() {
+    if (spec_.tolerance) return;          // who knows
     constexpr double most_records = 1e8;  // some gigabytes of energy.csv
     const double records = spec_.t_end / spec_.h / static_cast<double>(spec_.energy_every);
     if (!(records > most_records)) return;
@@ -261,11 +272,22 @@ class Reader {
     refuse_endless_files();
     on("output", "snapshot_every",
        [&](const std::string& key, const CaseValue& value) { spec_.snapshot_every = read_whole(key, value, 0); });
+    on("output", "snapshot_interval", [&](const std::string& key, const CaseValue& value) {
+      const double interval = read_number(key, value);
+      if (interval < 0) throw Error("{} = {} must be ≥ 0", key, value.shown());
+      if (interval > 0 && !spec_.tolerance)
+        throw Error("{} = {} needs method.tolerance; with steps of one size write snapshot_every", key, value.shown());
+      if (interval > 0 && spec_.t_end / interval > 1e7)
+        throw Error("{} = {} would make {:.3g} snapshots", key, value.shown(), spec_.t_end / interval);
+      spec_.snapshot_interval = interval;
+    });
   }
 
   void read_ensemble() {
     const CaseSection* section = table_.section("ensemble");
     if (section == nullptr || !section->is_table) return;
+    if (spec_.tolerance)
+      complain(section->order, section->place, "an ensemble takes steps of one size: write method.h, and no tolerance");
     EnsembleSpec& ensemble = spec_.ensemble.emplace();
     const std::size_t complaints = complaints_.size();
     for (const CaseEntry& entry : section->entries) {

@@ -73,7 +73,9 @@ std::string write_case(const RunSpec& spec) {
   text += fmt::format("initial = {}\n", initial_text(spec.initial));
 
   const MethodOptions& options = spec.method_options;
-  text += fmt::format("\n[method]\nname = {}\nh = {}\n", toml_string(spec.method), step_size(spec.h));
+  text += fmt::format("\n[method]\nname = {}\n", toml_string(spec.method));
+  if (spec.h > 0) text += fmt::format("h = {}\n", step_size(spec.h));
+  if (spec.tolerance) text += fmt::format("tolerance = {}\n", toml_real(*spec.tolerance));
   text += fmt::format("C = {}\n", options.C ? toml_real(*options.C) : "\"auto\"");
   text += fmt::format("auxiliary = \"{}\"\n", to_text(options.auxiliary));
   text += fmt::format("scalar_solver = \"{}\"\n", options.scalar_solver == ScalarSolver::newton ? "newton" : "robust");
@@ -86,6 +88,7 @@ std::string write_case(const RunSpec& spec) {
   text += fmt::format("\n[time]\nend = {}\n", toml_real(spec.t_end));
   text += fmt::format("\n[output]\ndirectory = {}\nenergy_every = {}\nsnapshot_every = {}\n",
                       toml_string(spec.output_directory), spec.energy_every, spec.snapshot_every);
+  if (spec.snapshot_interval > 0) text += fmt::format("snapshot_interval = {}\n", toml_real(spec.snapshot_interval));
   if (spec.ensemble) text += write_ensemble(*spec.ensemble);
   return text;
 }
@@ -107,6 +110,7 @@ std::string example_case(const std::string& problem) {
   text += "\n[method]\n";
   text += line("name", "\"seisav\"", fmt::format("{}", fmt::join(method_names(), " | ")));
   text += line("h", number_or_string(entry.default_h), "step size, time; a number, or a fraction in quotes");
+  text += line("# tolerance", "1e-8", "instead of h: steps of variable size, with this error at the end (max norm)");
   text += line("C", "\"auto\"", "sav family: the shift in √(V + C), energy; \"auto\" or a number");
   text +=
       line("auxiliary", "\"transport\"", "transport | frozen | refresh: what the damping does to r (sav, lm family)");
@@ -124,6 +128,7 @@ std::string example_case(const std::string& problem) {
   text += line("directory", toml_string("out/" + entry.name), "made if it is not there");
   text += line("energy_every", "1", "steps");
   text += line("snapshot_every", "64", "steps; 0: the first and the last state only");
+  text += line("# snapshot_interval", "0.5", "time between snapshots, with a tolerance");
   return text;
 }
 

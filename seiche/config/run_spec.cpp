@@ -114,7 +114,8 @@ SimulationOptions simulation_options(const RunSpec& spec) {
   return {.method = spec.method,
           .backend = spec.backend,
           .method_options = spec.method_options,
-          .backend_options = {.measure_plans = spec.measure_plans, .sparse = spec.sparse}};
+          .backend_options = {.measure_plans = spec.measure_plans, .sparse = spec.sparse},
+          .variable_steps = spec.tolerance.has_value()};
 }
 
 }  // namespace seiche

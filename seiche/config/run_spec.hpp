@@ -39,7 +39,8 @@ struct RunSpec {
   InitialData initial;
 
   std::string method = "seisav";
-  double h = 0.0;
+  double h = 0.0;                   // the step size; beside a tolerance the first one, or 0
+  std::optional<double> tolerance;  // steps of variable size
   MethodOptions method_options;
   std::string backend = "auto";
   bool measure_plans = false;
@@ -49,6 +50,7 @@ struct RunSpec {
   std::string output_directory;
   std::int64_t energy_every = 1;     // steps
   std::int64_t snapshot_every = 64;  // steps; 0: the first and the last state only
+  double snapshot_interval = 0.0;    // time; 0: by steps. With a tolerance only
 
   std::optional<EnsembleSpec> ensemble;  // none: one run
 

@@ -46,8 +46,19 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
   backend_name_ = backend.name;
   require_memory(method_, problem_);
   system_ = backend.system(problem_, options.backend_options);
-  stepper_ = make_stepper(method_, system_, options.method_options);
+  if (options.variable_steps) {
+    auto stepper = make_adaptive_stepper(method_, system_, options.method_options);
+    adaptive_ = stepper.get();
+    stepper_ = std::move(stepper);
+  } else {
+    stepper_ = make_stepper(method_, system_, options.method_options);
+  }
   restart();
+}
+
+AdaptiveStepper& Simulation::adaptive_stepper() {
+  if (adaptive_ == nullptr) throw Error("this simulation was made for steps of one size; set variable_steps");
+  return *adaptive_;
 }
 
 void Simulation::restart() {

@@ -14,6 +14,7 @@ struct SimulationOptions {
   std::string backend = "auto";
   MethodOptions method_options = {};
   BackendOptions backend_options = {};
+  bool variable_steps = false;  // a stepper that tells its errors, for integrate_adaptive
 };
 
 // Throws Error where the method does not apply to the problem, with the reason.
@@ -35,6 +36,7 @@ class Simulation {
   const Problem& problem() const { return problem_; }  // as integrated: with D in S for `whole` methods
   const System& system() const { return system_; }
   Stepper& stepper() { return *stepper_; }
+  AdaptiveStepper& adaptive_stepper();  // throws Error unless made with variable_steps
   const MethodEntry& method() const { return method_; }
   const std::string& backend() const { return backend_name_; }
 
@@ -44,6 +46,7 @@ class Simulation {
   std::string backend_name_;
   System system_;
   std::unique_ptr<Stepper> stepper_;
+  AdaptiveStepper* adaptive_ = nullptr;  // the same, where it is one
   State state_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace seiche {
 
@@ -37,6 +38,8 @@ struct RunReport {
   std::int64_t scalar_iterations = 0;
   std::int64_t fallbacks = 0;
   std::int64_t unresolved = 0;
+  std::int64_t rejected = 0;        // steps tried and taken back, with variable steps
+  std::vector<double> events = {};  // times at which events were met
   double wall_seconds = 0.0;
 
   std::string brief() const;  // one line

@@ -4,6 +4,7 @@
 #include <seiche/core/state.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace seiche {
@@ -36,6 +37,20 @@ class Stepper {
   virtual StepReport step(State& state, double h) = 0;  // from t to t + h
   virtual EnergyReading energy(const State& state) const = 0;
   virtual bool has_modified_energy() const = 0;
+};
+
+// A stepper that tells the error of its steps, and knows the solution inside the last one.
+class AdaptiveStepper : public Stepper {
+ public:
+  virtual int order() const = 0;
+  // As `step`, but where a step cannot be taken, or not be trusted, it fails: a shorter one is to be tried.
+  virtual StepReport attempt(State& state, double h) = 0;
+  // Of the last attempt that succeeded: an estimate of its local error, in the max norm of physical values. Nothing where
+  // the method needs one more step to know.
+  virtual std::optional<double> error(const State& state) = 0;
+  virtual void undo(State& state) = 0;                                    // takes that attempt back, once
+  virtual void interpolate(const State& state, double t, Vector& z) = 0;  // the solution at a time inside it
+  virtual void restart(State& state) = 0;                                 // forgets what was before: z has been changed
 };
 
 }  // namespace seiche

@@ -1,4 +1,6 @@
 #include <seiche/core/error.hpp>
+#include <seiche/method/collocation_weights.hpp>
+#include <seiche/method/continuous_extension.hpp>
 #include <seiche/method/egc.hpp>
 #include <seiche/method/energy_interval.hpp>
 #include <seiche/method/energy_projection.hpp>
@@ -15,21 +17,7 @@ namespace {
 constexpr int max_halvings = 8;
 constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| is no solution
 
-// Weights of z(θ) in the forces at the nodes: k! θ^{k+1} C_kj.
-std::vector<double> collocation_weights(const Eigen::MatrixXd& C, double theta) {
-  const Index s = C.rows();
-  std::vector<double> weights;
-  for (Index j = 0; j < s; ++j) {
-    double factor = theta;
-    for (Index k = 0; k < s; ++k) {
-      weights.push_back(factor * C(k, j));
-      factor *= theta * static_cast<double>(k + 1);
-    }
-  }
-  return weights;
-}
-
-class Collocation final : public Stepper {
+class Collocation final : public AdaptiveStepper {
  public:
   Collocation(const System& system, int stages)
       : system_(system),
@@ -41,11 +29,13 @@ class Collocation final : public Stepper {
                 .weights = [C = interpolation(rule_.nodes)](double theta) { return collocation_weights(C, theta); }},
         dissipation_(system, *phi_, output_, rule_, GaussRule(stages + 2)),
         projection_(system, *phi_),
+        extension_(*phi_, rule_, output_.kind, system.space->size()),
         forces_(static_cast<std::size_t>(stages)) {
     const Index size = system.space->size();
     for (Vector& f : forces_) f.setZero(size);
     result_.assign(1, Vector::Zero(size));
     for (Vector* v : {&gradient_, &rest_}) v->setZero(size);
+    physical_.setZero(system.space->physical_size());
   }
 
   void begin(State& s) override {
@@ -58,7 +48,7 @@ class Collocation final : public Stepper {
 
   StepReport step(State& s, double h) override {
     StepReport report;
-    if (take(s, s.t, h, report)) {
+    if (take(s, s.t, h, false, report)) {
       ++s.n;
       s.t += h;
       return report;
@@ -76,6 +66,53 @@ class Collocation final : public Stepper {
         "halvings of it: H(0) = {:.6g}",
         s.energy, s.t, h, max_halvings, projection_.energy_of_rest());
     return report;
+  }
+
+  int order() const override { return 2 * stages(); }
+
+  StepReport attempt(State& s, double h) override {
+    StepReport report;
+    if (take(s, s.t, h, true, report)) {
+      ++s.n;
+      s.t += h;
+      return report;
+    }
+    report.status = StepReport::Status::failed;
+    report.message =
+        fmt::format("the collocation equations were not solved in the step from t = {:.6g} with h = {:.6g}", s.t, h);
+    return report;
+  }
+
+  std::optional<double> error(const State& s) override {
+    if (last_.history_h == 0) return std::nullopt;
+    system_.space->to_physical(extension_.defect(last_, forces_, s.history), physical_);
+    const double of_forces = physical_.lpNorm<Eigen::Infinity>();
+    // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is not,
+    // the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
+    if (last_displacement_ <= of_forces) return of_forces;
+    system_.space->to_physical(s.z, physical_);
+    const double share = physical_.lpNorm<Eigen::Infinity>() / physical_.norm();
+    return std::max(of_forces, last_displacement_ * (std::isfinite(share) ? share : 1.0));
+  }
+
+  void undo(State& s) override {
+    s.z.swap(result_[0]);
+    s.history.swap(forces_);
+    s.history_h = last_.history_h;
+    s.energy = last_energy_;
+    s.t = last_t_;
+    --s.n;
+  }
+
+  void interpolate(const State& s, double t, Vector& z) override {
+    extension_.evaluate(last_, (t - last_t_) / last_.h, result_[0], forces_, s.history, z);
+    if (dissipation_.kind() == StepDissipation::Kind::general) return;  // H may rise between: no law to keep
+    projection_.project(z, std::clamp(system_.energy(z), s.energy, last_energy_), last_energy_);
+  }
+
+  void restart(State& s) override {
+    s.energy = system_.energy(s.z);
+    s.history_h = 0;
   }
 
   EnergyReading energy(const State& s) const override {
@@ -154,8 +191,8 @@ class Collocation final : public Stepper {
     return stages();
   }
 
-  // One step; false, with s as it was, where no admissible point was found.
-  bool take(State& s, double t, double h, StepReport& report) {
+  // One step; false, with s as it was, where no admissible point was found, or `strict` and ẑ is no solution.
+  bool take(State& s, double t, double h, bool strict, StepReport& report) {
     const Tables& of_h = tables(h);
     const int sweeps = predict(s, t, h);
     const bool general = dissipation_.kind() == StepDissipation::Kind::general;
@@ -180,6 +217,7 @@ class Collocation final : public Stepper {
       target = wanted.H;
       cap = wanted.cap;
     } else {
+      if (strict) return false;
       of_h.free->apply(s.z, {}, result_);
       ++report.fallbacks;
     }
@@ -187,6 +225,10 @@ class Collocation final : public Stepper {
     report.scalar_iterations += outcome.iterations;
     report.fallbacks += outcome.by_bisection ? 1 : 0;
     if (!outcome.admissible || !z.allFinite()) return false;
+    last_ = {h, s.history_h};
+    last_displacement_ = outcome.displacement;
+    last_energy_ = s.energy;
+    last_t_ = t;
     s.energy = outcome.H_is_target ? target : outcome.H;
     s.z.swap(z);
     s.history.swap(forces_);
@@ -200,7 +242,7 @@ class Collocation final : public Stepper {
     ++report.fallbacks;
     for (const double begin : {t, t + h / 2}) {
       s.history_h = 0;
-      if (!take(s, begin, h / 2, report) && !take_halves(s, begin, h / 2, depth + 1, report)) return false;
+      if (!take(s, begin, h / 2, false, report) && !take_halves(s, begin, h / 2, depth + 1, report)) return false;
     }
     s.history_h = 0;
     return true;
@@ -212,17 +254,21 @@ class Collocation final : public Stepper {
   DenseOutput output_;
   StepDissipation dissipation_;
   EnergyProjection projection_;
-  StepCache<Tables> cache_{8};
+  ContinuousExtension extension_;
+  StepCache<Tables> cache_{16};
   Eigen::MatrixXd extrapolation_;
   double ratio_ = 0;
   std::vector<Vector> forces_, result_;
-  Vector gradient_, rest_;
+  Vector gradient_, rest_, physical_;
   State saved_;
+  // The last step: zⁿ and the forces before it are left in result_ and forces_.
+  ContinuousExtension::Step last_;
+  double last_displacement_ = 0, last_energy_ = 0, last_t_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Stepper> make_egc(const System& system, int stages) {
+std::unique_ptr<AdaptiveStepper> make_egc(const System& system, int stages) {
   if (!system.make_phi)
     throw Error("the sparse backend has no φ-functions for egc methods; use backend \"modal\" or \"dense\"");
   return std::make_unique<Collocation>(system, stages);

@@ -14,6 +14,6 @@ namespace seiche {
 // a step extrapolates the forces of the last one, sweeps Z_i = z(c_i), F_i = N(Z_i) s times, and projects ẑ = z(1) to the
 // energy of energy_target. Nothing about ẑ enters the law, so it holds for every h. Throws Error where the backend has no
 // φ-functions. `system` outlives the stepper.
-std::unique_ptr<Stepper> make_egc(const System& system, int stages);
+std::unique_ptr<AdaptiveStepper> make_egc(const System& system, int stages);
 
 }  // namespace seiche

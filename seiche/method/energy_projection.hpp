@@ -1,9 +1,7 @@
 // The last part of a step that keeps the law by projection: the point near ẑ where H is what it is to be.
 #pragma once
 
-#include <seiche/core/system.hpp>
-
-#include <vector>
+#include <seiche/method/energy_line.hpp>
 
 namespace seiche {
 
@@ -19,28 +17,25 @@ class EnergyProjection {
   struct Outcome {
     bool admissible = false;    // H(z) ≤ cap, and z as good as it could be made
     bool H_is_target = false;   // to round-off
-    bool by_bisection = false;  // the secant iteration did not find E
+    bool by_bisection = false;  // nothing better was found
     int iterations = 0;
     double H = 0;
+    double displacement = 0;  // Euclidean norm of the move
   };
-  // H(z) = target to 4ε(½zᵀMz + |V|) by the secant method. z stays as it is where H hardly changes along the line and
-  // H(z) ≤ cap: the equation is then ill-conditioned, and the cap is the law. Where the iteration fails, a point with
-  // H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if H(0) > cap and H(z) > cap.
+  // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned: then z
+  // stays as it is if target < cap and H(z) ≤ cap, for the cap is the law; and otherwise it moves along ∇H. If no iteration
+  // converges, to a point with H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if H(0) > cap and
+  // H(z) > cap.
   Outcome project(Vector& z, double target, double cap);
 
  private:
-  struct Parts {  // of H at one point
-    double K = 0, V = 0;
-    double H() const { return K + V; }
-    double round_off() const { return 4 * epsilon * (std::abs(K) + std::abs(V)); }
-  };
-  class Line;
+  bool solve(const EnergyLine& line, Vector& z, double target, double cap, Outcome& outcome);
+  bool bisect(const EnergyLine& line, Vector& z, double goal, Outcome& outcome);
 
   const System& system_;
   const PhiEvaluator& phi_;
   double rest_;
-  Vector d_, Md_, trial_;
-  std::vector<double> V_along_;  // coefficients of λ ↦ V(z + λd), where V is a polynomial
+  EnergyLineScratch scratch_;
 };
 
 }  // namespace seiche

@@ -3,6 +3,7 @@
 #include <seiche/method/compositions.hpp>
 #include <seiche/method/directed_multiplier.hpp>
 #include <seiche/method/egc.hpp>
+#include <seiche/method/error_estimate.hpp>
 #include <seiche/method/lm.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/method/sav.hpp>
@@ -101,6 +102,13 @@ std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& s
     return make_whole(system, method.propagator, make_closure(method, system, options));
   }
   return make_strang(system, method.propagator, make_closure(method, system, options));
+}
+
+std::unique_ptr<AdaptiveStepper> make_adaptive_stepper(const MethodEntry& method, const System& system,
+                                                       const MethodOptions& options) {
+  options.validate(method);
+  if (method.composition == collocation) return make_egc(system, method.order / 2);
+  return with_error_estimate(system, make_stepper(method, system, options));
 }
 
 std::string to_string(ClosureKind closure) {

@@ -44,6 +44,9 @@ struct MethodOptions {
 // `system` outlives the stepper; for `whole` methods it comes from with_damping_merged(problem).
 std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system,
                                       const MethodOptions& options = {});
+// The same with errors of its steps, for variable ones.
+std::unique_ptr<AdaptiveStepper> make_adaptive_stepper(const MethodEntry& method, const System& system,
+                                                       const MethodOptions& options = {});
 
 std::string to_string(ClosureKind closure);
 std::string to_string(PropagatorKind propagator);

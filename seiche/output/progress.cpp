@@ -6,12 +6,14 @@
 
 namespace seiche {
 
-Progress::Progress(std::FILE* terminal, std::int64_t total_steps)
-    : total_steps_(std::max<std::int64_t>(total_steps, 1)), bar_(terminal) {}
+Progress::Progress(std::FILE* terminal, double t_end) : t_end_(t_end), bar_(terminal) {}
 
 bool Progress::is_due(const State& state, bool) const {
   if (state.n < next_look_) return false;
-  if (first_n_ < 0) first_n_ = last_n_ = state.n;
+  if (first_n_ < 0) {
+    first_n_ = last_n_ = state.n;
+    first_t_ = state.t;
+  }
   if (bar_.is_time_to_draw()) {
     draw(state);
     last_n_ = state.n;
@@ -23,7 +25,7 @@ bool Progress::is_due(const State& state, bool) const {
 
 void Progress::draw(const State& state) const {
   const auto done = static_cast<double>(state.n - first_n_);
-  const double share = done / static_cast<double>(total_steps_);
+  const double share = t_end_ > first_t_ ? (state.t - first_t_) / (t_end_ - first_t_) : 1.0;
   bar_.draw(share, fmt::format("t = {:<10.6g} {:.3g} steps/s, {} left", state.t, done / bar_.seconds(),
                                bar_.time_left(share)));
 }

@@ -10,7 +10,7 @@ namespace seiche {
 // time loop asks whether it is.
 class Progress : public Observer {
  public:
-  Progress(std::FILE* terminal, std::int64_t total_steps);
+  Progress(std::FILE* terminal, double t_end);
 
   bool is_due(const State& state, bool last) const override;
   void observe(const State&, const EnergyReading&) override {}
@@ -19,9 +19,10 @@ class Progress : public Observer {
  private:
   void draw(const State& state) const;
 
-  std::int64_t total_steps_;
+  double t_end_;
   mutable ProgressBar bar_;
   mutable std::int64_t first_n_ = -1;
+  mutable double first_t_ = 0;
   mutable std::int64_t last_n_ = 0;     // when it was drawn
   mutable std::int64_t next_look_ = 0;  // reading the clock at every step would cost more than a small step
 };

@@ -4,12 +4,24 @@
 
 namespace seiche {
 
-Snapshots::Snapshots(const std::filesystem::path& path, const Problem& problem, const Space& space, Schedule schedule)
-    : file_(path), space_(space), schedule_(schedule), values_(space.physical_size()) {
+Snapshots::Snapshots(const std::filesystem::path& path, const Problem& problem, const Space& space, Schedule schedule,
+                     double interval)
+    : file_(path), space_(space), schedule_(schedule), interval_(interval), values_(space.physical_size()) {
   file_.write(fmt::format("t,{}\n", fmt::join(value_names(problem), ",")));
 }
 
+bool Snapshots::is_due(const State& state, bool last) const {
+  if (interval_ > 0) return (last || state.n == 0) && state.t > last_t_;
+  return schedule_.is_due(state.n, last);
+}
+
+double Snapshots::next_time() const {
+  return interval_ > 0 ? static_cast<double>(shown_ + 1) * interval_ : std::numeric_limits<double>::infinity();
+}
+
 void Snapshots::observe(const State& state, const EnergyReading&) {
+  last_t_ = state.t;
+  while (next_time() <= state.t) ++shown_;
   space_.to_physical(state.z, values_);
   row_.clear();
   row_.add(state.t);

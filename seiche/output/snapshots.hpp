@@ -11,10 +11,13 @@ namespace seiche {
 
 class Snapshots : public Observer {
  public:
-  // `space` outlives the observer.
-  Snapshots(const std::filesystem::path& path, const Problem& problem, const Space& space, Schedule schedule);
+  // `space` outlives the observer. With an interval of time > 0 rows stand at its multiples, and `schedule` counts for the
+  // first and the last state only.
+  Snapshots(const std::filesystem::path& path, const Problem& problem, const Space& space, Schedule schedule,
+            double interval = 0.0);
 
-  bool is_due(const State& state, bool last) const override { return schedule_.is_due(state.n, last); }
+  bool is_due(const State& state, bool last) const override;
+  double next_time() const override;
   void observe(const State& state, const EnergyReading& energy) override;
   void finish(const RunReport& report) override;
 
@@ -22,6 +25,9 @@ class Snapshots : public Observer {
   AtomicFile file_;
   const Space& space_;
   Schedule schedule_;
+  double interval_;
+  std::int64_t shown_ = 0;  // multiples of the interval
+  double last_t_ = -std::numeric_limits<double>::infinity();
   Vector values_;
   CsvRow row_;
 };

@@ -28,22 +28,26 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
   Json versions = Json::object();
   for (const auto& [name, version] : run.versions) versions[name] = version;
 
-  const Json summary = {{"status", to_string(report.status)},
-                        {"message", report.message},
-                        {"problem", run.problem},
-                        {"method", run.method},
-                        {"backend", run.backend},
-                        {"h", number(run.h)},
-                        {"steps", report.steps},
-                        {"t", number(report.t)},
-                        {"energy", energy},
-                        {"counts",
-                         {{"gradients", report.potential_counts.gradients},
-                          {"potentials", report.potential_counts.values},
-                          {"scalar_iterations", report.scalar_iterations},
-                          {"fallbacks", report.fallbacks}}},
-                        {"wall_seconds", number(report.wall_seconds)},
-                        {"versions", versions}};
+  Json summary = {{"status", to_string(report.status)},
+                  {"message", report.message},
+                  {"problem", run.problem},
+                  {"method", run.method},
+                  {"backend", run.backend},
+                  {"h", number(run.h)},
+                  {"steps", report.steps},
+                  {"t", number(report.t)},
+                  {"energy", energy},
+                  {"counts",
+                   {{"gradients", report.potential_counts.gradients},
+                    {"potentials", report.potential_counts.values},
+                    {"scalar_iterations", report.scalar_iterations},
+                    {"fallbacks", report.fallbacks}}},
+                  {"wall_seconds", number(report.wall_seconds)},
+                  {"versions", versions}};
+  if (run.tolerance) {
+    summary["tolerance"] = number(*run.tolerance);
+    summary["counts"]["rejected_steps"] = report.rejected;
+  }
   // Bytes of a file name that are no UTF-8 must not turn a report into an exception.
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace seiche {
@@ -13,7 +14,8 @@ struct RunIdentity {
   std::string problem;
   std::string method;
   std::string backend;
-  double h = 0.0;
+  double h = 0.0;  // of variable steps: NaN
+  std::optional<double> tolerance = std::nullopt;
   std::map<std::string, std::string> versions = {};
 };
 

@@ -1,0 +1,17 @@
+// Errors of one-step methods of order two, for variable steps.
+#pragma once
+
+#include <seiche/core/stepper.hpp>
+#include <seiche/core/system.hpp>
+
+#include <memory>
+
+namespace seiche {
+
+// The step of `stepper` beside the exponential Runge–Kutta scheme of order three on the same N (Cox & Matthews 2002),
+//   z_e = φ₀zⁿ + h[(φ₁ − 3φ₂ + 4φ₃)N(zⁿ) + (4φ₂ − 8φ₃)N(ẑ) + (4φ₃ − φ₂)N(zⁿ⁺¹)],
+// φ_k of hL with the whole linear part, ẑ the exponential midpoint: the difference contains the error of the splitting. Two
+// gradients a step. Between steps, a shorter step of the same method from the left end. `system` outlives the stepper.
+std::unique_ptr<AdaptiveStepper> with_error_estimate(const System& system, std::unique_ptr<Stepper> stepper);
+
+}  // namespace seiche

@@ -1,0 +1,39 @@
+// The time loop with variable steps.
+#pragma once
+
+#include <seiche/core/observer.hpp>
+#include <seiche/core/system.hpp>
+#include <seiche/run/integrate.hpp>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// g(t, z) changes sign at an event; z in the coordinates of the state.
+struct Event {
+  enum class Direction { any, rising, falling };
+  std::function<double(double t, const Vector& z)> g;
+  // What happens: may change the state, which the method then starts from anew. False ends the run. Null: the run ends.
+  std::function<bool(State& state)> action = {};
+  Direction direction = Direction::any;
+};
+
+struct AdaptiveOptions {
+  double tolerance = 0.0;  // of values at the end, in the max norm; > 0
+  double t_end = 0.0;
+  double first_h = 0.0;  // 0: chosen from the first derivative
+  LawPromise law = {};
+  std::function<std::string()> objection = {};
+  const std::atomic<bool>* stop = nullptr;
+  std::span<const Event> events = {};
+};
+
+// As `integrate`, with steps whose errors fit the tolerance. Times that observers ask for do not shorten steps. Throws Error
+// for a tolerance or times that make no sense; never for numerical reasons.
+RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, State& state,
+                             const AdaptiveOptions& options, std::span<Observer* const> observers = {});
+
+}  // namespace seiche

@@ -1,0 +1,164 @@
+#include <seiche/core/error.hpp>
+#include <seiche/run/recording.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace seiche {
+namespace {
+
+bool is_finite(const EnergyReading& reading) { return std::isfinite(reading.H) && std::isfinite(reading.modified); }
+
+}  // namespace
+
+Recording::Recording(const System& system, const Stepper& stepper, State& state, const LawPromise& law,
+                     std::span<Observer* const> observers)
+    : system_(system),
+      stepper_(stepper),
+      state_(state),
+      observers_(observers),
+      book_(law, stepper.has_modified_energy()),
+      good_(state),
+      first_n_(state.n),
+      counts_before_(system.potential->counts()),
+      begin_(std::chrono::steady_clock::now()) {}
+
+void Recording::count(const StepReport& step) {
+  report_.scalar_iterations += step.scalar_iterations;
+  report_.fallbacks += step.fallbacks;
+  report_.unresolved += step.unresolved;
+}
+
+bool Recording::anyone_due() const {
+  bool due = false;
+  for (const Observer* observer : observers_) due |= observer->is_due(state_, false);
+  return due;
+}
+
+bool Recording::record(bool last) {
+  const EnergyReading reading = stepper_.energy(state_);
+  if (!is_finite(reading) || !state_.z.allFinite()) {
+    fail_not_finite(is_finite(reading) ? "state" : "energy");
+    return false;
+  }
+  book_.add(reading, state_.t, state_.n);
+  for (Observer* observer : observers_) {
+    if (observer->is_due(state_, last)) observer->observe(state_, reading);
+  }
+  good_ = state_;
+  return true;
+}
+
+bool Recording::check_finite() {
+  if (state_.z.allFinite()) return true;
+  fail_not_finite("state");
+  return false;
+}
+
+double Recording::next_time() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Observer* observer : observers_) next = std::min(next, observer->next_time());
+  return next;
+}
+
+void Recording::show(const State& between) {
+  const EnergyReading reading = stepper_.energy(between);
+  for (Observer* observer : observers_)
+    if (observer->next_time() <= between.t) observer->observe(between, reading);
+}
+
+// The last good state of a run that ended early, for those who have not seen it.
+void Recording::record_rest() {
+  const EnergyReading reading = stepper_.energy(state_);
+  if (!is_finite(reading) || !state_.z.allFinite()) {
+    state_ = good_;
+    return;
+  }
+  if (!book_.has(state_.n)) book_.add(reading, state_.t, state_.n);
+  for (Observer* observer : observers_) {
+    if (!observer->is_due(state_, false) && observer->is_due(state_, true)) observer->observe(state_, reading);
+  }
+}
+
+void Recording::fail(std::string message) {
+  report_.status = RunReport::Status::failed;
+  report_.message = std::move(message);
+}
+
+void Recording::fail_step(const std::string& reason) {
+  fail(fmt::format("step {} failed after t = {:.9g}: {}", state_.n + 1, state_.t, reason));
+}
+
+void Recording::fail_not_finite(const char* what) {
+  fail(state_.n == good_.n
+           ? fmt::format("the {} is not finite at the start, t = {:.9g}", what, state_.t)
+           : fmt::format("the {} is no longer finite at t = {:.9g} (step {}); the data end at the last good record, "
+                         "t = {:.9g} (step {})",
+                         what, state_.t, state_.n, good_.t, good_.n));
+  state_ = good_;
+}
+
+void Recording::interrupt(double t_end) {
+  report_.status = RunReport::Status::interrupted;
+  report_.message = fmt::format("stopped at t = {:.9g} (step {}) of {:.9g}", state_.t, state_.n, t_end);
+}
+
+void Recording::abandon(const std::string& reason) {
+  fail(fmt::format("the run stopped after t = {:.9g} (step {}): {}", state_.t, state_.n, reason));
+  state_ = good_;
+  abandoned_ = true;
+}
+
+RunReport Recording::finish(const std::function<std::string()>& objection, const std::string& remark) {
+  if (report_.status != RunReport::Status::success && !abandoned_) {
+    try {
+      record_rest();
+    } catch (const Error& error) {
+      abandon(error.what());
+    }
+  }
+  report_.steps = steps();
+  report_.t = state_.t;
+  book_.write_to(report_);
+  hear_objection(objection);
+  const Potential::Counts after = system_.potential->counts();
+  report_.potential_counts = {after.gradients - counts_before_.gradients, after.values - counts_before_.values};
+  complete_message(remark);
+  report_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  finish_observers();
+  return report_;
+}
+
+void Recording::hear_objection(const std::function<std::string()>& objection) {
+  if (report_.law == LawVerdict::not_promised || !objection) return;
+  const std::string reason = objection();
+  if (reason.empty()) return;
+  report_.law = LawVerdict::not_promised;
+  report_.law_reason = reason;
+}
+
+void Recording::complete_message(const std::string& remark) {
+  if (report_.status == RunReport::Status::success)
+    report_.message = fmt::format("reached t = {:.9g} in {} steps{}", state_.t, report_.steps, remark);
+  if (report_.unresolved > 0)
+    report_.message += fmt::format("; {} scalar equations were not resolved", report_.unresolved);
+  if (report_.law == LawVerdict::not_promised) report_.message += "; no energy law is promised: " + report_.law_reason;
+  if (report_.law == LawVerdict::violated)
+    report_.message += "; the promised energy law was violated: " + report_.law_reason;
+}
+
+// Each gets its chance to leave whole files, also where another one could not.
+void Recording::finish_observers() {
+  for (Observer* observer : observers_) {
+    try {
+      observer->finish(report_);
+    } catch (const Error& error) {
+      const bool first = report_.status == RunReport::Status::success;
+      report_.status = RunReport::Status::failed;
+      report_.message = first ? std::string(error.what()) : report_.message + "; " + error.what();
+    }
+  }
+}
+
+}  // namespace seiche

@@ -1,0 +1,66 @@
+// What every time loop does beside stepping: judge energies, show states to observers, keep the last good one, and report.
+#pragma once
+
+#include <seiche/core/observer.hpp>
+#include <seiche/core/system.hpp>
+#include <seiche/run/energy_book.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace seiche {
+
+class Recording {
+ public:
+  // All outlive the recording.
+  Recording(const System& system, const Stepper& stepper, State& state, const LawPromise& law,
+            std::span<Observer* const> observers);
+
+  RunReport& report() { return report_; }
+  bool has_failed() const { return report_.status != RunReport::Status::success; }
+  std::int64_t steps() const { return state_.n - first_n_; }
+  std::int64_t first_n() const { return first_n_; }
+
+  void count(const StepReport& step);  // its work, whatever came of it
+  bool anyone_due() const;
+  // Energy of the state, judged and shown to whom it is due; false if there is none: then the run has failed.
+  bool record(bool last);
+  bool check_finite();  // the same look at z alone
+
+  // Observers that asked for a time up to `until`: the earliest such time, or infinity.
+  double next_time() const;
+  void show(const State& between);  // to those who asked for its time
+
+  void fail(std::string message);
+  void fail_step(const std::string& reason);
+  void interrupt(double t_end);
+
+  // Everything that is left to do when the loop has ended, by success or not. `objection`: why the promise is withdrawn
+  // after all, or null; `remark`: what a successful run says about its steps.
+  RunReport finish(const std::function<std::string()>& objection, const std::string& remark);
+  void abandon(const std::string& reason);  // an Error of a propagator, a full disk
+
+ private:
+  void fail_not_finite(const char* what);
+  void record_rest();
+  void hear_objection(const std::function<std::string()>& objection);
+  void complete_message(const std::string& remark);
+  void finish_observers();
+
+  const System& system_;
+  const Stepper& stepper_;
+  State& state_;
+  std::span<Observer* const> observers_;
+  EnergyBook book_;
+  State good_;  // as last recorded
+  RunReport report_;
+  bool abandoned_ = false;
+  std::int64_t first_n_;
+  Potential::Counts counts_before_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+}  // namespace seiche

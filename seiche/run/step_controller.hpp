@@ -1,0 +1,28 @@
+// Which step size comes next.
+#pragma once
+
+namespace seiche {
+
+// Error per unit step, so that the errors of a run add up to about the tolerance, whatever the number of steps; a PI
+// controller (Gustafsson 1991) on the estimates of a method of order p:
+//   h ← h (θ/e)^{0.7/p} (e'/θ)^{0.4/p},  θ = ½,  e = error / (c · tolerance · h),  e' the one of the last accepted step,
+// and after a rejection h ← h max(0.2, (θ/e)^{1/p}). Steps are powers of 2^{1/8}: what is computed for one h serves again.
+class StepController {
+ public:
+  // tolerance: of the solution at the end of a run of length one or more, in the max norm of its values
+  StepController(int order, double tolerance);
+
+  static double rounded(double h);  // down to a power of 2^{1/8}
+
+  // of an estimate for a step of length h; errors below `noise` count as none
+  bool accepts(double error, double h, double noise);
+  double next(double h) const;  // after `accepts`
+  void reset() { previous_ = 0.5; }
+
+ private:
+  double order_, allowed_;
+  double scaled_ = 0, previous_ = 0.5;
+  bool accepted_ = true;
+};
+
+}  // namespace seiche

@@ -1,0 +1,203 @@
+// Variable steps: the tolerance means what it says, the law holds at every accepted step, and asked times cost no steps.
+#include "support/convergence.hpp"
+#include "support/paper_cases.hpp"
+
+#include <seiche/core/error.hpp>
+#include <seiche/core/law.hpp>
+#include <seiche/problem/oscillator.hpp>
+#include <seiche/run/adaptive.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace seiche::test {
+namespace {
+
+// Asks for the times of a reference and compares; watches the energy of accepted steps.
+class Judge final : public Observer {
+ public:
+  Judge(const Reference& reference, const Space& space) : reference_(reference), space_(space) {}
+  bool is_due(const State&, bool) const override { return true; }
+  double next_time() const override {
+    return asked_ < reference_.count() ? reference_.time(asked_) : std::numeric_limits<double>::infinity();
+  }
+  void observe(const State& state, const EnergyReading& energy) override {
+    if (asked_ < reference_.count() && state.t == reference_.time(asked_)) {
+      const std::span<const double> exact = reference_.state(asked_++);
+      const Vector distance =
+          space_.physical(state.z) - Eigen::Map<const Vector>(exact.data(), static_cast<Index>(exact.size()));
+      error = std::max(error, distance.lpNorm<Eigen::Infinity>());
+      return;
+    }
+    const double round_off = std::max(energy.modified_round_off, last_.modified_round_off);
+    if (steps++ > 0) worst_increase = std::max(worst_increase, (energy.modified - last_.modified) / round_off);
+    last_ = energy;
+  }
+  void finish(const RunReport&) override {}
+  bool saw_everything() const { return asked_ == reference_.count(); }
+
+  double error = 0, worst_increase = -std::numeric_limits<double>::infinity();
+  int steps = 0;
+
+ private:
+  const Reference& reference_;
+  const Space& space_;
+  std::size_t asked_ = 1;  // after t = 0
+  EnergyReading last_;
+};
+
+struct Outcome {
+  double error;
+  RunReport report;
+};
+
+Outcome run(const Problem& problem, const std::string& method, const Reference& reference, double tolerance) {
+  Simulation simulation(problem, {.method = method, .variable_steps = true});
+  Judge judge(reference, *simulation.system().space);
+  const std::vector<Observer*> observers = {&judge};
+  const double t_end = reference.time(reference.count() - 1);
+  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                              {.tolerance = tolerance, .t_end = t_end}, observers);
+  EXPECT_EQ(report.status, RunReport::Status::success) << method << ": " << report.message;
+  EXPECT_TRUE(judge.saw_everything()) << method;
+  EXPECT_GE(judge.steps, report.steps) << method;
+  if (promise_energy_law(problem, t_end).promised) {
+    EXPECT_LE(judge.worst_increase, 1) << method;
+  }
+  return {judge.error, report};
+}
+
+std::vector<double> every_unit(double t_end) {
+  std::vector<double> times;
+  for (double t = 0; t <= t_end; ++t) times.push_back(t);
+  return times;
+}
+
+const std::vector<NamedProblem>& four_problems() {
+  static const std::vector<NamedProblem> list = {{"Duffing", duffing_case()},
+                                                 {"KG", klein_gordon_case()},
+                                                 {"FPU", fpu_conservative_case()},
+                                                 {"gKdV", gkdv_case(0.5, 1.0)}};
+  return list;
+}
+
+TEST(Adaptive, TheToleranceOfCollocationIsTheErrorOverSixDecades) {
+  for (const auto& [name, problem] : four_problems()) {
+    const Reference reference = make_reference(problem, every_unit(50));
+    for (const std::string method : {"egc4", "egc6", "egc8"}) {
+      std::vector<double> tolerances, errors;
+      for (int e = 4; e <= 9; ++e) {
+        const double tolerance = std::pow(10.0, -e);
+        const Outcome outcome = run(problem, method, reference, tolerance);
+        EXPECT_LE(outcome.error, 10 * tolerance) << name << " " << method << " " << tolerance;
+        EXPECT_GE(outcome.error, tolerance / 150) << name << " " << method << " " << tolerance;
+        tolerances.push_back(tolerance);
+        errors.push_back(outcome.error);
+      }
+      EXPECT_NEAR(fitted_order(tolerances, errors), 1, 0.25) << name << " " << method;
+    }
+  }
+}
+
+TEST(Adaptive, TheToleranceOfMethodsOfOrderTwoIsTheError) {
+  for (const auto& [name, problem] : four_problems()) {
+    const Reference reference = make_reference(problem, every_unit(20));
+    for (const MethodEntry& method : methods()) {
+      if (method.order > 2 || !applies(method.name, problem)) continue;
+      for (const double tolerance : {1e-3, 1e-5}) {
+        const Outcome outcome = run(problem, std::string(method.name), reference, tolerance);
+        EXPECT_LE(outcome.error, 10 * tolerance) << name << " " << method.name << " " << tolerance;
+        EXPECT_GE(outcome.error, tolerance / 200) << name << " " << method.name << " " << tolerance;
+      }
+    }
+  }
+}
+
+TEST(Adaptive, ElsewhereTheErrorIsWithinTwentyTolerances) {
+  Problem well = oscillator({.omega_squared = -1.0, .gamma = nullptr});
+  well.initial[0] = 0.3;
+  const std::vector<NamedProblem> problems = {{"double well", well},
+                                              {"undamped KG", klein_gordon_case(0.0, 1.0)},
+                                              {"large gKdV", gkdv_case(0.5, 1.0, 1.0)}};
+  for (const auto& [name, problem] : problems) {
+    const Reference reference = make_reference(problem, every_unit(50));
+    for (const std::string method : {"egc4", "egc8"})
+      for (const double tolerance : {1e-4, 1e-6, 1e-8})
+        EXPECT_LE(run(problem, method, reference, tolerance).error, 20 * tolerance) << name << " " << method;
+  }
+}
+
+TEST(Adaptive, AskedTimesChangeNoStep) {
+  const Problem p = klein_gordon_case();
+  const Reference reference = make_reference(p, every_unit(10));
+  for (const std::string method : {"egc6", "seisav"}) {
+    Simulation asked(p, {.method = method, .variable_steps = true});
+    Simulation alone(p, {.method = method, .variable_steps = true});
+    Judge judge(reference, *asked.system().space);
+    const std::vector<Observer*> observers = {&judge};
+    const AdaptiveOptions options{.tolerance = 1e-5, .t_end = 10, .first_h = 1.0 / 64};
+    const RunReport a = integrate_adaptive(asked.system(), asked.adaptive_stepper(), asked.state(), options, observers);
+    const RunReport b = integrate_adaptive(alone.system(), alone.adaptive_stepper(), alone.state(), options);
+    EXPECT_EQ(a.steps, b.steps) << method;
+    EXPECT_EQ(asked.state().z, alone.state().z) << method;
+  }
+}
+
+// q'' + q = 0 from q = 1 at rest: q = cos t, which first vanishes at π/2.
+TEST(Adaptive, AnEventIsMetWhereItHappensAndTheRunGoesOnFromThere) {
+  const Problem p = oscillator({.alpha = 0.0});
+  for (const std::string method : {"egc6", "egc2", "seisav"}) {
+    const double tolerance = method == "egc6" ? 1e-10 : 1e-6;
+    Simulation simulation(p, {.method = method, .backend = "dense", .variable_steps = true});
+    const auto position = [](double, const Vector& z) { return z[0]; };
+    const auto bounce = [](State& state) {
+      state.z[1] = -state.z[1];
+      return true;
+    };
+    const std::vector<Event> events = {{.g = position, .action = bounce, .direction = Event::Direction::falling}};
+    const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                                {.tolerance = tolerance, .t_end = 10, .events = events});
+    EXPECT_EQ(report.status, RunReport::Status::success) << report.message;
+    ASSERT_EQ(report.events.size(), 3) << method;  // π/2, and then after each half swing
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(report.events[i], std::numbers::pi * (0.5 + static_cast<double>(i)), 20 * tolerance) << method;
+    EXPECT_NEAR(simulation.physical()[0], std::abs(std::cos(10.0)), 20 * tolerance) << method;
+  }
+}
+
+TEST(Adaptive, AnEventWithoutAnActionEndsTheRun) {
+  Simulation simulation(oscillator({.alpha = 0.0}), {.method = "egc8", .backend = "dense", .variable_steps = true});
+  const std::vector<Event> events = {{.g = [](double, const Vector& z) { return z[0] - 0.5; }}};
+  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                              {.tolerance = 1e-10, .t_end = 10, .events = events});
+  EXPECT_NEAR(report.t, std::numbers::pi / 3, 1e-9);
+  EXPECT_NEAR(simulation.physical()[0], 0.5, 1e-9);
+}
+
+TEST(Adaptive, NumbersThatMakeNoSenseAreRefused) {
+  Simulation simulation(duffing_case(), {.method = "egc4", .variable_steps = true});
+  const auto with = [&](AdaptiveOptions options) {
+    return integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(), options);
+  };
+  EXPECT_THROW(with({.tolerance = 0, .t_end = 1}), Error);
+  EXPECT_THROW(with({.tolerance = std::nan(""), .t_end = 1}), Error);
+  EXPECT_THROW(with({.tolerance = 1e-6, .t_end = -1}), Error);
+  EXPECT_THROW(with({.tolerance = 1e-6, .t_end = 1, .first_h = -1}), Error);
+  Simulation fixed(duffing_case(), {.method = "egc4"});
+  EXPECT_THROW(fixed.adaptive_stepper(), Error);
+}
+
+// Klein–Gordon with α = −1 and no damping blows up at t ≈ 12.7.
+TEST(Adaptive, ABlowUpEndsTheRunWithTheTimeItReached) {
+  Simulation simulation(klein_gordon_case(0.0, -1.0), {.method = "egc6", .variable_steps = true});
+  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                              {.tolerance = 1e-6, .t_end = 20});
+  EXPECT_EQ(report.status, RunReport::Status::failed);
+  EXPECT_NEAR(report.t, 12.7, 0.1) << report.message;
+  EXPECT_TRUE(simulation.state().z.allFinite());
+}
+
+}  // namespace
+}  // namespace seiche::test
