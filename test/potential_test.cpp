@@ -54,6 +54,24 @@ TEST(Potential, GradientIsTheGradientOfTheValue) {
   });
 }
 
+TEST(Potential, TheMagnitudeSumsTheSizesOfTheTerms) {
+  const auto V = nodal_polynomial({0, 1});  // V = Σu_j
+  std::vector<double> u;
+  for (int j = 0; j < 19; ++j) u.push_back(j % 3 == 0 ? -1.0 : 0.5);
+  const ValueAndMagnitude v = V->value_and_magnitude(u);
+  EXPECT_DOUBLE_EQ(v.value, -1.0);
+  EXPECT_DOUBLE_EQ(v.magnitude, 13.0);
+}
+
+TEST(Potential, ValueAndMagnitudeTogetherAreThoseApart) {
+  for_every_potential([](const Potential& V, const Vector& z, const Vector&) {
+    const ValueAndMagnitude v = V.value_and_magnitude(z);
+    EXPECT_NEAR(v.value, V.value(z), 1e-14 * (1 + v.magnitude));
+    EXPECT_NEAR(v.magnitude, V.magnitude(z), 1e-14 * (1 + v.magnitude));
+    EXPECT_LE(std::abs(v.value), v.magnitude * (1 + 1e-14));
+  });
+}
+
 TEST(Potential, MeanGradientTimesTheIncrementIsTheDifferenceOfValues) {
   for_every_potential([](const Potential& V, const Vector& a, const Vector& b) {
     Vector mean = Vector::Zero(a.size());
