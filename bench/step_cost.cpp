@@ -1,4 +1,4 @@
-// Nanoseconds per step of every method on every backend, for the paper's problems and larger grids.
+// Nanoseconds per grid point and step of every method on every backend, beside the step's own transforms and a triad.
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
@@ -9,6 +9,7 @@
 #include <benchmark/benchmark.h>
 
 #include "floor.hpp"
+#include "step_beside.hpp"
 
 #include <string>
 #include <vector>
@@ -17,11 +18,15 @@ namespace {
 
 using seiche::Index;
 using seiche::Problem;
+using Points = std::vector<Index>;  // along each axis
 
-Problem klein_gordon(Index points) {  // the paper's Δx = 0.1, defocusing so that long runs stay bounded
-  return seiche::klein_gordon({.grid = {.points = {points}, .length = {0.1 * static_cast<double>(points)}},
-                               .alpha = 1.0,
-                               .gamma = seiche::constant_rate(0.1)});
+constexpr double h = 1.0 / 256;
+
+Problem klein_gordon(const Points& points) {  // the paper's Δx = 0.1, defocusing so that long runs stay bounded
+  std::vector<double> length;
+  for (const Index n : points) length.push_back(0.1 * static_cast<double>(n));
+  return seiche::klein_gordon(
+      {.grid = {.points = points, .length = length}, .alpha = 1.0, .gamma = seiche::constant_rate(0.1)});
 }
 
 Problem alpha_fpu(Index points) {
@@ -34,17 +39,22 @@ Problem gkdv(Index points) {
       {.length = 0.5 * static_cast<double>(points), .points = points, .mu = seiche::constant_rate(0.5)});
 }
 
+// A method that solves an equation makes as many transforms as that takes. A backend without transforms has the triad alone
+// beside it.
 void step_cost(benchmark::State& state, const Problem& problem, const std::string& method, const std::string& backend) {
-  constexpr double h = 1.0 / 256;
-  constexpr int restart_after = 12800;  // the paper's run: T = 50
-  seiche::Simulation simulation(problem, {.method = method, .backend = backend});
-  int steps = 0;
-  simulation.step(h);  // builds the propagators
+  const double per_point = 1e9 / static_cast<double>(problem.grid.unknowns());
+  seiche::bench::StepBeside cost{};
   for (auto _ : state) {
-    if (!simulation.step(h).solved()) state.SkipWithError("a step failed");
-    if (++steps % restart_after == 0) simulation.restart();
+    cost = seiche::bench::measure_step(problem, method, backend, h);
+    state.SetIterationTime(cost.step);
   }
-  state.SetItemsProcessed(state.iterations() * problem.grid.unknowns());  // items: grid points
+  state.counters["ns_per_point"] = cost.step * per_point;
+  state.counters["triad"] = cost.triad * per_point;
+  state.counters["step/triad"] = cost.step / cost.triad;
+  if (cost.transform_count == 0) return;
+  state.counters["FFTs"] = cost.transform_count;
+  state.counters["own_FFTs"] = cost.transforms * per_point;
+  state.counters["step/own"] = cost.step / cost.transforms;
 }
 
 // A step of seisav, four transforms and a triad in turns, on a grid that is periodic along every axis: nanoseconds per
@@ -64,51 +74,70 @@ void floor_cost(benchmark::State& state, const Problem& problem, int threads) {
   state.counters["step/FFTW"] = floor.step / floor.fftw;
 }
 
-void add_floor(const std::vector<Index>& points, int threads) {
-  std::vector<double> length;
-  std::string label = "floor/seisav";
-  for (const Index n : points) {
-    length.push_back(0.1 * static_cast<double>(n));
-    label += "/" + std::to_string(n);
-  }
-  if (threads > 1) label += "/threads:" + std::to_string(threads);
-  const Problem problem = seiche::klein_gordon(
-      {.grid = {.points = points, .length = length}, .alpha = 1.0, .gamma = seiche::constant_rate(0.1)});
-  benchmark::RegisterBenchmark(label.c_str(), floor_cost, problem, threads)->UseManualTime()->Iterations(1);
+std::string joined(const Points& points, const char* separator) {
+  std::string text;
+  for (const Index n : points) text += (text.empty() ? "" : separator) + std::to_string(n);
+  return text;
 }
 
-void add(const std::string& name, const Problem& problem, Index points, const std::string& method,
-         const std::string& backend) {
+void add_floor(const Points& points, int threads) {
+  std::string label = "floor/seisav/" + joined(points, "/");
+  if (threads > 1) label += "/threads:" + std::to_string(threads);
+  benchmark::RegisterBenchmark(label.c_str(), floor_cost, klein_gordon(points), threads)
+      ->UseManualTime()
+      ->Iterations(1);
+}
+
+bool applies(const Problem& problem, const std::string& method, const std::string& backend) {
   try {
-    const seiche::Simulation applies(problem, {.method = method, .backend = backend});
+    const seiche::Simulation simulation(problem, {.method = method, .backend = backend});
+    return true;
   } catch (const seiche::Error&) {
-    return;
+    return false;
   }
-  const std::string label = name + "/" + method + "/" + backend + "/N=" + std::to_string(points);
-  benchmark::RegisterBenchmark(label.c_str(), step_cost, problem, method, backend);
+}
+
+void add(const std::string& name, const Problem& problem, const Points& points, const std::string& backend,
+         const std::vector<std::string>& methods) {
+  for (const std::string& method : methods) {
+    const std::string label = name + "/" + method + "/" + backend + "/N=" + joined(points, "x");
+    benchmark::RegisterBenchmark(label.c_str(), step_cost, problem, method, backend)->UseManualTime()->Iterations(1);
+  }
+}
+
+// All methods that apply to a problem of a kind do so whatever its size.
+std::vector<std::string> methods_for(const Problem& problem, const std::string& backend) {
+  std::vector<std::string> list = seiche::method_names();
+  std::erase_if(list, [&](const std::string& method) { return !applies(problem, method, backend); });
+  return list;
+}
+
+void add_everything() {
+  const std::vector<std::string> few = {"seisav", "seavf", "seilm"};  // one of each closure of the paper
+  const auto add_grids = [](const std::string& backend, const std::vector<Points>& grids,
+                            const std::vector<std::string>& methods) {
+    for (const Points& points : grids) add("klein_gordon", klein_gordon(points), points, backend, methods);
+  };
+  const auto all = [](const std::string& backend) { return methods_for(klein_gordon({20}), backend); };
+  add_grids("dense", {{8}, {20}, {64}}, all("dense"));
+  add_grids("modal", {{20}, {64}, {512}, {4096}}, all("modal"));
+  add_grids("modal", {{1 << 20}, {256, 256}, {1024, 1024}, {64, 64, 64}, {128, 128, 128}}, few);
+  add_grids("sparse", {{20}, {512}, {4096}}, all("sparse"));
+  add_grids("sparse", {{64, 64}}, few);
+  for (const std::string backend : {"dense", "modal", "sparse"}) {
+    add("alpha_fpu", alpha_fpu(20), {20}, backend, methods_for(alpha_fpu(20), backend));
+    add("gkdv", gkdv(20), {20}, backend, methods_for(gkdv(20), backend));
+  }
+  for (const Index points : {20, 64, 512, 4096, 65536, 1 << 20}) add_floor({points}, 1);
+  for (const int threads : {1, 2})
+    for (const Points& points : {Points{256, 256}, {1024, 1024}, {128, 128, 128}}) add_floor(points, threads);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  for (const seiche::MethodEntry& method : seiche::methods()) {
-    for (const seiche::BackendEntry& backend : seiche::backends()) {
-      const std::string m(method.name);
-      const std::string b(backend.name);
-      add("klein_gordon", klein_gordon(20), 20, m, b);
-      add("alpha_fpu", alpha_fpu(20), 20, m, b);
-      add("gkdv", gkdv(20), 20, m, b);
-    }
-  }
-  for (const Index points : {8, 16, 64, 512, 4096, 65536}) {
-    if (points <= 64) add("klein_gordon", klein_gordon(points), points, "seisav", "dense");
-    add("klein_gordon", klein_gordon(points), points, "seisav", "modal");
-  }
-  for (const Index points : {20, 64, 512, 4096, 65536, 1 << 20}) add_floor({points}, 1);
-  for (const int threads : {1, 2})
-    for (const std::vector<Index>& points : {std::vector<Index>{256, 256}, {1024, 1024}, {128, 128, 128}})
-      add_floor(points, threads);
+  add_everything();
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

@@ -18,7 +18,9 @@ class Opaque final : public PointwisePotential {
  public:
   explicit Opaque(std::shared_ptr<const PointwisePotential> inner) : inner_(std::move(inner)) {}
   double value(std::span<const double> u) const override { return inner_->value(u); }
-  double magnitude(std::span<const double> u) const override { return inner_->magnitude(u); }
+  ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
+    return inner_->value_and_magnitude(u);
+  }
   double value_and_gradient(std::span<const double> u, std::span<double> g) const override {
     return inner_->value_and_gradient(u, g);
   }

@@ -2,6 +2,7 @@
 #include "support/paper_cases.hpp"
 
 #include <seiche/backend/backends.hpp>
+#include <seiche/backend/grid_potential.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/potential/bond.hpp>
 #include <seiche/potential/cosine.hpp>
@@ -10,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace seiche::test {
@@ -52,6 +54,54 @@ TEST(Potential, GradientIsTheGradientOfTheValue) {
     const double slope = (V.value(z + s * direction) - V.value(z - s * direction)) / (2 * s);
     EXPECT_NEAR(g.dot(direction), slope, 1e-6 * (1 + std::abs(slope)));
   });
+}
+
+TEST(Potential, TheMagnitudeSumsTheSizesOfTheTerms) {
+  const auto V = nodal_polynomial({0, 1});  // V = Σu_j
+  std::vector<double> u;
+  for (int j = 0; j < 19; ++j) u.push_back(j % 3 == 0 ? -1.0 : 0.5);
+  const ValueAndMagnitude v = V->value_and_magnitude(u);
+  EXPECT_DOUBLE_EQ(v.value, -1.0);
+  EXPECT_DOUBLE_EQ(v.magnitude, 13.0);
+}
+
+TEST(Potential, ValueAndMagnitudeTogetherAreThoseApart) {
+  for_every_potential([](const Potential& V, const Vector& z, const Vector&) {
+    const ValueAndMagnitude v = V.value_and_magnitude(z);
+    EXPECT_NEAR(v.value, V.value(z), 1e-14 * (1 + v.magnitude));
+    EXPECT_NEAR(v.magnitude, V.magnitude(z), 1e-14 * (1 + v.magnitude));
+    EXPECT_LE(std::abs(v.value), v.magnitude * (1 + 1e-14));
+  });
+}
+
+class CountingTransform final : public FieldTransform {
+ public:
+  explicit CountingTransform(Index n) : n_(n) {}
+  Index unknowns() const override { return n_; }
+  Index slots() const override { return n_; }
+  void to_slots(std::span<const double> values, std::span<double> slots) const override {
+    std::copy(values.begin(), values.end(), slots.begin());
+  }
+  void to_values(std::span<double> slots, std::span<double> values) const override {
+    ++count;
+    std::copy(slots.begin(), slots.end(), values.begin());
+  }
+  double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const override {
+    std::copy(from.begin(), from.end(), slots.begin());
+    return f(slots);
+  }
+
+  mutable int count = 0;
+
+ private:
+  Index n_;
+};
+
+TEST(Potential, TheMagnitudeBesideTheValueTakesNoFurtherTransform) {
+  const auto transform = std::make_shared<CountingTransform>(5);
+  const GridPotential V(nodal_polynomial({0, 1}), 0, transform);
+  EXPECT_DOUBLE_EQ(V.value_and_magnitude(Vector::Constant(5, -2.0)).magnitude, 10.0);
+  EXPECT_EQ(transform->count, 1);
 }
 
 TEST(Potential, MeanGradientTimesTheIncrementIsTheDifferenceOfValues) {

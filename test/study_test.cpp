@@ -1,5 +1,7 @@
 // The studies: references that can judge, errors and orders, findings that can fail, and the paper end to end.
 #include <seiche/core/error.hpp>
+#include <seiche/damping/rates.hpp>
+#include <seiche/problem/klein_gordon.hpp>
 #include <seiche/run/integrate.hpp>
 #include <seiche/study/converge.hpp>
 #include <seiche/study/multiplier_trace.hpp>
@@ -52,6 +54,37 @@ TEST(Reference, SaysWhereTheSolutionBlowsUp) {
   const Problem undamped = klein_gordon_case(0.0, -1.0);  // at t ≈ 12.7
   EXPECT_NO_THROW(make_reference(undamped, sample_times(std::vector<double>{0.125}, 12.0)));
   EXPECT_THROW(make_reference(undamped, sample_times(std::vector<double>{0.125}, 14.0)), Error);
+}
+
+// 1024 copies of one period of 16 points, each of which must do what a single one does.
+TEST(Reference, OfFiniteDifferencesTakesThousandsOfPoints) {
+  constexpr Index period = 16;
+  constexpr Index copies = 1024;
+  const auto problem_of = [](Index points) {
+    return klein_gordon(
+        {.grid = {.points = {points}, .length = {0.1 * static_cast<double>(points)}}, .gamma = constant_rate(0.1)});
+  };
+  Problem one = problem_of(period);
+  Problem many = problem_of(copies * period);
+  for (Index field = 0; field < 2; ++field)
+    for (Index copy = 0; copy < copies; ++copy)
+      many.initial.segment((field * copies + copy) * period, period) = one.initial.segment(field * period, period);
+  const std::vector<double> times = {0.0, 0.03125};
+  const Reference expected = make_reference(one, times);
+  const Reference found = make_reference(many, times);
+  double difference = 0;
+  for (std::size_t i = 0; i < found.state(1).size(); ++i) {
+    const std::size_t field = i / (copies * period);
+    difference = std::max(difference, std::abs(found.state(1)[i] - expected.state(1)[field * period + i % period]));
+  }
+  EXPECT_LT(difference, 1e-13);
+  EXPECT_GT(std::abs(expected.state(1)[0] - expected.state(0)[0]), 1e-4);
+}
+
+TEST(Reference, OfSpectralDerivativesIsRefusedWhereItsFullMatricesWouldNotFit) {
+  const Problem problem =
+      klein_gordon({.grid = {.points = {8192}, .length = {819.2}, .discretisation = Discretisation::spectral}});
+  EXPECT_THROW(make_reference(problem, {0.0, 0.01}), Error);
 }
 
 TEST(Reference, ThatOfThePaperAgreesWithTheIndependentOne) {

@@ -21,7 +21,9 @@ const Vector& Judge::coordinates(std::span<const double> z) const {
 
 double Judge::energy(std::span<const double> z) const { return system_.energy(coordinates(z)); }
 
-double Judge::energy_round_off(std::span<const double> z) const { return system_.energy_round_off(coordinates(z)); }
+double Judge::energy_round_off(std::span<const double> z) const {
+  return system_.energy_terms(coordinates(z)).round_off();
+}
 
 // Relative to the largest value: the terms of ż are far larger than ż itself where differences divide by Δx³.
 double Judge::disagreement(Run& run, const Vector& z) const {

@@ -38,6 +38,12 @@ double GridPotential::magnitude(const Vector& z) const {
   return pointwise_ ? pointwise_->magnitude(values_of(z, a_)) : 0;
 }
 
+ValueAndMagnitude GridPotential::value_and_magnitude(const Vector& z) const {
+  if (!pointwise_) return {};
+  ++counts_.values;
+  return pointwise_->value_and_magnitude(values_of(z, a_));
+}
+
 // In the vector of the gradient: coordinates become values, these slopes, and those coordinates again.
 double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) const {
   if (!pointwise_) return 0;

@@ -16,6 +16,7 @@ class GridPotential final : public Potential {
                 std::shared_ptr<const FieldTransform> transform);
   double value(const Vector& z) const override;
   double magnitude(const Vector& z) const override;
+  ValueAndMagnitude value_and_magnitude(const Vector& z) const override;
   double value_and_gradient(const Vector& z, Vector& gradient) const override;
   void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const override;
   int degree() const override { return pointwise_ ? pointwise_->degree() : 1; }

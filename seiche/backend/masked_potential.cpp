@@ -24,6 +24,11 @@ double MaskedPotential::value(const Vector& z) const {
 
 double MaskedPotential::magnitude(const Vector& z) const { return potential_->magnitude(masked(z, a_)); }
 
+ValueAndMagnitude MaskedPotential::value_and_magnitude(const Vector& z) const {
+  ++counts_.values;
+  return potential_->value_and_magnitude(masked(z, a_));
+}
+
 double MaskedPotential::value_and_gradient(const Vector& z, Vector& gradient) const {
   ++counts_.gradients;
   const double v = potential_->value_and_gradient(masked(z, a_), gradient);

@@ -13,6 +13,7 @@ class MaskedPotential final : public Potential {
   MaskedPotential(std::unique_ptr<Potential> potential, Vector mask);
   double value(const Vector& z) const override;
   double magnitude(const Vector& z) const override;
+  ValueAndMagnitude value_and_magnitude(const Vector& z) const override;
   double value_and_gradient(const Vector& z, Vector& gradient) const override;
   void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const override;
   int degree() const override { return potential_->degree(); }

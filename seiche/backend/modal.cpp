@@ -99,6 +99,11 @@ class ModalLinear final : public LinearPart {
     return absolute_.dot(scratch_) / 2;
   }
 
+  ValueAndMagnitude quadratic(const Vector& z) const override {
+    const double energy = quadratic_energy(z);
+    return {energy, metric_ && nonnegative_ ? energy : quadratic_magnitude(z)};
+  }
+
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
     if (metric_ && has_fused_propagator(extent_, metric_->unit))
       return extent_.layout == ModeLayout::complex_pairs ? fused<std::complex<double>>(kind, h)

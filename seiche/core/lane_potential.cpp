@@ -28,8 +28,9 @@ class LaneByLane final : public LanePotential {
   void value_and_magnitude(const double* u, LaneValues& values, LaneValues& magnitudes) const override {
     for (std::size_t l = 0; l < members_.size(); ++l) {
       gather(u, l, a_);
-      values[l] = members_[l]->value(a_);
-      magnitudes[l] = members_[l]->magnitude(a_);
+      const ValueAndMagnitude v = members_[l]->value_and_magnitude(a_);
+      values[l] = v.value;
+      magnitudes[l] = v.magnitude;
     }
   }
 

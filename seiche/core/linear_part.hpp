@@ -1,6 +1,7 @@
 // S and M in the coordinates of State::z.
 #pragma once
 
+#include <seiche/core/potential.hpp>
 #include <seiche/core/propagator.hpp>
 #include <seiche/core/vector.hpp>
 
@@ -15,6 +16,7 @@ class LinearPart {
   virtual void apply_M(const Vector& z, Vector& out) const = 0;
   virtual double quadratic_energy(const Vector& z) const = 0;     // ½zᵀMz
   virtual double quadratic_magnitude(const Vector& z) const = 0;  // ½|z|ᵀ|M||z|, the scale of its round-off
+  virtual ValueAndMagnitude quadratic(const Vector& z) const { return {quadratic_energy(z), quadratic_magnitude(z)}; }
   virtual std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <seiche/core/vector.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,6 +12,17 @@
 namespace seiche {
 
 class LanePotential;
+
+struct ValueAndMagnitude {
+  double value = 0.0;
+  double magnitude = 0.0;  // the same sum with the sizes of its terms: the scale of round-off in the value
+
+  ValueAndMagnitude& operator+=(double term) {
+    value += term;
+    magnitude += std::abs(term);
+    return *this;
+  }
+};
 
 // V on the physical values u of one field, or of several: then u holds them one after the other. Contracts, tested for
 // every instance:
@@ -23,7 +35,8 @@ class PointwisePotential {
   // Is V = Σ_j W(u_j)? Then parts of u may be given one at a time, on several threads.
   virtual bool is_local() const { return false; }
   virtual double value(std::span<const double> u) const = 0;
-  virtual double magnitude(std::span<const double> u) const = 0;  // Σ|V_j|, the scale of round-off in V
+  virtual ValueAndMagnitude value_and_magnitude(std::span<const double> u) const = 0;  // V and Σ|V_j|
+  double magnitude(std::span<const double> u) const { return value_and_magnitude(u).magnitude; }
   virtual double value_and_gradient(std::span<const double> u, std::span<double> gradient) const = 0;
   // In place, between two transforms: with u = in · values, values ← out · ∇V(u); returns V(u).
   virtual double value_and_gradient_in_place(double in, double out, std::span<double> values) const;
@@ -58,6 +71,7 @@ class Potential {
   virtual ~Potential() = default;
   virtual double value(const Vector& z) const = 0;
   virtual double magnitude(const Vector& z) const = 0;
+  virtual ValueAndMagnitude value_and_magnitude(const Vector& z) const { return {value(z), magnitude(z)}; }
   virtual double value_and_gradient(const Vector& z, Vector& gradient) const = 0;  // the gradient may be z itself
   virtual void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const = 0;
   virtual int degree() const = 0;

@@ -119,6 +119,11 @@ bool Stencil::is_symmetric() const {
   return std::all_of(terms_.begin(), terms_.end(), [](const Term& t) { return t.order == 2; });
 }
 
+bool Stencil::is_sparse() const {
+  return std::none_of(terms_.begin(), terms_.end(),
+                      [](const Term& t) { return t.discretisation == Discretisation::spectral; });
+}
+
 // With θ = 2πk/period the phase from point to point and s = sin(θ/2):
 //   second derivative  −4s²/Δx²,  −4s²(1 + s²/3)/Δx²,  −κ²;      first  i sin θ/Δx,  i sin θ (1 + 2s²/3)/Δx,  iκ
 std::complex<double> Stencil::symbol(const Term& term, Index k, Index period) {
@@ -233,6 +238,10 @@ const Stencil& BlockStencil::operator()(Index row, Index column) const {
 
 bool BlockStencil::is_zero() const {
   return std::all_of(entries_.begin(), entries_.end(), [](const Stencil& s) { return s.is_zero(); });
+}
+
+bool BlockStencil::is_sparse() const {
+  return std::all_of(entries_.begin(), entries_.end(), [](const Stencil& s) { return s.is_sparse(); });
 }
 
 Eigen::MatrixXcd BlockStencil::symbol(const Mode& mode) const {

@@ -32,11 +32,12 @@ class Stencil {
   bool is_zero() const { return identity_ == 0 && terms_.empty(); }
   bool is_identity() const { return identity_ == 1 && terms_.empty(); }
   bool is_symmetric() const;  // no first derivatives
+  bool is_sparse() const;     // no spectral derivatives, which couple all points
 
   // Eigenvalue on a mode: exact zeros where the sines vanish, no cancellation near the mean.
   std::complex<double> symbol(const Mode& mode) const;
   Eigen::MatrixXd matrix(const Grid& grid) const;
-  SparseMatrix sparse_matrix(const Grid& grid) const;  // throws Error for spectral derivatives, which couple all points
+  SparseMatrix sparse_matrix(const Grid& grid) const;  // throws Error unless is_sparse()
 
  private:
   struct Term {  // factor · (∂/∂x_axis)^order
@@ -63,6 +64,7 @@ class BlockStencil {
   Stencil& operator()(Index row, Index column);
   const Stencil& operator()(Index row, Index column) const;
   bool is_zero() const;
+  bool is_sparse() const;  // every entry
 
   Eigen::MatrixXcd symbol(const Mode& mode) const;  // m × m
   Eigen::MatrixXd matrix(const Grid& grid) const;   // field-major: all of field 0, then field 1, …

@@ -3,8 +3,8 @@
 
 namespace seiche {
 
-double System::energy_round_off(const Vector& z) const {
-  return 50 * epsilon * (2 * linear->quadratic_magnitude(z) + potential->magnitude(z));
+EnergyTerms System::energy_terms(const Vector& z) const {
+  return {.quadratic = linear->quadratic(z), .potential = potential->value_and_magnitude(z)};
 }
 
 void System::gradient(const Vector& z, Vector& out) const {

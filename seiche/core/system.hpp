@@ -14,6 +14,14 @@
 
 namespace seiche {
 
+// ½zᵀMz and V(z), for those who need more than their sum.
+struct EnergyTerms {
+  ValueAndMagnitude quadratic, potential;
+  double sum() const { return quadratic.value + potential.value; }
+  // 50ε times the sizes of the terms of H: no energy computed in double precision means more than this.
+  double round_off() const { return 50 * epsilon * (2 * quadratic.magnitude + potential.magnitude); }
+};
+
 struct System {
   std::unique_ptr<Space> space;
   std::unique_ptr<LinearPart> linear;
@@ -24,8 +32,7 @@ struct System {
   Index fields = 1;                                         // of equal size, one after the other in State::z
 
   double energy(const Vector& z) const { return linear->quadratic_energy(z) + potential->value(z); }
-  // 50ε times the sizes of the terms of H: no energy computed in double precision means more than this.
-  double energy_round_off(const Vector& z) const;
+  EnergyTerms energy_terms(const Vector& z) const;
   void gradient(const Vector& z, Vector& out) const;  // ∇H
   // −dH/dt = ∇HᵀDz − ∇Hᵀ S∇H, from ∇V(z), which may be left zero where neither damping nor sym(S) sees it.
   struct Dissipation {

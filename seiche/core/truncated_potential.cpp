@@ -77,8 +77,8 @@ double TruncatedPotential::value(std::span<const double> u) const {
   return potential_->value(projected(u, scratch().a));
 }
 
-double TruncatedPotential::magnitude(std::span<const double> u) const {
-  return potential_->magnitude(projected(u, scratch().a));
+ValueAndMagnitude TruncatedPotential::value_and_magnitude(std::span<const double> u) const {
+  return potential_->value_and_magnitude(projected(u, scratch().a));
 }
 
 double TruncatedPotential::value_and_gradient(std::span<const double> u, std::span<double> gradient) const {

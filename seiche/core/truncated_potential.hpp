@@ -24,7 +24,7 @@ class TruncatedPotential final : public PointwisePotential {
 
   Index fields() const override { return potential_->fields(); }
   double value(std::span<const double> u) const override;
-  double magnitude(std::span<const double> u) const override;
+  ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override;
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override;
   void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override;
   int degree() const override { return potential_->degree(); }

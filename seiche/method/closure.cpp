@@ -8,9 +8,11 @@ StepReport Closure::advance_damped(State&, Propagators&, double, double, const H
 }
 
 EnergyReading Closure::energy(const State& s) const {
+  const EnergyTerms terms = system_.energy_terms(s.z);
   EnergyReading reading;
-  reading.H = reading.modified = system_.energy(s.z);
-  reading.round_off = reading.modified_round_off = system_.energy_round_off(s.z);
+  reading.H = reading.modified = terms.sum();
+  reading.round_off = reading.modified_round_off = terms.round_off();
+  read_modified(s, terms.quadratic.value, reading);
   return reading;
 }
 

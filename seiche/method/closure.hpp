@@ -26,10 +26,12 @@ class Closure {
   // Substep and half-flows in one, for closures that save passes over z by it. On failure s is left as it was.
   virtual bool takes_half_flows() const { return false; }
   virtual StepReport advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows);
-  virtual EnergyReading energy(const State& s) const;
+  EnergyReading energy(const State& s) const;
   virtual bool has_modified_energy() const { return false; }
 
  protected:
+  // Replaces H, which stands there, by the modified energy and its round-off.
+  virtual void read_modified(const State&, double /*quadratic_energy*/, EnergyReading&) const {}
   const System& system() const { return system_; }
   const Potential& potential() const { return *system_.potential; }
 

@@ -117,8 +117,9 @@ class Collocation final : public AdaptiveStepper {
 
   EnergyReading energy(const State& s) const override {
     EnergyReading reading;
-    reading.H = reading.modified = system_.energy(s.z);
-    reading.round_off = reading.modified_round_off = system_.energy_round_off(s.z);
+    const EnergyTerms terms = system_.energy_terms(s.z);
+    reading.H = reading.modified = terms.sum();
+    reading.round_off = reading.modified_round_off = terms.round_off();
     return reading;
   }
   bool has_modified_energy() const override { return false; }

@@ -22,8 +22,10 @@ class SavClosure final : public Closure {
     return !system().damping->touches_potential() && auxiliary_ != AuxiliaryMode::refresh;
   }
   StepReport advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) override;
-  EnergyReading energy(const State& s) const override;
   bool has_modified_energy() const override { return true; }
+
+ protected:
+  void read_modified(const State& s, double quadratic_energy, EnergyReading& reading) const override;
 
  private:
   bool keep_margin(State& s, double quadratic_energy, double v_mid) const;
@@ -117,12 +119,9 @@ StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double
                                  s.shift + 2 * (s.energy_scale + std::abs(v_mid)))};
 }
 
-EnergyReading SavClosure::energy(const State& s) const {
-  EnergyReading reading = Closure::energy(s);
-  const double quadratic = system().linear->quadratic_energy(s.z);
-  reading.modified = quadratic + (s.r_squared - s.shift);
-  reading.modified_round_off = 50 * epsilon * (quadratic + s.r_squared + std::abs(s.shift));
-  return reading;
+void SavClosure::read_modified(const State& s, double quadratic_energy, EnergyReading& reading) const {
+  reading.modified = quadratic_energy + (s.r_squared - s.shift);
+  reading.modified_round_off = 50 * epsilon * (quadratic_energy + s.r_squared + std::abs(s.shift));
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ class BarPotential final : public PointwisePotential {
     return sum;
   }
 
-  double magnitude(std::span<const double> u) const override {
-    double sum = 0;
-    for (const Bar& bar : bars_) sum += std::abs(w_.value(elongation(bar, u)));
+  ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
+    ValueAndMagnitude sum;
+    for (const Bar& bar : bars_) sum += w_.value(elongation(bar, u));
     return sum;
   }
 

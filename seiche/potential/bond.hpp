@@ -23,9 +23,9 @@ class BondPotential final : public PointwisePotential {
     return sum;
   }
 
-  double magnitude(std::span<const double> u) const override {
-    double sum = 0;
-    for_bonds(u, [&](std::size_t, std::size_t, double d) { sum += std::abs(w_.value(d)); });
+  ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
+    ValueAndMagnitude sum;
+    for_bonds(u, [&](std::size_t, std::size_t, double d) { sum += w_.value(d); });
     return sum;
   }
 

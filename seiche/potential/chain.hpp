@@ -20,9 +20,9 @@ class ChainPotential final : public PointwisePotential {
     return sum;
   }
 
-  double magnitude(std::span<const double> u) const override {
-    double sum = bonds_.magnitude(u);
-    for (const double x : u) sum += std::abs(ground_.value(x));
+  ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
+    ValueAndMagnitude sum = bonds_.value_and_magnitude(u);
+    for (const double x : u) sum += ground_.value(x);
     return sum;
   }
 

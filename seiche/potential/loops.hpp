@@ -2,9 +2,11 @@
 #pragma once
 
 #include <seiche/core/multiversion.hpp>
+#include <seiche/core/potential.hpp>
 #include <seiche/core/vector.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace seiche {
@@ -21,14 +23,20 @@ class LaneSums {
   std::array<double, 8> sums_{};
 };
 
+// visit(j, lane) for every point j, where `lane` is the one of LaneSums that its number goes to.
+template <class Visit>
+[[gnu::always_inline]] inline void for_points(std::size_t n, const Visit& visit) {
+  std::size_t j = 0;
+  for (; j + 8 <= n; j += 8)
+    for (std::size_t lane = 0; lane < 8; ++lane) visit(j + lane, lane);
+  for (std::size_t lane = 0; j < n; ++j, ++lane) visit(j, lane);
+}
+
 // Σ_j f(j), where f may write to place j.
 template <class F>
 [[gnu::always_inline]] inline double sum_points(std::size_t n, const F& f) {
   LaneSums sums;
-  std::size_t j = 0;
-  for (; j + 8 <= n; j += 8)
-    for (std::size_t lane = 0; lane < 8; ++lane) sums[lane] += f(j + lane);
-  for (std::size_t lane = 0; j < n; ++j, ++lane) sums[lane] += f(j);
+  for_points(n, [&](std::size_t j, std::size_t lane) { sums[lane] += f(j); });
   return sums.total();
 }
 
@@ -36,6 +44,18 @@ template <class W>
 SEICHE_MULTIVERSION double sum_values(const W& w, const double* u, std::size_t n) {
   const W local = w;
   return sum_points(n, [&](std::size_t j) { return local.value(u[j]); });
+}
+
+template <class W>
+SEICHE_MULTIVERSION ValueAndMagnitude sum_values_and_magnitudes(const W& w, const double* u, std::size_t n) {
+  const W local = w;
+  LaneSums values, magnitudes;
+  for_points(n, [&](std::size_t j, std::size_t lane) {
+    const double value = local.value(u[j]);
+    values[lane] += value;
+    magnitudes[lane] += std::abs(value);
+  });
+  return {values.total(), magnitudes.total()};
 }
 
 template <class W>

@@ -27,9 +27,9 @@ class ModulusPotential final : public PointwisePotential {
     return sum;
   }
 
-  double magnitude(std::span<const double> u) const override {
-    double sum = 0;
-    for (std::size_t j = 0; j < u.size() / 2; ++j) sum += std::abs(w_.value(density(u, j)));
+  ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
+    ValueAndMagnitude sum;
+    for (std::size_t j = 0; j < u.size() / 2; ++j) sum += w_.value(density(u, j));
     return sum;
   }
 

@@ -7,7 +7,6 @@
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace seiche {
 
@@ -20,10 +19,8 @@ class NodalPotential final : public PointwisePotential {
 
   double value(std::span<const double> u) const override { return sum_values(w_, u.data(), u.size()); }
 
-  double magnitude(std::span<const double> u) const override {
-    double sum = 0;
-    for (const double x : u) sum += std::abs(w_.value(x));
-    return sum;
+  ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
+    return sum_values_and_magnitudes(w_, u.data(), u.size());
   }
 
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {

@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
+#include <seiche/problem/grid_options.hpp>
 #include <seiche/problem/wave.hpp>
 
 #include <cmath>
@@ -71,7 +72,7 @@ ProblemEntry alpha_fpu_entry() {
                .default_value = "20",
                .meaning = "N, grid intervals; N − 1 unknowns per field",
                .minimum = 2,
-               .maximum = 1 << 26},
+               .maximum = most_intervals},
               {.name = "exponent",
                .kind = ParameterKind::integer,
                .default_value = "1",

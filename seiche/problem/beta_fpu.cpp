@@ -1,5 +1,6 @@
 #include <seiche/problem/beta_fpu.hpp>
 #include <seiche/problem/chain.hpp>
+#include <seiche/problem/grid_options.hpp>
 
 namespace seiche {
 
@@ -29,7 +30,7 @@ ProblemEntry beta_fpu_entry() {
                .default_value = "32",
                .meaning = "N, bonds; N − 1 masses between fixed ends, N on a ring",
                .minimum = 2,
-               .maximum = 1 << 26},
+               .maximum = most_intervals},
               chain_boundary_parameter("dirichlet"),
               {.name = "beta", .default_value = "8.0", .meaning = "β, cubic stiffness of the bonds"},
               {.name = "internal_friction",

@@ -70,7 +70,7 @@ ProblemEntry chain_entry() {
                .default_value = "32",
                .meaning = "N, bonds; N masses on a ring, N − 1 between fixed ends",
                .minimum = 2,
-               .maximum = 1 << 26},
+               .maximum = most_intervals},
               chain_boundary_parameter("dirichlet"),
               {.name = "mass", .default_value = "1.0", .meaning = "m", .minimum = 0, .minimum_excluded = true},
               {.name = "neighbour_spring",

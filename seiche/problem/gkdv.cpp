@@ -42,7 +42,7 @@ ProblemEntry gkdv_entry() {
                .default_value = "20",
                .meaning = "N, grid points in one period",
                .minimum = 3,
-               .maximum = 1 << 26},
+               .maximum = most_intervals},
               discretisation_parameter(),
               dealias_parameter(),
               {.name = "exponent",

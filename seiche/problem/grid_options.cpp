@@ -75,7 +75,7 @@ std::vector<Parameter> grid_parameters(const std::string& default_points, const 
        .default_value = default_points,
        .meaning = "N, grid intervals",
        .minimum = 2,
-       .maximum = 1 << 26,
+       .maximum = most_intervals,
        .per_axis = true},
       {.name = "boundary",
        .kind = ParameterKind::choice,

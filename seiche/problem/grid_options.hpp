@@ -12,6 +12,10 @@
 
 namespace seiche {
 
+// Along one axis of a case file. Lengths in FFTW and indices in sparse matrices are ints, which must count the entries of
+// several fields. Whether the memory suffices is asked by make_grid.
+inline constexpr Index most_intervals = Index{1} << 26;
+
 struct GridOptions {
   std::vector<Index> points = {20};  // its longest list, and those below, give the number of axes
   std::vector<double> length = {1.0};

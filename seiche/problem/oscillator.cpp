@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/grid_options.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/wave.hpp>
 
@@ -35,7 +36,7 @@ ProblemEntry oscillator_entry() {
                .default_value = "1",
                .meaning = "number of oscillators, which do not touch",
                .minimum = 1,
-               .maximum = 1 << 26},
+               .maximum = most_intervals},
               {.name = "omega_squared",
                .default_value = "1.0",
                .meaning = "ω², frequency squared; negative: a double well"},

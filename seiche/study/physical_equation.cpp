@@ -6,22 +6,14 @@
 namespace seiche {
 
 PhysicalEquation::Rows PhysicalEquation::rows(const BlockStencil& stencil, const Grid& grid) {
+  if (stencil.is_sparse()) return rows(stencil.sparse_matrix(grid));
   constexpr Index most = 8192;  // the matrix below is full before its zeros go
   if (stencil.fields() * grid.unknowns() > most)
-    throw Error("a reference solution is computed for up to {} unknowns, and there are {}; choose fewer points", most,
-                stencil.fields() * grid.unknowns());
-  Rows rows;
-  const Eigen::MatrixXd matrix = stencil.matrix(grid);
-  for (Index i = 0; i < matrix.rows(); ++i) {
-    rows.begin.push_back(rows.value.size());
-    for (Index j = 0; j < matrix.cols(); ++j) {
-      if (matrix(i, j) == 0) continue;
-      rows.column.push_back(static_cast<std::size_t>(j));
-      rows.value.push_back(matrix(i, j));
-    }
-  }
-  rows.begin.push_back(rows.value.size());
-  return rows;
+    throw Error(
+        "with spectral derivatives a reference solution is computed for up to {} unknowns, and there are {}; choose fewer "
+        "points, or finite differences",
+        most, stencil.fields() * grid.unknowns());
+  return rows(SparseMatrix(stencil.matrix(grid).sparseView()));
 }
 
 PhysicalEquation::Rows PhysicalEquation::rows(const SparseMatrix& matrix) {
