@@ -34,7 +34,7 @@ TEST(Allocation, NoStepOfAnyMethodAllocates) {
   for (const auto& [name, problem] : all_cases()) {
     for (const MethodEntry& method : methods()) {
       if (!applies(method.name, problem)) continue;
-      for (const BackendEntry& backend : backends_for(problem, method)) {
+      for (const BackendEntry& backend : backends_for(problem)) {
         Simulation simulation(problem, {.method = std::string(method.name), .backend = std::string(backend.name)});
         for (int n = 0; n < 64; ++n) simulation.step(1.0 / 64);  // builds what it needs, fallbacks included
         const long before = allocations;

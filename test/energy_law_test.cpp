@@ -49,7 +49,7 @@ TEST(EnergyLaw, NoStepOfAnyMethodRaisesItsEnergyAtAnyStepSize) {
     if (!promise_energy_law(problem, 50).promised) continue;
     for (const MethodEntry& method : methods()) {
       if (!applies(method.name, problem)) continue;
-      for (const BackendEntry& backend : backends_for(problem, method)) {
+      for (const BackendEntry& backend : backends_for(problem)) {
         for (const double h : {1.0 / 64, 0.1, 0.25, 1.0, 2.5, 10.0}) {
           const LawRun result = run(problem, method.name, backend.name, h, std::max(6.0, 20 * h));
           EXPECT_LE(result.worst_increase, 1) << name << " " << method.name << " " << backend.name << " h = " << h;
@@ -75,7 +75,7 @@ TEST(EnergyLaw, WithoutDampingEveryMethodKeepsItsEnergyToTwelveDigits) {
                                                   {"Duffing", duffing_case(0)}};
   for (const auto& [name, problem] : conservative) {
     for (const MethodEntry& method : methods()) {
-      for (const BackendEntry& backend : backends_for(problem, method)) {
+      for (const BackendEntry& backend : backends_for(problem)) {
         Simulation simulation(problem, {.method = std::string(method.name), .backend = std::string(backend.name)});
         const EnergyReading start = simulation.energy();
         const double scale = std::abs(start.H) + simulation.state().shift;

@@ -19,7 +19,7 @@ TEST(Exact, ExponentialMethodsSolveLinearGkdvExactly) {
   const Vector expected = exponential_by_extended_series(L * 10.0) * p.initial;
   for (const MethodEntry& method : methods()) {
     if (method.propagator != PropagatorKind::exponential || !applies(method.name, p)) continue;
-    for (const BackendEntry& backend : backends_for(p, method)) {
+    for (const BackendEntry& backend : backends()) {
       Simulation simulation(p, {.method = std::string(method.name), .backend = std::string(backend.name)});
       for (int n = 0; n < 640; ++n) ASSERT_TRUE(simulation.step(1.0 / 64).solved());
       EXPECT_LE((simulation.physical() - expected).lpNorm<Eigen::Infinity>(), 1e-14) << method.name << backend.name;
@@ -32,7 +32,7 @@ TEST(Exact, GkdvLosesItsTwoLinearInvariantsAtTheRateOfTheDamping) {
     for (const double mu : {0.5, 0.1}) {
       const Problem p = gkdv_case(mu, 1.0);
       if (!applies(method.name, p)) continue;
-      for (const BackendEntry& backend : backends_for(p, method)) {
+      for (const BackendEntry& backend : backends()) {
         Simulation simulation(p, {.method = std::string(method.name), .backend = std::string(backend.name)});
         const auto sums = [](const Vector& z) {
           double sum = 0;

@@ -4,6 +4,7 @@
 #include <seiche/backend/sparse.hpp>
 #include <seiche/backend/sparse_damping.hpp>
 #include <seiche/backend/sparse_linear.hpp>
+#include <seiche/backend/sparse_phi.hpp>
 #include <seiche/core/error.hpp>
 
 namespace seiche {
@@ -29,11 +30,17 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
   system.space = std::make_unique<GridSpace>(problem.field_count(), identity);
   system.potential = std::make_unique<GridPotential>(problem.potential, problem.potential_field, identity);
 
-  SparseOperators own;
-  if (!problem.matrices)
-    own = {matrix_of(problem, problem.S), matrix_of(problem, problem.M), matrix_of(problem, problem.damping.constant)};
-  const SparseOperators& matrices = problem.matrices ? *problem.matrices : own;
+  std::shared_ptr<const SparseOperators> shared = problem.matrices;
+  if (!shared)
+    shared =
+        std::make_shared<SparseOperators>(SparseOperators{matrix_of(problem, problem.S), matrix_of(problem, problem.M),
+                                                          matrix_of(problem, problem.damping.constant)});
+  const SparseOperators& matrices = *shared;
   system.linear = sparse_linear_part(matrices.S, matrices.M, system.potential->support(), options.sparse);
+
+  const auto D0 = std::make_shared<const SparseMatrix>(
+      problem.matrices ? frozen_damping_matrix(problem) : frozen_damping(problem).sparse_matrix(problem.grid));
+  system.make_phi = [shared, D0, support = system.potential->support()] { return sparse_phi(shared, D0, support); };
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;

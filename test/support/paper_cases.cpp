@@ -190,11 +190,4 @@ std::vector<BackendEntry> backends_for(const Problem& problem) {
   return list;
 }
 
-std::vector<BackendEntry> backends_for(const Problem& problem, const MethodEntry& method) {
-  std::vector<BackendEntry> list = backends_for(problem);
-  if (method.composition == Composition::collocation)
-    std::erase_if(list, [&](const BackendEntry& backend) { return !backend.system(problem, {}).make_phi; });
-  return list;
-}
-
 }  // namespace seiche::test

@@ -3,7 +3,6 @@
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/core/problem.hpp>
-#include <seiche/method/methods.hpp>
 
 #include <string>
 #include <string_view>
@@ -39,7 +38,5 @@ std::vector<NamedProblem> all_cases();
 bool applies(std::string_view method, const Problem& problem);
 // The backends that take it: modal no matrices, sparse no spectral derivatives.
 std::vector<BackendEntry> backends_for(const Problem& problem);
-// Those of them that the method takes: collocation needs φ-functions.
-std::vector<BackendEntry> backends_for(const Problem& problem, const MethodEntry& method);
 
 }  // namespace seiche::test

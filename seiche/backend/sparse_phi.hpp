@@ -1,0 +1,19 @@
+// φ-functions of the sparse backend: trajectories instead of matrices.
+#pragma once
+
+#include <seiche/core/phi.hpp>
+#include <seiche/core/potential.hpp>
+#include <seiche/core/sparse_operators.hpp>
+
+#include <memory>
+
+namespace seiche {
+
+// S and M are those of `operators`. `support`: the components that V depends on. Rows that lie on one trajectory cost
+// one Krylov pass together, to about round-off. The kernel of S is looked for up to kernel_limit unknowns (sparse_kernel);
+// beyond, without_casimirs says that there is none, and a projection along z may then move Casimirs. All maps of an
+// evaluator work in the same memory, up to 31 vectors: no two of them run at a time.
+std::unique_ptr<PhiEvaluator> sparse_phi(std::shared_ptr<const SparseOperators> operators,
+                                         std::shared_ptr<const SparseMatrix> D0, Potential::Support support);
+
+}  // namespace seiche
