@@ -1,5 +1,6 @@
 // Backends agree with the dense reference, for every method.
 #include "support/paper_cases.hpp"
+#include "support/worst.hpp"
 
 #include <seiche/config/simulation.hpp>
 
@@ -25,7 +26,7 @@ TEST(Agreement, EveryMethodGivesTheSameSolutionOnEveryBackendOverTenTimeUnits) {
       const Vector expected = state_after(problem, method.name, "dense", h, 640);
       for (const BackendEntry& backend : backends_for(problem, method)) {
         const Vector z = state_after(problem, method.name, backend.name, h, 640);
-        EXPECT_LE((z - expected).lpNorm<Eigen::Infinity>(), 1e-11) << name << " " << method.name << " " << backend.name;
+        EXPECT_LE(largest(z - expected), 1e-11) << name << " " << method.name << " " << backend.name;
       }
     }
   }
@@ -40,8 +41,7 @@ TEST(Agreement, TheRightHandSideIsTheSameOnEveryBackend) {
       const System system = backend.system(problem, {});
       Vector out(system.space->size());
       system.right_hand_side(0.3, system.initial, out);
-      EXPECT_LE((system.space->physical(out) - expected).lpNorm<Eigen::Infinity>(),
-                1e-13 * (1 + expected.lpNorm<Eigen::Infinity>()))
+      EXPECT_LE(largest(system.space->physical(out) - expected), 1e-13 * (1 + largest(expected)))
           << name << " " << backend.name;
     }
   }

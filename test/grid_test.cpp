@@ -1,6 +1,7 @@
 // Grids: operators, modes and coordinates in every dimension, boundary and discretisation; exact solutions.
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
+#include "support/worst.hpp"
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/core/error.hpp>
@@ -39,8 +40,7 @@ TEST(Grid, SymbolsAreTheEigenvaluesOfTheMatrices) {
         is_S ? modal.linear->apply_S(x, y) : modal.linear->apply_M(x, y);
       });
       const Matrix expected = stencil->matrix(problem.grid);
-      EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), 2e-14 * (1 + expected.cwiseAbs().maxCoeff()))
-          << name << " " << operator_name;
+      EXPECT_LE(largest(found - expected), 2e-14 * (1 + largest(expected))) << name << " " << operator_name;
     }
   }
 }
@@ -58,8 +58,8 @@ TEST(Grid, DerivativesConvergeAtTheOrderOfTheirDiscretisation) {
         first[i] = k * std::cos(k * x) * u[i];
         second[i] = k * k * (square(std::cos(k * x)) - std::sin(k * x)) * u[i];
       }
-      errors.push_back((Stencil::derivative(grid, 0, d).matrix(grid) * u - first).lpNorm<Eigen::Infinity>() / k +
-                       (Stencil::laplacian(grid, d).matrix(grid) * u - second).lpNorm<Eigen::Infinity>() / (k * k));
+      errors.push_back(largest(Stencil::derivative(grid, 0, d).matrix(grid) * u - first) / k +
+                       largest(Stencil::laplacian(grid, d).matrix(grid) * u - second) / (k * k));
     }
     const double order = std::log2(errors[0] / errors[1]);
     if (d == Discretisation::fd2) {
@@ -93,7 +93,7 @@ double distance_from(const Problem& p, double t_end, const std::function<double(
   const std::span<const double> z = solution.state(1);
   double distance = 0;
   for (Index i = 0; i < p.grid.unknowns(); ++i)
-    distance = std::max(distance, std::abs(z[static_cast<std::size_t>(i)] - exact(p.grid.coordinate(i, 0))));
+    distance = worse(distance, std::abs(z[static_cast<std::size_t>(i)] - exact(p.grid.coordinate(i, 0))));
   return distance;
 }
 
