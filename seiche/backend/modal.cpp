@@ -53,7 +53,7 @@ class ModalLinear final : public LinearPart {
                 .modes = modes_.count(),
                 .layout = layout(problem),
                 .first = problem.potential_field,
-                .count = problem.potential ? problem.potential->fields() : 1,
+                .count = problem.potential ? problem.potential->fields() : 0,
                 .threads = threads} {
     if (!is_diagonal(M_symbol_)) return;
     metric_.emplace(ModalMetric{ModeArrays(extent_.modes, extent_.fields, 1, real_layout()), 0});

@@ -178,6 +178,9 @@ bool applies(std::string_view method, const Problem& problem) {
   }
 }
 
+  Problem linear = klein_gordon({.grid = {.points = {16}, .length = {2.0}}, .gamma = varying});
+  linear.potential = nullptr;
+  cases.push_back({"KG_without_V", linear});
 std::vector<BackendEntry> backends_for(const Problem& problem) {
   std::vector<BackendEntry> list;
   for (const BackendEntry& entry : backends()) {
