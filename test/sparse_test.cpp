@@ -191,6 +191,23 @@ TEST(Sparse, LanczosSaysWhereItDoesNotApply) {
 
 TEST(Sparse, TheDampingFlowIsTheExponentialOfDAndShrinksTheMetric) {
   const Problem p = truss({.panels = 4, .dashpot = 3.0});
+// So many blocks as the spectrum is long, and no step takes more than a few hundred.
+TEST(Sparse, LanczosThatDoesNotSettleSaysWhatWouldHelp) {
+  const Problem p = layered_wave(1500);
+  const System pade = sparse(p);
+  const System lanczos = sparse(p, {.exponential = ExponentialKind::lanczos});
+  const Vector z = Vector::Random(p.size());
+  Vector x = Vector::Zero(p.size());
+  Vector y = Vector::Zero(p.size());
+  pade.linear->propagator(PropagatorKind::exponential, 0.05)->increment(z, x);
+  lanczos.linear->propagator(PropagatorKind::exponential, 0.05)->increment(z, y);  // hρ = 150
+  EXPECT_LE(distance(x, y), 1e-11 * largest(x));
+  const auto too_long = lanczos.linear->propagator(PropagatorKind::exponential, 0.3);  // hρ = 900
+  const std::string message = message_of([&] { too_long->increment(z, y); });
+  for (const char* part : {"400", "hρ", "h = 0.3", "smaller h", "pade"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << ": " << message;
+}
+
   const System system = sparse(p);
   const Matrix D = Matrix(p.matrices->D);
   const Matrix M = Matrix(p.matrices->M);
