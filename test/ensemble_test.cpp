@@ -8,6 +8,8 @@
 #include <seiche/ensemble/folded_transform.hpp>
 #include <seiche/ensemble/lane_block.hpp>
 #include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/sparse.hpp>
+#include <seiche/problem/variable_wave.hpp>
 #include <seiche/run/integrate.hpp>
 
 #include <gtest/gtest.h>
@@ -245,6 +247,45 @@ TEST(Ensemble, AMemberThatFailsStopsWithTheMessageOfItsOwnRunAndTheOthersGoOn) {
   EXPECT_LT(not_started + stopped, 20);
   EXPECT_EQ(records.front().running, 20 - not_started);
   EXPECT_EQ(records.back().running, 20 - not_started - stopped);
+}
+
+// Lanczos iteration is no fixed matrix: what it makes of z depends on z and on the force beside it.
+TEST(Ensemble, MembersByLanczosRunAsTheyWouldAloneAtAnyDimension) {
+  const Problem p = variable_wave({.grid = {.points = {30}, .length = {2.0}, .boundary = {Boundary::dirichlet}},
+                                   .mass = 0.5,
+                                   .alpha = 1.0,
+                                   .gamma = constant_rate(0.1)});
+  for (const int dimension : {0, 2, 4}) {
+    const SimulationOptions options{.method = "seisav",
+                                    .backend = "sparse",
+                                    .backend_options = {.sparse = {.exponential = ExponentialKind::lanczos,
+                                                                   .lanczos_dimension = dimension}}};
+    EXPECT_LE(compare(scaled_members(p, 3), options, 0.1, 5).difference, 1e-12) << dimension;
+  }
+}
+
+// At γ = −4.25 and h = 0.5 the Cayley propagator of `sav` divides by zero.
+TEST(Ensemble, AMemberWithoutAPropagatorLeavesTheOthersRunning) {
+  SparseMatrix M(2, 2);
+  M.setIdentity();
+  std::vector<EnsembleMember> members;
+  for (const double gamma : {0.1, -4.25, 0.2}) {
+    auto problem = std::make_shared<const Problem>(
+        sparse_problem({.matrices = {.S = {}, .M = M, .D = {}}, .quartic = 1.0, .gamma = constant_rate(gamma)}));
+    members.push_back({problem, problem->initial});
+  }
+  const SimulationOptions options{.method = "sav", .backend = "sparse"};
+  const EnsembleResult result = run_ensemble(members, {.simulation = options, .h = 0.5, .t_end = 2.0});
+  for (const std::size_t m : {0U, 2U}) {
+    EXPECT_EQ(result.members[m].report.status, RunReport::Status::success) << result.members[m].report.message;
+    const std::unique_ptr<Simulation> ordinary = alone(members[m], options);
+    for (int n = 0; n < 4; ++n) ASSERT_TRUE(ordinary->step(0.5).solved());
+    EXPECT_LE(largest(result.members[m].final - ordinary->physical()), 1e-13);
+  }
+  EXPECT_EQ(result.members[1].report.status, RunReport::Status::failed);
+  EXPECT_NE(result.members[1].report.message.find("cannot be factorised"), std::string::npos)
+      << result.members[1].report.message;
+  EXPECT_EQ(result.members[1].report.steps, 0);
 }
 
 TEST(Ensemble, RefusesToRunWhereNoMemberCanStart) {
