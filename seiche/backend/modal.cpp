@@ -225,6 +225,8 @@ std::unique_ptr<Potential> modal_potential(const Problem& problem,
 }  // namespace
 
 System modal_system(const Problem& problem, const BackendOptions& options) {
+  if (options.threads < 1)
+    throw Error("threads = {} of the modal backend must be ≥ 1; 1 runs on the calling thread alone", options.threads);
   if (problem.matrices)
     throw Error(
         "the modal backend needs coefficients that are the same at every point, and {} has matrices; use "
