@@ -303,6 +303,22 @@ TEST(Sparse, DefinitenessAgreesWithEigenvalues) {
   }
 }
 
+// Whose pivots are all round-off, or whose elimination leaves a direction that hardly falls.
+TEST(Sparse, TheWitnessOfAnIndefiniteMatrixIsNoRoundOff) {
+  SparseMatrix swap(2, 2);
+  swap.insert(0, 1) = swap.insert(1, 0) = 1;
+  const auto direction = negative_direction(swap);
+  ASSERT_TRUE(direction);
+  EXPECT_NEAR(direction->value, -1, 1e-6);
+  SparseMatrix four(4, 4);
+  four.insert(0, 0) = four.insert(1, 1) = 1;
+  four.insert(2, 3) = four.insert(3, 2) = 0.5;
+  const auto other = negative_direction(four);
+  ASSERT_TRUE(other);
+  EXPECT_NEAR(other->value, -0.5, 1e-6);
+  EXPECT_GE(other->largest, 2);
+}
+
 TEST(Sparse, MergedDampingSolvesTheSameEquation) {
   Problem p = truss({.panels = 3, .mass = 2.5, .gamma = constant_rate(0.3)});
   const Problem merged = with_damping_merged(p);
