@@ -6,6 +6,7 @@
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/pade_poles.hpp>
+#include <seiche/backend/resolvent.hpp>
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/matrix_market.hpp>
 #include <seiche/config/simulation.hpp>
@@ -19,6 +20,7 @@
 #include <seiche/problem/variable_wave.hpp>
 
 #include <gtest/gtest.h>
+#include <Eigen/SparseLU>
 
 #include <cmath>
 #include <fstream>
@@ -189,8 +191,6 @@ TEST(Sparse, LanczosSaysWhereItDoesNotApply) {
   EXPECT_NE(message_of([&] { sparse(merged, {.pade_degree = 13}); }).find("between 1 and 12"), std::string::npos);
 }
 
-TEST(Sparse, TheDampingFlowIsTheExponentialOfDAndShrinksTheMetric) {
-  const Problem p = truss({.panels = 4, .dashpot = 3.0});
 // So many blocks as the spectrum is long, and no step takes more than a few hundred.
 TEST(Sparse, LanczosThatDoesNotSettleSaysWhatWouldHelp) {
   const Problem p = layered_wave(1500);
@@ -208,6 +208,8 @@ TEST(Sparse, LanczosThatDoesNotSettleSaysWhatWouldHelp) {
     EXPECT_NE(message.find(part), std::string::npos) << part << ": " << message;
 }
 
+TEST(Sparse, TheDampingFlowIsTheExponentialOfDAndShrinksTheMetric) {
+  const Problem p = truss({.panels = 4, .dashpot = 3.0});
   const System system = sparse(p);
   const Matrix D = Matrix(p.matrices->D);
   const Matrix M = Matrix(p.matrices->M);
@@ -319,6 +321,34 @@ TEST(Sparse, TheWitnessOfAnIndefiniteMatrixIsNoRoundOff) {
   EXPECT_GE(other->largest, 2);
 }
 
+TEST(Sparse, TheMemoryOfFactorsIsKnownWithoutStructureToo) {
+  // neither a wave nor symmetric: S couples every position with the next
+  const SparseMatrix M = layered_wave(60).matrices->M;
+  SparseMatrix S = layered_wave(60).matrices->S;
+  for (Index i = 0; i + 1 < S.rows() / 2; ++i) {
+    S.coeffRef(i, i + 1) = 0.1;
+    S.coeffRef(i + 1, i) = -0.1;
+  }
+  ASSERT_FALSE(wave_structure(S, M));
+  const double expected = ResolventFactory(S, M).factor_bytes();
+  Eigen::SparseMatrix<std::complex<double>> a = SparseMatrix(0.1 * (S * M)).cast<std::complex<double>>();
+  a -= std::complex<double>(1, 2) * identity_matrix(S.rows()).cast<std::complex<double>>();
+  a.makeCompressed();
+  Eigen::SparseLU<Eigen::SparseMatrix<std::complex<double>>> lu;
+  lu.compute(a);
+  const double found = 20.0 * static_cast<double>(lu.nnzL() + lu.nnzU());  // a value and its row
+  EXPECT_GE(expected, found / 4);
+  EXPECT_LE(expected, found * 4);
+}
+
+TEST(Sparse, StencilsWithMoreEntriesThanAMatrixCanCountAreRefused) {
+  const Grid grid{
+      .axes = {{600, 1.0, Boundary::periodic}, {600, 1.0, Boundary::periodic}, {600, 1.0, Boundary::periodic}}};
+  const Stencil laplacian = Stencil::laplacian(grid, Discretisation::fd4);
+  const std::string message = message_of([&] { laplacian.sparse_matrix(grid); });
+  EXPECT_NE(message.find("fewer points"), std::string::npos) << message;
+}
+
 TEST(Sparse, MergedDampingSolvesTheSameEquation) {
   Problem p = truss({.panels = 3, .mass = 2.5, .gamma = constant_rate(0.3)});
   const Problem merged = with_damping_merged(p);
@@ -379,6 +409,8 @@ TEST_F(MatrixMarket, AMistakeIsNamedWithItsLine) {
   EXPECT_NE(refusal(head + "2 2 1\n2 1 1\n1 1 1\n").find(":4: more entries"), std::string::npos);
   EXPECT_NE(refusal(head + "2 3 1\n2 1 1\n").find("square"), std::string::npos);
   EXPECT_NE(refusal(head + "2 2 1000000000\n2 1 1\n").find("do not fit"), std::string::npos);
+  const std::string huge = refusal("%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 1 1\n");
+  EXPECT_NE(huge.find("a.mtx:2: a matrix of 2000000000 × 2000000000 needs at least"), std::string::npos) << huge;
   EXPECT_NE(message_of([] { read_matrix_market("no_such.mtx"); }).find("no_such.mtx"), std::string::npos);
 }
 
