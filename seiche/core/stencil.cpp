@@ -72,6 +72,19 @@ Eigen::MatrixXd line_modes(const GridAxis& axis) {
   return modes;
 }
 
+// A SparseMatrix counts its entries by int, and is put together from triplets that stand beside it.
+void require_entries(double entries) {
+  constexpr double most = std::numeric_limits<int>::max();
+  constexpr double bytes_per_entry = sizeof(Eigen::Triplet<double>) + sizeof(double) + sizeof(int);
+  if (entries > most)
+    throw Error("a sparse matrix of {:.0f} entries is not possible: at most {:.0f}; choose fewer points", entries,
+                most);
+  if (entries * bytes_per_entry > physical_memory())
+    throw Error(
+        "a sparse matrix of {:.0f} entries needs {:.3g} bytes, and this machine has {:.3g}; choose fewer points",
+        entries, entries * bytes_per_entry, physical_memory());
+}
+
 }  // namespace
 
 Stencil Stencil::identity(double factor) {
@@ -195,23 +208,6 @@ Eigen::MatrixXd Stencil::matrix(const Grid& grid) const {
   }
   return a;
 }
-
-namespace {
-
-// A SparseMatrix counts its entries by int, and is put together from triplets that stand beside it.
-void require_entries(double entries) {
-  constexpr double most = std::numeric_limits<int>::max();
-  constexpr double bytes_per_entry = sizeof(Eigen::Triplet<double>) + sizeof(double) + sizeof(int);
-  if (entries > most)
-    throw Error("a sparse matrix of {:.0f} entries is not possible: at most {:.0f}; choose fewer points", entries,
-                most);
-  if (entries * bytes_per_entry > physical_memory())
-    throw Error(
-        "a sparse matrix of {:.0f} entries needs {:.3g} bytes, and this machine has {:.3g}; choose fewer points",
-        entries, entries * bytes_per_entry, physical_memory());
-}
-
-}  // namespace
 
 SparseMatrix Stencil::sparse_matrix(const Grid& grid) const {
   const Index n = grid.unknowns();
