@@ -1,6 +1,7 @@
 // The contract of every propagator on every backend, from which every energy law follows.
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
+#include "support/worst.hpp"
 
 #include <seiche/backend/backends.hpp>
 
@@ -29,7 +30,7 @@ std::vector<Setting> settings() {
 // The largest entry of F + Fᵀ + FᵀMF in units of the terms: 0 for skew S.
 double skew_defect(const Matrix& F, const Matrix& M) {
   const Matrix FMF = F.transpose() * M * F;
-  return (F + F.transpose() + FMF).cwiseAbs().maxCoeff() / (F.cwiseAbs().maxCoeff() + FMF.cwiseAbs().maxCoeff());
+  return largest(F + F.transpose() + FMF) / (largest(F) + largest(FMF));
 }
 
 template <class Check>
@@ -58,7 +59,7 @@ TEST(Contract, FPlusItsAdjointPlusFMFVanishesForSkewSAndIsNegativeOtherwise) {
     } else {
       const Matrix FMF = F.transpose() * M * F;
       const Matrix defect = F + F.transpose() + FMF;
-      const double size = F.cwiseAbs().maxCoeff() + FMF.cwiseAbs().maxCoeff();
+      const double size = largest(F) + largest(FMF);
       const double largest =
           Eigen::SelfAdjointEigenSolver<Matrix>(0.5 * (defect + defect.transpose())).eigenvalues().maxCoeff();
       EXPECT_LE(largest, 1e-13 * size);
@@ -71,7 +72,7 @@ TEST(Contract, TheIncrementIsFM) {
     const Matrix F = matrix_of(system, [&](const Vector& x, Vector& y) { propagator.force(x, y); });
     const Matrix M = matrix_of(system, [&](const Vector& x, Vector& y) { system.linear->apply_M(x, y); });
     const Matrix FM = matrix_of(system, [&](const Vector& x, Vector& y) { propagator.increment(x, y); });
-    EXPECT_LE((FM - F * M).cwiseAbs().maxCoeff(), 1e-13 * (F.cwiseAbs() * M.cwiseAbs()).maxCoeff());
+    EXPECT_LE(largest(FM - F * M), 1e-13 * (F.cwiseAbs() * M.cwiseAbs()).maxCoeff());
   });
 }
 
@@ -86,7 +87,7 @@ TEST(Contract, TheExponentialPropagatorSolvesTheLinearEquation) {
         const Matrix E = Matrix::Identity(A.rows(), A.cols()) +
                          matrix_of(system, [&](const Vector& x, Vector& y) { propagator->increment(x, y); });
         const Matrix expected = exponential_by_extended_series(A * h);
-        EXPECT_LE((E - expected).cwiseAbs().maxCoeff(), 2e-13 * expected.cwiseAbs().maxCoeff())
+        EXPECT_LE(largest(E - expected), 2e-13 * largest(expected))
             << setting.name << " " << backend.name << " h = " << h;
       }
     }
@@ -134,8 +135,7 @@ TEST(Contract, TheCayleyPropagatorIsCrankNicolson) {
         const auto propagator = system.linear->propagator(PropagatorKind::cayley, h);
         const Matrix E = I + matrix_of(system, [&](const Vector& x, Vector& y) { propagator->increment(x, y); });
         const Matrix left = (I - h / 2 * A) * E;
-        EXPECT_LE((left - (I + h / 2 * A)).cwiseAbs().maxCoeff(),
-                  1e-13 * (1 + h * A.cwiseAbs().maxCoeff()) * E.cwiseAbs().maxCoeff())
+        EXPECT_LE(largest(left - (I + h / 2 * A)), 1e-13 * (1 + h * largest(A)) * largest(E))
             << setting.name << backend.name << h;
       }
     }

@@ -51,6 +51,26 @@ TEST(EnsembleCase, SamplesRepeatWithTheSeedAndMoreMembersBeginWithTheSameOnes) {
   }
 }
 
+TEST(EnsembleCase, MembersThatWouldNotFitIntoMemoryAreRefusedBeforeTheyAreMade) {
+  const std::string wide =
+      "[problem]\nname = \"klein_gordon\"\npoints = 1000000\n[time]\nend = 1.0\n[ensemble]\nmembers = ";
+  const auto refusal = [&](const std::string& rest) -> std::string {
+    try {
+      make_members(parse_case(wide + rest, "a.toml"));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const char* rest : {"10000000\n", "10000000\nkappa = { from = 0.1, to = 0.2 }\n"}) {
+    EXPECT_NE(refusal(rest).find("10000000 members"), std::string::npos) << refusal(rest);
+    EXPECT_NE(refusal(rest).find("fewer members"), std::string::npos) << refusal(rest);
+  }
+  // members that differ in a parameter need a simulation each
+  EXPECT_GT(ensemble_bytes(ensemble_case("members = 100\nkappa = { from = 0.1, to = 0.2 }\n")),
+            3 * ensemble_bytes(ensemble_case("members = 100\nperturb_initial = 0.1\n")));
+}
+
 TEST(EnsembleCase, NormalSamplesHaveTheirMeanAndDeviation) {
   const Members members = make_members(ensemble_case("members = 2000\nomega_squared = { normal = [3, 0.5] }\n"));
   std::vector<double> values;

@@ -1,6 +1,7 @@
 // Identities and exact solutions.
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
+#include "support/worst.hpp"
 
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
@@ -22,7 +23,7 @@ TEST(Exact, ExponentialMethodsSolveLinearGkdvExactly) {
     for (const BackendEntry& backend : backends()) {
       Simulation simulation(p, {.method = std::string(method.name), .backend = std::string(backend.name)});
       for (int n = 0; n < 640; ++n) ASSERT_TRUE(simulation.step(1.0 / 64).solved());
-      EXPECT_LE((simulation.physical() - expected).lpNorm<Eigen::Infinity>(), 1e-14) << method.name << backend.name;
+      EXPECT_LE(largest(simulation.physical() - expected), 1e-14) << method.name << backend.name;
     }
   }
 }
@@ -64,7 +65,7 @@ TEST(Exact, WithOneDegreeOfFreedomTheMultiplierIsTheAveragedVectorField) {
     for (int n = 0; n < 640; ++n) {
       unresolved += multiplier.step(1.0 / 64).unresolved;
       ASSERT_TRUE(averaged.step(1.0 / 64).solved());
-      ASSERT_LE((multiplier.physical() - averaged.physical()).lpNorm<Eigen::Infinity>(), 1e-11) << lm << " step " << n;
+      ASSERT_LE(largest(multiplier.physical() - averaged.physical()), 1e-11) << lm << " step " << n;
     }
     EXPECT_EQ(unresolved, 0);
   }

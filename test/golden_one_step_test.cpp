@@ -1,5 +1,6 @@
 // One step of every method against an independent implementation (test/data/golden.json).
 #include "support/golden.hpp"
+#include "support/worst.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ TEST(Golden, InitialDataAreThoseOfTheOracle) {
   for (const auto& [name, problem] : golden_cases()) {
     const Vector z0 = golden_vector(golden_case(name).at("z0"));
     ASSERT_EQ(z0.size(), problem.initial.size()) << name;
-    EXPECT_LE((z0 - problem.initial).lpNorm<Eigen::Infinity>(), 1e-14 * z0.lpNorm<Eigen::Infinity>()) << name;
+    EXPECT_LE(largest(z0 - problem.initial), 1e-14 * largest(z0)) << name;
   }
 }
 
@@ -22,9 +23,8 @@ TEST(Golden, OneStepOfEveryMethodOnEveryBackendAgreesToThirteenDigits) {
       for (const BackendEntry& backend : backends()) {
         Simulation simulation(problem, method.options(backend.name));
         ASSERT_TRUE(simulation.step(method.step_sizes.front()).solved());
-        const double distance = (simulation.physical() - expected).lpNorm<Eigen::Infinity>();
-        EXPECT_LE(distance, 1e-13 * expected.lpNorm<Eigen::Infinity>())
-            << name << " " << method.golden_name << " " << backend.name;
+        const double distance = largest(simulation.physical() - expected);
+        EXPECT_LE(distance, 1e-13 * largest(expected)) << name << " " << method.golden_name << " " << backend.name;
         ++compared;
       }
     }

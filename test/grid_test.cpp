@@ -1,6 +1,7 @@
 // Grids: operators, modes and coordinates in every dimension, boundary and discretisation; exact solutions.
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
+#include "support/worst.hpp"
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/core/error.hpp>
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 namespace seiche::test {
@@ -39,8 +41,7 @@ TEST(Grid, SymbolsAreTheEigenvaluesOfTheMatrices) {
         is_S ? modal.linear->apply_S(x, y) : modal.linear->apply_M(x, y);
       });
       const Matrix expected = stencil->matrix(problem.grid);
-      EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), 2e-14 * (1 + expected.cwiseAbs().maxCoeff()))
-          << name << " " << operator_name;
+      EXPECT_LE(largest(found - expected), 2e-14 * (1 + largest(expected))) << name << " " << operator_name;
     }
   }
 }
@@ -58,8 +59,8 @@ TEST(Grid, DerivativesConvergeAtTheOrderOfTheirDiscretisation) {
         first[i] = k * std::cos(k * x) * u[i];
         second[i] = k * k * (square(std::cos(k * x)) - std::sin(k * x)) * u[i];
       }
-      errors.push_back((Stencil::derivative(grid, 0, d).matrix(grid) * u - first).lpNorm<Eigen::Infinity>() / k +
-                       (Stencil::laplacian(grid, d).matrix(grid) * u - second).lpNorm<Eigen::Infinity>() / (k * k));
+      errors.push_back(largest(Stencil::derivative(grid, 0, d).matrix(grid) * u - first) / k +
+                       largest(Stencil::laplacian(grid, d).matrix(grid) * u - second) / (k * k));
     }
     const double order = std::log2(errors[0] / errors[1]);
     if (d == Discretisation::fd2) {
@@ -88,12 +89,21 @@ TEST(Grid, EigenfunctionsOfEveryBoundaryAreEigenfunctions) {
   }
 }
 
+TEST(Grid, TheTwoThirdsRuleCostsNothingBeforeItIsUsed) {
+  const std::clock_t begin = std::clock();
+  const Problem p =
+      gkdv({.length = 10, .points = 1 << 15, .discretisation = Discretisation::spectral, .two_thirds = true});
+  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  EXPECT_EQ(p.size(), 1 << 15);
+  EXPECT_LE(seconds, 1);  // a cosine for every pair of points takes ten
+}
+
 double distance_from(const Problem& p, double t_end, const std::function<double(double x)>& exact) {
   const Reference solution = make_reference(p, {0.0, t_end});
   const std::span<const double> z = solution.state(1);
   double distance = 0;
   for (Index i = 0; i < p.grid.unknowns(); ++i)
-    distance = std::max(distance, std::abs(z[static_cast<std::size_t>(i)] - exact(p.grid.coordinate(i, 0))));
+    distance = worse(distance, std::abs(z[static_cast<std::size_t>(i)] - exact(p.grid.coordinate(i, 0))));
   return distance;
 }
 

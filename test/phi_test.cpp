@@ -1,6 +1,7 @@
 // Sums of φ-functions against the exponential of an augmented matrix in extended precision.
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
+#include "support/worst.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,8 +62,8 @@ TEST(Phi, SumsOfEveryBackendAreThoseOfTheDefinition) {
             }
             const double theta = rows.rows[i].theta;
             const Vector expected = phi_sum(theta * h * L, system.space->physical(z), c);
-            const double size = expected.lpNorm<Eigen::Infinity>() + c.cwiseAbs().maxCoeff();
-            EXPECT_LE((system.space->physical(out[i]) - expected).lpNorm<Eigen::Infinity>(), 2e-13 * size)
+            const double size = largest(expected) + largest(c);
+            EXPECT_LE(largest(system.space->physical(out[i]) - expected), 2e-13 * size)
                 << name << " " << backend.name << " h = " << h << " row " << i
                 << (gradients ? " gradients" : " states");
           }

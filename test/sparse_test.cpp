@@ -2,9 +2,11 @@
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/worst.hpp"
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/pade_poles.hpp>
+#include <seiche/backend/resolvent.hpp>
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/matrix_market.hpp>
 #include <seiche/config/simulation.hpp>
@@ -18,6 +20,7 @@
 #include <seiche/problem/variable_wave.hpp>
 
 #include <gtest/gtest.h>
+#include <Eigen/SparseLU>
 
 #include <cmath>
 #include <fstream>
@@ -44,7 +47,7 @@ Matrix force_of(const System& system, const Propagator& propagator) {
 
 double contract_defect(const Matrix& F, const Matrix& M) {
   const Matrix FMF = F.transpose() * M * F;
-  return (F + F.transpose() + FMF).cwiseAbs().maxCoeff() / (F.cwiseAbs().maxCoeff() + FMF.cwiseAbs().maxCoeff());
+  return largest(F + F.transpose() + FMF) / (largest(F) + largest(FMF));
 }
 
 std::string message_of(const auto& action) {
@@ -56,7 +59,7 @@ std::string message_of(const auto& action) {
   return "";
 }
 
-double distance(const Vector& a, const Vector& b) { return (a - b).lpNorm<Eigen::Infinity>(); }
+double distance(const Vector& a, const Vector& b) { return largest(a - b); }
 
 TEST(Sparse, PadeOfEveryDegreeKeepsTheContractAtStepsWhereItIsNotAccurate) {
   const Problem p = layered_wave();
@@ -94,7 +97,7 @@ TEST(Sparse, TheAutomaticDegreeGivesTheExponentialAtAnyStep) {
       const Matrix E = Matrix::Identity(A.rows(), A.cols()) +
                        matrix_of(system, [&](const Vector& x, Vector& y) { propagator->increment(x, y); });
       const Matrix expected = exponential_by_extended_series(A * h);
-      EXPECT_LE((E - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff()) << p.name << h;
+      EXPECT_LE(largest(E - expected), 1e-12 * largest(expected)) << p.name << h;
     }
   }
 }
@@ -143,7 +146,7 @@ TEST(Sparse, LanczosThatSettlesIsTheExponentialForEveryVerb) {
   Vector y = Vector::Zero(p.size());
   a->increment(z, x);
   b->increment(z, y);
-  const double scale = 1e-11 * x.lpNorm<Eigen::Infinity>();
+  const double scale = 1e-11 * largest(x);
   EXPECT_LE(distance(x, y), scale);
   a->force(f, x);
   b->force(f, y);
@@ -170,7 +173,7 @@ TEST(Sparse, TheEnergyLawHoldsToTwelveDigitsHoweverCoarseTheExponential) {
     double drift = 0;
     for (int n = 0; n < 50; ++n) {
       ASSERT_TRUE(simulation.step(0.05).solved());
-      drift = std::max(drift, std::abs(simulation.energy().modified - start));
+      drift = worse(drift, std::abs(simulation.energy().modified - start));
     }
     EXPECT_LE(drift, 1e-12 * (start + simulation.state().shift));
     Simulation exact(p, {.method = "seisav", .backend = "dense"});
@@ -188,6 +191,23 @@ TEST(Sparse, LanczosSaysWhereItDoesNotApply) {
   EXPECT_NE(message_of([&] { sparse(merged, {.pade_degree = 13}); }).find("between 1 and 12"), std::string::npos);
 }
 
+// So many blocks as the spectrum is long, and no step takes more than a few hundred.
+TEST(Sparse, LanczosThatDoesNotSettleSaysWhatWouldHelp) {
+  const Problem p = layered_wave(1500);
+  const System pade = sparse(p);
+  const System lanczos = sparse(p, {.exponential = ExponentialKind::lanczos});
+  const Vector z = Vector::Random(p.size());
+  Vector x = Vector::Zero(p.size());
+  Vector y = Vector::Zero(p.size());
+  pade.linear->propagator(PropagatorKind::exponential, 0.05)->increment(z, x);
+  lanczos.linear->propagator(PropagatorKind::exponential, 0.05)->increment(z, y);  // hρ = 150
+  EXPECT_LE(distance(x, y), 1e-11 * largest(x));
+  const auto too_long = lanczos.linear->propagator(PropagatorKind::exponential, 0.3);  // hρ = 900
+  const std::string message = message_of([&] { too_long->increment(z, y); });
+  for (const char* part : {"400", "hρ", "h = 0.3", "smaller h", "pade"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << ": " << message;
+}
+
 TEST(Sparse, TheDampingFlowIsTheExponentialOfDAndShrinksTheMetric) {
   const Problem p = truss({.panels = 4, .dashpot = 3.0});
   const System system = sparse(p);
@@ -198,9 +218,9 @@ TEST(Sparse, TheDampingFlowIsTheExponentialOfDAndShrinksTheMetric) {
       y = x;
       system.damping->flow(0.0, h, y);
     });
-    EXPECT_LE((flow - exponential_by_extended_series(-h * D)).cwiseAbs().maxCoeff(), 1e-13) << h;
+    EXPECT_LE(largest(flow - exponential_by_extended_series(-h * D)), 1e-13) << h;
     const Matrix defect = flow.transpose() * M * flow - M;
-    EXPECT_LE(Eigen::SelfAdjointEigenSolver<Matrix>(defect).eigenvalues().maxCoeff(), 1e-12 * M.cwiseAbs().maxCoeff());
+    EXPECT_LE(Eigen::SelfAdjointEigenSolver<Matrix>(defect).eigenvalues().maxCoeff(), 1e-12 * largest(M));
   }
 }
 
@@ -285,6 +305,50 @@ TEST(Sparse, DefinitenessAgreesWithEigenvalues) {
   }
 }
 
+// Whose pivots are all round-off, or whose elimination leaves a direction that hardly falls.
+TEST(Sparse, TheWitnessOfAnIndefiniteMatrixIsNoRoundOff) {
+  SparseMatrix swap(2, 2);
+  swap.insert(0, 1) = swap.insert(1, 0) = 1;
+  const auto direction = negative_direction(swap);
+  ASSERT_TRUE(direction);
+  EXPECT_NEAR(direction->value, -1, 1e-6);
+  SparseMatrix four(4, 4);
+  four.insert(0, 0) = four.insert(1, 1) = 1;
+  four.insert(2, 3) = four.insert(3, 2) = 0.5;
+  const auto other = negative_direction(four);
+  ASSERT_TRUE(other);
+  EXPECT_NEAR(other->value, -0.5, 1e-6);
+  EXPECT_GE(other->largest, 2);
+}
+
+TEST(Sparse, TheMemoryOfFactorsIsKnownWithoutStructureToo) {
+  // neither a wave nor symmetric: S couples every position with the next
+  const SparseMatrix M = layered_wave(60).matrices->M;
+  SparseMatrix S = layered_wave(60).matrices->S;
+  for (Index i = 0; i + 1 < S.rows() / 2; ++i) {
+    S.coeffRef(i, i + 1) = 0.1;
+    S.coeffRef(i + 1, i) = -0.1;
+  }
+  ASSERT_FALSE(wave_structure(S, M));
+  const double expected = ResolventFactory(S, M).factor_bytes();
+  Eigen::SparseMatrix<std::complex<double>> a = SparseMatrix(0.1 * (S * M)).cast<std::complex<double>>();
+  a -= std::complex<double>(1, 2) * identity_matrix(S.rows()).cast<std::complex<double>>();
+  a.makeCompressed();
+  Eigen::SparseLU<Eigen::SparseMatrix<std::complex<double>>> lu;
+  lu.compute(a);
+  const double found = 20.0 * static_cast<double>(lu.nnzL() + lu.nnzU());  // a value and its row
+  EXPECT_GE(expected, found / 4);
+  EXPECT_LE(expected, found * 4);
+}
+
+TEST(Sparse, StencilsWithMoreEntriesThanAMatrixCanCountAreRefused) {
+  const Grid grid{
+      .axes = {{600, 1.0, Boundary::periodic}, {600, 1.0, Boundary::periodic}, {600, 1.0, Boundary::periodic}}};
+  const Stencil laplacian = Stencil::laplacian(grid, Discretisation::fd4);
+  const std::string message = message_of([&] { laplacian.sparse_matrix(grid); });
+  EXPECT_NE(message.find("fewer points"), std::string::npos) << message;
+}
+
 TEST(Sparse, MergedDampingSolvesTheSameEquation) {
   Problem p = truss({.panels = 3, .mass = 2.5, .gamma = constant_rate(0.3)});
   const Problem merged = with_damping_merged(p);
@@ -295,7 +359,7 @@ TEST(Sparse, MergedDampingSolvesTheSameEquation) {
   Vector y(p.size());
   a.right_hand_side(0, z, x);
   b.right_hand_side(0, z, y);
-  EXPECT_LE(distance(x, y), 1e-12 * x.lpNorm<Eigen::Infinity>());
+  EXPECT_LE(distance(x, y), 1e-12 * largest(x));
   EXPECT_FALSE(merged.has_damping());
 }
 
@@ -345,6 +409,8 @@ TEST_F(MatrixMarket, AMistakeIsNamedWithItsLine) {
   EXPECT_NE(refusal(head + "2 2 1\n2 1 1\n1 1 1\n").find(":4: more entries"), std::string::npos);
   EXPECT_NE(refusal(head + "2 3 1\n2 1 1\n").find("square"), std::string::npos);
   EXPECT_NE(refusal(head + "2 2 1000000000\n2 1 1\n").find("do not fit"), std::string::npos);
+  const std::string huge = refusal("%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 1 1\n");
+  EXPECT_NE(huge.find("a.mtx:2: a matrix of 2000000000 × 2000000000 needs at least"), std::string::npos) << huge;
   EXPECT_NE(message_of([] { read_matrix_market("no_such.mtx"); }).find("no_such.mtx"), std::string::npos);
 }
 

@@ -50,6 +50,14 @@ std::string law_cell(const ProblemResult& result, const Curve& curve) {
                      law.runs, law.most_rises);
 }
 
+// H itself, which an integrator with an energy of its own does not promise.
+std::string energy_cell(const Curve& curve) {
+  const EnergyLaw law = energy_law(curve);
+  if (law.runs == 0) return "";
+  return law.runs_where_H_rose == 0 ? "never rose"
+                                    : fmt::format("rose in {} of {} runs", law.runs_where_H_rose, law.runs);
+}
+
 // For the summary, where there is a law: that an integrator broke it on the way.
 std::string law_mark(const ProblemResult& result, const Curve& curve) {
   return result.law_holds && energy_law(curve).runs_with_rise > 0 ? ", law broken" : "";
@@ -96,14 +104,15 @@ std::string reach_table(const ProblemResult& result) {
   const std::vector<Curve> curves = curves_of(result);
   std::string text =
       "<h3>Seconds to reach an error</h3>\n<div class=\"scroll\"><table class=\"numbers\"><thead><tr><th scope=\"col\">Integrator</th>" +
-      head_of_errors() + "<th scope=\"col\" class=\"words\">energy law</th></tr></thead>\n<tbody>\n";
+      head_of_errors() +
+      "<th scope=\"col\" class=\"words\">energy law</th><th scope=\"col\" class=\"words\">H</th></tr></thead>\n<tbody>\n";
   std::string group;
   for (const Curve& curve : curves) {
     const std::string name(to_string(curve.origin));
     if (name != group) {
       group = name;
       text += fmt::format("<tr class=\"group\"><th colspan=\"{}\" scope=\"colgroup\">{}</th></tr>\n",
-                          wanted_errors.size() + 2, curve.origin == Origin::seiche ? "Seiche" : name);
+                          wanted_errors.size() + 3, curve.origin == Origin::seiche ? "Seiche" : name);
     }
     text += "<tr><th scope=\"row\">" + html_escaped(label(curve)) + "</th>";
     for (const double error : wanted_errors) {
@@ -114,7 +123,7 @@ std::string reach_table(const ProblemResult& result) {
     }
     const bool refused = curve.rows.front()->status == Status::refused;
     text += "<td class=\"words\">" + (refused ? html_text(curve.rows.front()->message) : law_cell(result, curve)) +
-            "</td></tr>\n";
+            "</td><td class=\"words\">" + energy_cell(curve) + "</td></tr>\n";
   }
   return text + "</tbody></table></div>\n";
 }

@@ -52,6 +52,7 @@ EnergyLaw energy_law(const Curve& curve) {
     law.own = row->own_rises >= 0;
     const std::int64_t rises = law.own ? row->own_rises : row->energy_rises;
     if (rises > 0) ++law.runs_with_rise;
+    if (row->energy_rises > 0) ++law.runs_where_H_rose;
     law.most_rises = std::max(law.most_rises, rises);
   }
   return law;

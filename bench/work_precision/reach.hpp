@@ -28,6 +28,7 @@ double seconds_to_reach(const Curve& curve, double error);
 struct EnergyLaw {
   int runs = 0;  // solved
   int runs_with_rise = 0;
+  int runs_where_H_rose = 0;  // whatever energy judges
   std::int64_t most_rises = 0;
   bool own = false;  // judged by an energy of the integrator's own
 };

@@ -1,5 +1,6 @@
 #include <seiche/backend/grid_damping.hpp>
 #include <seiche/backend/segment.hpp>
+#include <seiche/core/commuting_damping.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@ GridDamping::GridDamping(const Problem& problem, std::shared_ptr<const FieldTran
       frozen_rate_(seiche::frozen_rate(problem)),
       rate_fields_(problem.damping.rate_fields),
       touches_potential_(problem.damping_moves_potential()),
+      rates_commute_(!problem.damping.field_rate && rate_commutes(problem)),
       scratch_(problem.field_count() * slots_) {
   if (problem.damping.field_rate)
     field_rate_ = std::make_unique<FieldDecay>(problem.damping.field_rate, std::move(transform));
@@ -44,20 +46,21 @@ void GridDamping::constant_flow(double h, Vector& z) const {
 }
 
 void GridDamping::flow(double t, double h, Vector& z) const {
+  if (constant_) constant_flow(rates_commute_ ? h : h / 2, z);
+  rates_flow(t, h, z);
+  if (constant_ && !rates_commute_) constant_flow(h / 2, z);
+}
+
+void GridDamping::rates_flow(double t, double h, Vector& z) const {
   if (rate_) {
     const double decay = rate_decay(t, h);
     for (std::size_t f = 0; f < rate_fields_.size(); ++f)
       if (rate_fields_[f]) z.segment(static_cast<Index>(f) * slots_, slots_) *= decay;
   }
-  if (!field_rate_) {
-    if (constant_) constant_flow(h, z);
-    return;
-  }
-  if (constant_) constant_flow(h / 2, z);
+  if (!field_rate_) return;
   const Vector& decay = field_rate_->factors(t, h);
   for (std::size_t f = 0; f < rate_fields_.size(); ++f)
     if (rate_fields_[f]) field_rate_->multiply(decay, segment(z, static_cast<Index>(f) * slots_, slots_));
-  if (constant_) constant_flow(h / 2, z);
 }
 
 bool GridDamping::field_factors(double t, double h, std::span<double> factors) const {

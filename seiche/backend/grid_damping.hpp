@@ -14,9 +14,9 @@
 
 namespace seiche {
 
-// D(t) = constant + (γ(t) + γ(x, t))P. The constant part and γ(t)P commute in the problems here, so Ψ is the product of
-// their flows. γ(x, t)P commutes with γ(t)P only: its flow stands between two halves of the constant one, symmetric and of
-// order two, and each factor keeps the law.
+// D(t) = constant + (γ(t) + γ(x, t))P. Where the constant part and γ(t)P commute (rate_commutes) Ψ is the product of their
+// flows. Elsewhere, and for γ(x, t)P, which commutes with γ(t)P only, the flow of the rates stands between two halves of the
+// constant one: symmetric and of order two, and each factor keeps the law.
 class GridDamping final : public Damping {
  public:
   using MakeFlow = std::function<std::unique_ptr<LinearMap>(double h)>;  // e^{−h constant}
@@ -36,6 +36,7 @@ class GridDamping final : public Damping {
  private:
   const LinearMap& flow_map(double h) const;
   void constant_flow(double h, Vector& z) const;
+  void rates_flow(double t, double h, Vector& z) const;
   double rate_decay(double t, double h) const;                                 // e^{−∫γ}
   void add_rates(double gamma, double t, const Vector& z, Vector& out) const;  // out += (γ + γ(x, t))P z
 
@@ -51,6 +52,7 @@ class GridDamping final : public Damping {
   std::unique_ptr<FieldDecay> field_rate_;  // null: none
   std::vector<bool> rate_fields_;
   bool touches_potential_;
+  bool rates_commute_;                     // with the constant part
   mutable std::vector<CachedFlow> flows_;  // most recently used first
   struct {
     double h = 0.0, decay = 1.0;

@@ -1,11 +1,16 @@
 #include <seiche/backend/force_map.hpp>
 #include <seiche/backend/krylov_space.hpp>
+#include <seiche/core/error.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace seiche {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
 
+constexpr int most_blocks = 400;
 constexpr double dependent = 1e-13;  // a remainder this small against its vector is round-off
 
 }  // namespace
@@ -52,10 +57,19 @@ void KrylovSpace::exponentiate(double h) {
   if (T_.rows() > 0) change_ = exponential_force<Matrix>(T_, Matrix::Identity(T_.rows(), T_.rows()), h) * R_;
 }
 
+void KrylovSpace::complain(double h) const {
+  // T is skew: its norm is its spectral radius, and that of SM as far as the space has seen it
+  const double radius = std::sqrt((T_.transpose() * T_).selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff());
+  throw Error(
+      "exponential = \"lanczos\" does not settle within {} blocks at h = {:.6g}, where hρ is about {:.3g} for the spectral "
+      "radius ρ = {:.3g} of SM and about hρ blocks are needed; take a smaller h, or exponential = \"pade\"",
+      most_blocks, h, std::abs(h) * radius, radius);
+}
+
 void KrylovSpace::build(const SparseMatrix& S, const SparseMatrix& M, const Matrix& start, double h, int blocks) {
-  constexpr int most_blocks = 400;
-  constexpr int check_every = 4;     // the exponential of T costs more than a block
-  constexpr double settled = 1e-15;  // what the next block would see of the change, against the vectors
+  // What the next block would see of the change, against the vectors; and what round-off in e^{hT} may leave of it.
+  constexpr double settled = 1e-15, round_off = 1e-13;
+  int next_check = 4;
   const auto grow_T = [this](Index size) { T_.conservativeResizeLike(Matrix::Zero(size, size)); };
   size_ = 0;
   T_.resize(0, 0);
@@ -71,12 +85,15 @@ void KrylovSpace::build(const SparseMatrix& S, const SparseMatrix& M, const Matr
     const Matrix inside = W_.middleCols(from, last).transpose() * block;
     grow_T(known);
     T_.bottomRightCorner(last, last) = (inside - inside.transpose()) / 2;
-    if (k == (blocks > 0 ? blocks : most_blocks)) break;
+    if (k == blocks) break;
     const Index next = append(M, block, coefficients);
     const Matrix coupling = coefficients.bottomRows(next);
-    if (blocks == 0 && k % check_every == 0) {
+    if (blocks == 0 && (k == next_check || k == most_blocks)) {
       exponentiate(h);
-      if (std::abs(h) * (coupling * (change_ + R_).bottomRows(last)).norm() <= settled * scale) return;
+      const double rest = std::abs(h) * (coupling * (change_ + R_).bottomRows(last)).norm() / scale;
+      if (rest <= settled || (k == most_blocks && rest <= round_off)) return;
+      if (k == most_blocks) complain(h);
+      next_check += std::max(4, k / 8);  // the exponential of T costs more than a few blocks
     }
     grow_T(size_);
     T_.block(known, from, next, last) = coupling;

@@ -11,7 +11,8 @@ namespace seiche {
 // e^{hSM} W_start ≈ V e^{hT} R.
 class KrylovSpace {
  public:
-  // `start`: one or two columns. `blocks`: the dimension in blocks of as many; 0: until e^{hT}R settles.
+  // `start`: one or two columns. `blocks`: the dimension in blocks of as many; 0: until e^{hT}R settles. Throws Error where
+  // it does not within a few hundred.
   void build(const SparseMatrix& S, const SparseMatrix& M, const Eigen::MatrixXd& start, double h, int blocks);
 
   // (e^{hT} − I) R, by which the given vectors change, and R itself.
@@ -23,6 +24,7 @@ class KrylovSpace {
   Index append(const SparseMatrix& M, Eigen::MatrixXd& block, Eigen::MatrixXd& coefficients);
   void reserve(Index columns, Index rows);
   void exponentiate(double h);
+  [[noreturn]] void complain(double h) const;
 
   Eigen::MatrixXd V_, W_, T_, R_, change_;  // W = MV
   Index size_ = 0;                          // columns of V so far

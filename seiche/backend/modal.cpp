@@ -53,7 +53,7 @@ class ModalLinear final : public LinearPart {
                 .modes = modes_.count(),
                 .layout = layout(problem),
                 .first = problem.potential_field,
-                .count = problem.potential ? problem.potential->fields() : 1,
+                .count = problem.potential ? problem.potential->fields() : 0,
                 .threads = threads} {
     if (!is_diagonal(M_symbol_)) return;
     metric_.emplace(ModalMetric{ModeArrays(extent_.modes, extent_.fields, 1, real_layout()), 0});
@@ -230,6 +230,8 @@ std::unique_ptr<Potential> modal_potential(const Problem& problem,
 }  // namespace
 
 System modal_system(const Problem& problem, const BackendOptions& options) {
+  if (options.threads < 1)
+    throw Error("threads = {} of the modal backend must be ≥ 1; 1 runs on the calling thread alone", options.threads);
   if (problem.matrices)
     throw Error(
         "the modal backend needs coefficients that are the same at every point, and {} has matrices; use "

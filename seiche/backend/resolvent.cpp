@@ -192,7 +192,12 @@ std::unique_ptr<Resolvent> ResolventFactory::make(double h, std::complex<double>
 }
 
 double ResolventFactory::factor_bytes() const {
-  return shared_->pattern ? 16.0 * static_cast<double>(shared_->pattern->L_row.size()) : 0;
+  constexpr double of_value = sizeof(std::complex<double>);
+  if (shared_->pattern) return of_value * static_cast<double>(shared_->pattern->L_row.size());
+  // Without pivoting L and U fill as LDLᵀ does on the places of A and Aᵀ together; each value has its row beside it.
+  const SparseMatrix A = shared_->SM.cwiseAbs();
+  const SparseMatrix places = A + SparseMatrix(A.transpose()) + identity_matrix(A.rows());
+  return 2 * (of_value + sizeof(int)) * static_cast<double>(LdltPattern(places).L_row.size());
 }
 
 }  // namespace seiche

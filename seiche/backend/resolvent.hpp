@@ -31,7 +31,8 @@ class ResolventFactory {
   ResolventFactory(const SparseMatrix& S, const SparseMatrix& M);
   ~ResolventFactory();
   std::unique_ptr<Resolvent> make(double h, std::complex<double> pole) const;
-  double factor_bytes() const;  // of one resolvent with a complex pole, where it is known beforehand; else 0
+  // Of one resolvent with a complex pole; found without its numbers. Of LU an estimate: pivoting may fill more.
+  double factor_bytes() const;
 
  private:
   struct Shared;

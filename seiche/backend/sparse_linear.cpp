@@ -88,7 +88,10 @@ class SparseLinear final : public LinearPart {
     return z.cwiseAbs().dot(scratch_) / 2;
   }
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
-    if (kind == PropagatorKind::cayley) return std::make_unique<PadePropagator>(operators_, force(h, {1, 1}), nullptr);
+    if (kind == PropagatorKind::cayley) {
+      require_memory(1);
+      return std::make_unique<PadePropagator>(operators_, force(h, {1, 1}), nullptr);
+    }
     if (skew_) return lanczos_propagator(skew_, operators_.support, h, options_.lanczos_dimension);
     const PadePlan whole = plan(h);
     const PadePlan half = plan(h / 2);
@@ -109,17 +112,19 @@ class SparseLinear final : public LinearPart {
     return *factory_;
   }
   void require_memory(int degrees) const {
-    const double bytes = factory().factor_bytes() * degrees / 2;
+    if (factor_bytes_ < 0) factor_bytes_ = factory().factor_bytes();
+    const double bytes = factor_bytes_ * degrees / 2;  // two degrees share a complex pole, and a real one takes half
     if (bytes > physical_memory())
       throw Error(
           "the factors of the sparse backend need about {:.3g} bytes, and this machine has {:.3g}; a method with the "
           "Cayley propagator needs {:.3g}, and [backend] exponential = \"lanczos\" factorises M alone",
-          bytes, physical_memory(), factory().factor_bytes() / 2);
+          bytes, physical_memory(), factor_bytes_ / 2);
   }
 
   Operators operators_;
   SparseOptions options_;
   mutable std::unique_ptr<ResolventFactory> factory_;  // when first asked for: Lanczos needs none
+  mutable double factor_bytes_ = -1;                   // likewise
   double radius_;
   std::shared_ptr<const SkewSystem> skew_;  // null: Padé
   mutable Vector scratch_;

@@ -4,6 +4,9 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseLU>
 
+#include <algorithm>
+#include <limits>
+
 namespace seiche {
 
 template <class Scalar>
@@ -32,6 +35,12 @@ SparseLu<Scalar>::SparseLu(const Eigen::SparseMatrix<Scalar>& a) {
     for (typename Rest::InnerIterator entry(upper.m_mapU, j); entry; ++entry)
       if (entry.value() != Scalar(0)) above.emplace_back(static_cast<int>(entry.row()), j, entry.value());
   }
+  constexpr std::size_t most = std::numeric_limits<int>::max();  // a SparseMatrix counts them by int
+  if (std::max(below.size(), above.size()) > most)
+    throw Error(
+        "the LU factors of a sparse matrix of {} unknowns have {} entries, and at most {} are possible; choose "
+        "fewer points, or exponential = \"lanczos\"",
+        n, std::max(below.size(), above.size()), most);
   L_.resize(n, n);
   U_.resize(n, n);
   L_.setFromTriplets(below.begin(), below.end());

@@ -1,5 +1,6 @@
 #include <seiche/config/matrix_market.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/physical_memory.hpp>
 
 #include <fmt/ranges.h>
 
@@ -111,6 +112,7 @@ class Reader {
     constexpr Index most = std::numeric_limits<int>::max();
     if (rows_ < 1 || columns_ < 1 || rows_ > most || columns_ > most)
       complain("a matrix of {} × {} is not possible", rows_, columns_);
+    require_memory();
     const bool half = is_symmetric_ || is_skew_;
     if (half && rows_ != columns_)
       complain("a symmetric matrix must be square and this one is {} × {}", rows_, columns_);
@@ -119,6 +121,15 @@ class Reader {
     if (count_ < 0) complain("{} entries are not possible", count_);
     if (static_cast<double>(count_) * 2 > bytes_)
       complain("{} entries do not fit into the {:.0f} bytes of this file", count_, bytes_);
+  }
+
+  // Of S, M, D and a few states with so many rows, however few entries follow.
+  void require_memory() const {
+    constexpr double bytes_per_row = 100;
+    const double needed = bytes_per_row * static_cast<double>(std::max(rows_, columns_));
+    if (needed > physical_memory())
+      complain("a matrix of {} × {} needs at least {:.3g} bytes, and this machine has {:.3g}", rows_, columns_, needed,
+               physical_memory());
   }
 
   void add(Index i, Index j, double x) {

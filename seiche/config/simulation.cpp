@@ -1,3 +1,4 @@
+#include <seiche/config/run_memory.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/physical_memory.hpp>
@@ -18,20 +19,8 @@ const BackendEntry& choose_backend(const std::string& name, const Problem& probl
   return name == "auto" ? automatic_backend(problem) : find_backend(name);
 }
 
-// Doubles per unknown of a run on the modal backend, all told (docs/performance.md).
-double doubles_per_unknown(ClosureKind closure) {
-  switch (closure) {
-    case ClosureKind::sav: return 12;
-    case ClosureKind::dm: return 21;
-    case ClosureKind::avf: return 22;
-    case ClosureKind::none: return 60;
-    case ClosureKind::lm: break;
-  }
-  return 27;
-}
-
 void require_memory(const MethodEntry& method, const Problem& problem) {
-  const double bytes = 8 * doubles_per_unknown(method.closure) * static_cast<double>(problem.size());
+  const double bytes = run_bytes(method, problem);
   if (bytes > physical_memory())
     throw Error("{} on {} unknowns needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points{}",
                 method.name, problem.size(), bytes, physical_memory(),

@@ -1,8 +1,10 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/physical_memory.hpp>
 #include <seiche/core/stencil.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -68,6 +70,19 @@ Eigen::MatrixXd line_modes(const GridAxis& axis) {
           axis.boundary == Boundary::dirichlet ? sin_pi((j + 1) * (k + 1), N) : sin_pi((2 * j + 1) * k + N, 2 * N);
   modes.colwise().normalize();
   return modes;
+}
+
+// A SparseMatrix counts its entries by int, and is put together from triplets that stand beside it.
+void require_entries(double entries) {
+  constexpr double most = std::numeric_limits<int>::max();
+  constexpr double bytes_per_entry = sizeof(Eigen::Triplet<double>) + sizeof(double) + sizeof(int);
+  if (entries > most)
+    throw Error("a sparse matrix of {:.0f} entries is not possible: at most {:.0f}; choose fewer points", entries,
+                most);
+  if (entries * bytes_per_entry > physical_memory())
+    throw Error(
+        "a sparse matrix of {:.0f} entries needs {:.3g} bytes, and this machine has {:.3g}; choose fewer points",
+        entries, entries * bytes_per_entry, physical_memory());
 }
 
 }  // namespace
@@ -201,6 +216,11 @@ Eigen::MatrixXd Stencil::matrix(const Grid& grid) const {
 
 SparseMatrix Stencil::sparse_matrix(const Grid& grid) const {
   const Index n = grid.unknowns();
+  double per_row = identity_ != 0 ? 1 : 0;
+  for (const Term& term : terms_)
+    if (term.discretisation != Discretisation::spectral)
+      per_row += static_cast<double>(taps(term.order, term.discretisation, term.dx).size());
+  require_entries(per_row * static_cast<double>(n));
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&entries](Index i, Index j, double value) {
     entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
@@ -265,6 +285,7 @@ SparseMatrix BlockStencil::sparse_matrix(const Grid& grid) const {
   for (Index i = 0; i < fields_; ++i)
     for (Index j = 0; j < fields_; ++j) {
       const SparseMatrix a = (*this)(i, j).sparse_matrix(grid);
+      require_entries(static_cast<double>(entries.size()) + static_cast<double>(a.nonZeros()));
       for (Index column = 0; column < n; ++column)
         for (SparseMatrix::InnerIterator entry(a, column); entry; ++entry)
           entries.emplace_back(static_cast<int>(i * n + entry.row()), static_cast<int>(j * n + column), entry.value());

@@ -59,7 +59,7 @@ struct SparseOptions {
 // How backends turn a Problem into arithmetic.
 struct BackendOptions {
   bool measure_plans = false;  // FFTW: fastest plans instead of repeatable ones
-  int threads = 1;             // of the modal backend; results do not depend on it
+  int threads = 1;             // of the modal backend, ≥ 1; results do not depend on it
   SparseOptions sparse = {};
 };
 

@@ -19,15 +19,14 @@ Scratch& scratch() {
 
 bool is_kept(Index k, Index period) { return 3 * std::min(k, period - k) < period; }
 
-// N⁻¹ Σ cos(2πkd/N) over the modes that are kept, for d = 0 … N − 1.
+// N⁻¹ Σ cos(2πkd/N) over the modes |k| ≤ K that are kept, for d = 0 … N − 1: Dirichlet's kernel.
 std::vector<double> kernel(Index n) {
-  std::vector<double> c(static_cast<std::size_t>(n), 0.0);
-  for (Index d = 0; d < n; ++d)
-    for (Index k = 0; k < n; ++k)
-      if (is_kept(k, n))
-        c[static_cast<std::size_t>(d)] +=
-            std::cos(2 * std::numbers::pi * static_cast<double>(k * d % n) / static_cast<double>(n)) /
-            static_cast<double>(n);
+  const Index modes = 2 * ((n - 1) / 3) + 1;
+  const auto sine = [n](Index p) {  // sin(πp/N)
+    return std::sin(std::numbers::pi * static_cast<double>(p % (2 * n)) / static_cast<double>(n));
+  };
+  std::vector<double> c(static_cast<std::size_t>(n), static_cast<double>(modes) / static_cast<double>(n));
+  for (Index d = 1; d < n; ++d) c[static_cast<std::size_t>(d)] = sine(modes * d) / sine(d) / static_cast<double>(n);
   return c;
 }
 

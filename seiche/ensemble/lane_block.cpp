@@ -12,6 +12,13 @@ bool may_take_lanes(const Problem& problem, const MethodEntry& method) {
          problem.grid.unknowns() <= most_lane_points;
 }
 
+// Lanczos iteration is no fixed matrix that could be read off: what it makes of z depends on z, and on the force beside it.
+bool may_iterate(const SimulationOptions& options) {
+  return options.backend_options.sparse.exponential == ExponentialKind::lanczos &&
+         (options.backend == "sparse" || options.backend == "auto") &&
+         find_method(options.method).propagator == PropagatorKind::exponential;
+}
+
 bool is_modal(const Problem& problem) {
   try {
     find_backend("modal").system(problem, {});
@@ -28,6 +35,7 @@ std::unique_ptr<MemberBlock> make_block(std::span<const EnsembleMember> members,
   if (!may_take_lanes(problem, find_method(options.method))) return std::make_unique<MemberBlock>(members, options);
   SimulationOptions chosen = options;
   if (options.backend == "auto" && is_modal(problem)) chosen.backend = "modal";
+  if (may_iterate(chosen)) return std::make_unique<MemberBlock>(members, options);
   std::unique_ptr<LaneBlock> block(new LaneBlock(members, chosen));
   if (block->find_stepper(options.method_options)) return block;
   return std::make_unique<MemberBlock>(members, options);
@@ -50,7 +58,14 @@ bool LaneBlock::find_stepper(const MethodOptions& options) {
 }
 
 void LaneBlock::step_all(std::int64_t n, double t, double h) {
-  stepper_->step(t, h, report_);
+  try {
+    if (stepper_) stepper_->step(t, h, report_);
+  } catch (const Error&) {  // a member has no propagator; the ordinary steppers find out which
+    for (Index m = 0; m < size(); ++m)
+      if (status(m).running) update_state(m);
+    stepper_.reset();
+  }
+  if (!stepper_) return MemberBlock::step_all(n, t, h);
   for (Index m = 0; m < size(); ++m) {
     const auto l = static_cast<std::size_t>(m);
     MemberStatus& member = status_of(m);
@@ -65,8 +80,13 @@ void LaneBlock::step_all(std::int64_t n, double t, double h) {
   stepper_->accept();
 }
 
-void LaneBlock::read_energies(std::array<EnergyReading, lanes>& readings) { stepper_->energy(readings); }
+void LaneBlock::read_energies(std::array<EnergyReading, lanes>& readings) {
+  if (!stepper_) return MemberBlock::read_energies(readings);
+  stepper_->energy(readings);
+}
 
-void LaneBlock::update_state(Index member) { stepper_->store(member, state(member)); }
+void LaneBlock::update_state(Index member) {
+  if (stepper_) stepper_->store(member, state(member));
+}
 
 }  // namespace seiche

@@ -10,7 +10,8 @@
 namespace seiche {
 
 // Steps that a lane cannot take (V(ẑ) + C ≤ 0, a fixed point that does not contract, a number that is none) are handed to
-// the ordinary stepper of that member, which finds the way or says why there is none.
+// the ordinary stepper of that member, which finds the way or says why there is none. Where a member has no propagator for
+// the step, the ordinary steppers take over the whole block.
 class LaneBlock final : public MemberBlock {
  private:
   friend std::unique_ptr<MemberBlock> make_block(std::span<const EnsembleMember>, const SimulationOptions&);
@@ -20,7 +21,7 @@ class LaneBlock final : public MemberBlock {
   void read_energies(std::array<EnergyReading, lanes>& readings) override;
   void update_state(Index member) override;
 
-  std::unique_ptr<LaneStepper> stepper_;
+  std::unique_ptr<LaneStepper> stepper_;  // null: the ordinary steppers have taken over
   LaneReport report_;
   State at_rest_;
 };

@@ -111,11 +111,16 @@ const LaneValues& LaneStepper::twice_quadratic_energy(const LaneState& s) {
 }
 
 void LaneStepper::flow(LaneState& s, double t, double h) {
-  damp_rows(factors(before_, t, h), system_->size(), s.z.row(0));
   const LaneStep& maps = system_->at(step_size_);
-  if (maps.flow.rows() == 0) return;
+  const bool has_constant = maps.flow.rows() > 0;
+  if (has_constant && !system_->rates_commute()) apply_flow(maps.flow, s);
+  damp_rows(factors(before_, t, h), system_->size(), s.z.row(0));
+  if (has_constant) apply_flow(maps.flow, s);
+}
+
+void LaneStepper::apply_flow(const BlockMap& flow, LaneState& s) {
   if (moved_.rows() == 0) moved_ = Panel(s.z.rows());
-  maps.flow.apply(s.z.row(0), moved_.row(0));
+  flow.apply(s.z.row(0), moved_.row(0));
   std::swap(s.z, moved_);
 }
 

@@ -71,6 +71,7 @@ class LaneStepper {
     double h = -1.0;
   };
   RowFactors factors(Decay& decay, double t, double h);
+  void apply_flow(const BlockMap& flow, LaneState& s);
   void set_rows(Decay& decay);
 
   bool splits_damping_;

@@ -1,3 +1,4 @@
+#include <seiche/core/commuting_damping.hpp>
 #include <seiche/ensemble/lane_system.hpp>
 #include <seiche/ensemble/row_loops.hpp>
 
@@ -124,6 +125,7 @@ bool LaneSystem::find_transform() {
   for (const Simulation* member : members_) {
     damping_moves_potential_ = damping_moves_potential_ || member->system().damping->touches_potential();
     has_constant_damping_ = has_constant_damping_ || member->problem().has_constant_damping();
+    rates_commute_ = rates_commute_ && rate_commutes(member->problem());
     const RatePointer& rate = member->problem().damping.rate;
     has_constant_rates_ = has_constant_rates_ && (!rate || rate->is_constant());
   }
@@ -171,7 +173,7 @@ LaneStep LaneSystem::make_step(double h) const {
     force.emplace_back(F.middleRows(support_begin_, support_size_));
     step.push_back(side_by_side(FM, F));
     all_forces.push_back(F);
-    if (has_constant_damping_) flow.push_back(constant_flow(*member, h / 2, place_));
+    if (has_constant_damping_) flow.push_back(constant_flow(*member, rates_commute_ ? h / 2 : h / 4, place_));
   }
   LaneStep maps{BlockMap(predict), BlockMap(increment), LaneQuadratic(force), BlockMap(step), BlockMap(all_forces), {}};
   if (!flow.empty()) maps.flow = BlockMap(flow);

@@ -35,7 +35,9 @@ struct LaneStep {
   LaneQuadratic force;  // g → gᵀFg
   BlockMap step;        // (z, g) → FMz + Fg
   BlockMap all_forces;  // g → Fg
-  BlockMap flow;        // e^{−hD/2} of the constant part of the damping; no rows if there is none
+  // The constant part of a half-flow, e^{−hD/2}; e^{−hD/4}, to be applied twice, where the rates do not commute with it. No
+  // rows if there is none.
+  BlockMap flow;
 };
 
 // Everything is read off the backend's own operators, applied to unit vectors: members step by the same numbers as an
@@ -66,6 +68,7 @@ class LaneSystem {
 
   // The factors by which γ(t) multiplies each field over [t, t + h], one for every lane.
   void decay(double t, double h, std::vector<LaneValues>& factors) const;
+  bool rates_commute() const { return rates_commute_; }            // with the constant part of the damping
   bool has_constant_rates() const { return has_constant_rates_; }  // then they depend on h alone
   Index fields() const { return fields_; }
 
@@ -84,6 +87,7 @@ class LaneSystem {
   std::unique_ptr<LanePotential> potential_;
   LaneQuadratic metric_, absolute_metric_;
   bool damping_moves_potential_ = false, has_constant_damping_ = false, has_constant_rates_ = true;
+  bool rates_commute_ = true;
   std::vector<std::pair<double, LaneStep>> steps_;
 };
 

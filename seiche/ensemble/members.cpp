@@ -1,6 +1,8 @@
 #include <seiche/config/case_parameters.hpp>
 #include <seiche/config/initial_file.hpp>
+#include <seiche/config/run_memory.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/physical_memory.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/problem/problems.hpp>
 
@@ -68,10 +70,30 @@ std::shared_ptr<const Problem> problem_of(RunSpec spec, const Members& members, 
   return std::make_shared<const Problem>(make_problem(spec));
 }
 
+void require_memory(const RunSpec& spec) {
+  const double bytes = ensemble_bytes(spec);
+  if (bytes > physical_memory())
+    throw Error("an ensemble of {} members needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer members",
+                spec.ensemble->count(), bytes, physical_memory());
+}
+
 }  // namespace
+
+double ensemble_bytes(const RunSpec& spec) {
+  // Measured with seisav on grids of 20 to 120 points: what does not grow with the unknowns, and doubles for each of them.
+  constexpr double of_member = 1700, of_simulation = 13'000;
+  constexpr double doubles_of_member = 17, doubles_beside_run = 12;  // states and panels; the problem and its matrices
+  const Problem problem = make_problem(spec);
+  const double unknowns = 8 * static_cast<double>(problem.size());  // bytes of one number for each
+  const auto members = static_cast<double>(spec.ensemble->count());
+  const double simulations = spec.ensemble->parameters.empty() ? 1.0 : members;
+  return members * (of_member + doubles_of_member * unknowns) +
+         simulations * (of_simulation + doubles_beside_run * unknowns + run_bytes(find_method(spec.method), problem));
+}
 
 Members make_members(const RunSpec& spec) {
   if (!spec.ensemble) throw Error("the case has no section [ensemble]");
+  require_memory(spec);
   const EnsembleSpec& ensemble = *spec.ensemble;
   Members members;
   for (const auto& [name, samples] : ensemble.parameters) members.parameters.push_back(name);

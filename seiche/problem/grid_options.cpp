@@ -4,6 +4,7 @@
 #include <seiche/problem/grid_options.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace seiche {
 namespace {
@@ -45,6 +46,8 @@ Grid make_grid(const GridOptions& options) {
   grid.axes.clear();
   for (std::size_t a = 0; a < axes; ++a) {
     const GridAxis axis{of_axis(options.points, a), of_axis(options.length, a), of_axis(options.boundary, a)};
+    if (!(axis.length > 0) || !std::isfinite(axis.length))
+      throw Error("length = {} along axis {} must be a finite number > 0", axis.length, a + 1);
     if (axis.unknowns() < 1) throw Error("points = {} leaves no unknown along axis {}", axis.intervals, a + 1);
     grid.axes.push_back(axis);
   }
@@ -62,7 +65,7 @@ std::shared_ptr<const PointwisePotential> on_grid(std::shared_ptr<const Pointwis
   return std::make_shared<TruncatedPotential>(std::move(potential), grid);
 }
 
-std::vector<Parameter> grid_parameters(const std::string& default_points, const std::string& default_length) {
+std::vector<Parameter> axes_parameters(const std::string& default_points, const std::string& default_length) {
   return {
       {.name = "length",
        .default_value = default_length,
@@ -83,14 +86,24 @@ std::vector<Parameter> grid_parameters(const std::string& default_points, const 
        .meaning = "what happens at the ends",
        .choices = {"periodic", "dirichlet", "neumann"},
        .per_axis = true},
-      discretisation_parameter(),
-      dealias_parameter(),
   };
 }
 
-GridOptions grid_options(const ParameterValues& values) {
+std::vector<Parameter> grid_parameters(const std::string& default_points, const std::string& default_length) {
+  std::vector<Parameter> parameters = axes_parameters(default_points, default_length);
+  parameters.push_back(discretisation_parameter());
+  parameters.push_back(dealias_parameter());
+  return parameters;
+}
+
+GridOptions axes_options(const ParameterValues& values) {
   GridOptions options{.points = values.integers("points"), .length = values.reals("length"), .boundary = {}};
   for (const std::string& name : values.choices("boundary")) options.boundary.push_back(boundary_named(name));
+  return options;
+}
+
+GridOptions grid_options(const ParameterValues& values) {
+  GridOptions options = axes_options(values);
   options.discretisation = discretisation_of(values);
   options.two_thirds = two_thirds_of(values);
   return options;

@@ -24,8 +24,8 @@ struct GridOptions {
   bool two_thirds = false;  // V sees the modes with |k| < N/3 only; needs periodic axes and spectral derivatives
 };
 
-// Throws Error where the lists have different lengths (other than one), an axis has no unknown, or the grid would not fit
-// into the memory of this machine.
+// Throws Error where the lists have different lengths (other than one), a length is not a finite number > 0, an axis has no
+// unknown, or the grid would not fit into the memory of this machine.
 Grid make_grid(const GridOptions& options);
 
 // V as the options ask for it: V(u), or V(Pu) by the two-thirds rule. Throws Error where that rule has no meaning.
@@ -36,7 +36,11 @@ std::shared_ptr<const PointwisePotential> on_grid(std::shared_ptr<const Pointwis
 std::vector<Parameter> grid_parameters(const std::string& default_points, const std::string& default_length);
 GridOptions grid_options(const ParameterValues& values);
 
-// Some of them alone, for problems in one dimension.
+// points, length and boundary alone.
+std::vector<Parameter> axes_parameters(const std::string& default_points, const std::string& default_length);
+GridOptions axes_options(const ParameterValues& values);
+
+// Each of the others.
 Parameter discretisation_parameter();
 Discretisation discretisation_of(const ParameterValues& values);
 Parameter dealias_parameter();

@@ -83,6 +83,7 @@ SparseMatrix small_world(Index count, Index neighbours, Index shortcuts, std::ui
 
 Problem network(const Network& options) {
   const Index n = options.adjacency.rows();
+  if (n < 1) throw Error("the matrix of a graph is 0 × {} and must have at least one node", options.adjacency.cols());
   SparseMatrix stiffness(n, n);
   stiffness.setIdentity();
   stiffness = options.omega_squared * stiffness + options.coupling * laplacian(options.adjacency);

@@ -21,7 +21,7 @@ struct Network {
 };
 
 // H = ½vᵀv + ½uᵀ(ω²I + κL)u + α/4 Σu⁴ with the graph's Laplacian L; at rest, with node 1 displaced by 1. Throws Error where
-// a weight is negative or has no counterpart.
+// the graph has no node, or a weight is negative or has no counterpart.
 Problem network(const Network& options = {});
 
 ProblemEntry network_entry();

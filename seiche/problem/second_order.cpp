@@ -1,4 +1,7 @@
+#include <seiche/core/error.hpp>
 #include <seiche/problem/second_order.hpp>
+
+#include <limits>
 
 namespace seiche {
 namespace {
@@ -12,6 +15,9 @@ void add_block(std::vector<Entry>& entries, const SparseMatrix& a, Index row, In
 }  // namespace
 
 SparseMatrix assembled(Index n, const std::vector<Entry>& entries) {
+  constexpr std::size_t most = std::numeric_limits<int>::max();  // a SparseMatrix counts them by int
+  if (entries.size() > most)
+    throw Error("a sparse matrix of {} entries is not possible: at most {}; choose fewer points", entries.size(), most);
   std::vector<Eigen::Triplet<double>> triplets;
   triplets.reserve(entries.size());
   for (const Entry& e : entries) triplets.emplace_back(static_cast<int>(e.row), static_cast<int>(e.column), e.value);

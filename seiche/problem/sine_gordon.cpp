@@ -1,3 +1,4 @@
+#include <seiche/core/error.hpp>
 #include <seiche/potential/cosine.hpp>
 #include <seiche/potential/nodal.hpp>
 #include <seiche/problem/sine_gordon.hpp>
@@ -14,6 +15,9 @@ double sine_gordon_breather(double frequency, double x, double t) {
 }
 
 Problem sine_gordon(const SineGordon& options) {
+  if (!(options.breather_frequency > 0 && options.breather_frequency < 1))
+    throw Error("breather_frequency = {} must be between 0 and 1, where a breather decays along the line",
+                options.breather_frequency);
   const Grid grid = make_grid(options.grid);
   const Stencil stiffness = -options.kappa * Stencil::laplacian(grid, options.grid.discretisation);
   Problem p = wave_problem("sine_gordon", grid, stiffness, options.gamma);

@@ -51,6 +51,8 @@ Problem from_values(const ParameterValues& v, const std::string&) {
 Problem sparse_problem(SparseSystem options) {
   SparseOperators& matrices = options.matrices;
   const Index size = matrices.M.rows();
+  if (options.fields != 1 && options.fields != 2)
+    throw Error("fields = {} must be 1 or 2: z is u alone, or (u, v)", options.fields);
   if (size == 0 || size % options.fields != 0)
     throw Error("M is {} × {}, which is not {} fields of equal size", size, matrices.M.cols(), options.fields);
   if (matrices.S.size() == 0) {

@@ -86,7 +86,7 @@ std::function<double(const Place&)> medium(const ParameterValues& v, const Grid&
 }
 
 Problem from_values(const ParameterValues& v, const std::string&) {
-  const GridOptions grid = grid_options(v);
+  const GridOptions grid = axes_options(v);
   const bool harmonic = v.choice("faces") == "harmonic";
   return variable_wave({.grid = grid,
                         .speed = medium(v, make_grid(grid)),
@@ -99,6 +99,11 @@ Problem from_values(const ParameterValues& v, const std::string&) {
 }  // namespace
 
 Problem variable_wave(const VariableWave& options) {
+  if (options.grid.discretisation != Discretisation::fd2)
+    throw Error(
+        "waves in a medium of several parts take discretisation = fd2 alone: a higher order is lost where c jumps");
+  if (options.grid.two_thirds)
+    throw Error("waves in a medium of several parts have no modes to leave out; take two_thirds = false");
   const Grid grid = make_grid(options.grid);
   Problem p = second_order_problem("wave", grid, stiffness(options, grid), {});
   p.damping = rate_damping(options.gamma, grid, {false, true});
@@ -114,11 +119,12 @@ Problem variable_wave(const VariableWave& options) {
 
 ProblemEntry variable_wave_entry() {
   std::vector<Parameter> parameters;
-  for (Parameter& parameter : grid_parameters("64", "2.0")) {
-    if (parameter.name == "discretisation") parameter.choices = {"fd2"};  // a higher order is lost where c jumps
+  for (Parameter& parameter : axes_parameters("64", "2.0")) {
     if (parameter.name == "boundary") parameter.default_value = "dirichlet";
     parameters.push_back(std::move(parameter));
   }
+  parameters.push_back(discretisation_parameter());
+  parameters.back().choices = {"fd2"};  // a higher order is lost where c jumps
   const auto speed = [](const char* name, const char* value, const char* meaning) {
     return Parameter{.name = name, .default_value = value, .meaning = meaning, .minimum = 0, .minimum_excluded = true};
   };

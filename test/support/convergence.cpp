@@ -1,4 +1,5 @@
 #include "convergence.hpp"
+#include "worst.hpp"
 
 #include <fmt/format.h>
 
@@ -23,9 +24,9 @@ Errors errors_against(const Reference& reference, const Problem& problem, const 
     const std::span<const double> exact = reference.state(k);
     const Vector distance =
         simulation.physical() - Eigen::Map<const Vector>(exact.data(), static_cast<Index>(exact.size()));
-    errors.solution = std::max(errors.solution, distance.lpNorm<Eigen::Infinity>());
+    errors.solution = worse(errors.solution, largest(distance));
     errors.energy =
-        std::max(errors.energy, std::abs(simulation.system().energy(simulation.state().z) - reference.energy(k)));
+        worse(errors.energy, std::abs(simulation.system().energy(simulation.state().z) - reference.energy(k)));
   }
   return errors;
 }

@@ -14,6 +14,7 @@
 #include <seiche/problem/nls.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/sine_gordon.hpp>
+#include <seiche/problem/sparse.hpp>
 #include <seiche/problem/truss.hpp>
 #include <seiche/problem/variable_wave.hpp>
 
@@ -152,6 +153,21 @@ std::vector<NamedProblem> matrix_cases() {
   return cases;
 }
 
+// Where the constant D couples the field that γ(t) damps with the one that it does not, so that the two do not commute.
+Problem coupled_damping_case(RatePointer gamma) {
+  constexpr Index n = 3;
+  SparseMatrix M(2 * n, 2 * n);
+  SparseMatrix D(2 * n, 2 * n);
+  M.setIdentity();
+  for (Index i = 0; i < n; ++i) {
+    M.coeffRef(i, i) = 1 + 0.3 * static_cast<double>(i);
+    D.insert(i, i) = D.insert(n + i, n + i) = 0.5;
+    D.insert(i, n + i) = 0.9;
+    D.insert(n + i, i) = -0.9;
+  }
+  return sparse_problem({.matrices = {.S = {}, .M = M, .D = D}, .quartic = 1.0, .gamma = std::move(gamma)});
+}
+
 std::vector<NamedProblem> all_cases() {
   std::vector<NamedProblem> cases = golden_cases();
   for (NamedProblem& c : grid_cases()) cases.push_back(std::move(c));
@@ -162,9 +178,14 @@ std::vector<NamedProblem> all_cases() {
   cases.push_back({"gKdV_sigma_1", gkdv_case(0.5, 1.0, 1.0)});
   cases.push_back({"Duffing", duffing_case()});
   const RatePointer varying = formula_rate(compile_formula("0.3 + 0.2*sin(3*t)", {"t"}));
+  Problem linear = klein_gordon({.grid = {.points = {16}, .length = {2.0}}, .gamma = varying});
+  linear.potential = nullptr;
+  cases.push_back({"KG_without_V", linear});
   cases.push_back({"KG_varying_damping", klein_gordon({.alpha = 1.0, .gamma = varying})});
   cases.push_back({"FPU_varying_damping", alpha_fpu({.gamma = varying})});
   cases.push_back({"gKdV_varying_damping", gkdv({.sigma = -0.5, .mu = varying})});
+  cases.push_back({"coupled_damping", coupled_damping_case(constant_rate(1.0))});
+  cases.push_back({"coupled_varying_damping", coupled_damping_case(varying)});
   return cases;
 }
 

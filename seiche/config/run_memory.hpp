@@ -1,0 +1,12 @@
+// What a run takes, so that what would not fit is refused before anything is allocated.
+#pragma once
+
+#include <seiche/core/problem.hpp>
+#include <seiche/method/methods.hpp>
+
+namespace seiche {
+
+// Bytes of a run on the modal backend, all told (docs/performance.md).
+double run_bytes(const MethodEntry& method, const Problem& problem);
+
+}  // namespace seiche
