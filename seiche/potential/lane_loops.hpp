@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace seiche {
@@ -17,7 +18,7 @@ namespace seiche {
 template <PointPotential W>
 class LaneW {
  public:
-  explicit LaneW(const std::vector<W>& w) : w_(w) {}
+  explicit LaneW(std::vector<W> w) : w_(std::move(w)) {}
 
   void slopes(const double* u, double* slopes, Index rows) const {
     for (Index i = 0; i < rows * lanes; ++i) slopes[i] = w_[lane(i)].slope(u[i]);
