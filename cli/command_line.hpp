@@ -18,6 +18,7 @@ using Action = std::function<ExitCode()>;
 void add_run(CLI::App& app, Action& action);
 void add_converge(CLI::App& app, Action& action);
 void add_paper(CLI::App& app, Action& action);
+void add_check(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
 

@@ -44,6 +44,7 @@ ExitCode run_program(const std::vector<std::string>& arguments) {
   add_run(app, action);
   add_converge(app, action);
   add_paper(app, action);
+  add_check(app, action);
   add_list(app, action);
   add_new(app, action);
 

@@ -324,6 +324,36 @@ TEST_F(Cli, CtrlCLeavesWholeFilesAndExitsWith130) {
   }
 }
 
+TEST_F(Cli, CheckShowsHypothesesWithGradesAndTheLawTheyPromise) {
+  write_case();
+  const Result result = seiche("check case.toml --json");
+  ASSERT_EQ(result.exit, 0) << result.err;
+  const json certificate = json::parse(result.out);
+  EXPECT_TRUE(certificate["law"]["promised"]);
+  EXPECT_EQ(certificate["hypotheses"][0]["hypothesis"], "sym(S) ⪯ 0");
+  EXPECT_EQ(certificate["hypotheses"][0]["grade"], "by structure");
+  EXPECT_EQ(certificate["hypotheses"][1]["grade"], "verified with margin");
+  const Result newton = seiche("check case.toml --set method.name=seilm method.scalar_solver=newton");
+  EXPECT_THAT(newton.out, HasSubstr("No energy law is promised for seilm: plain Newton"));
+}
+
+TEST_F(Cli, AToleranceTakesStepsOfItsOwnAndShowsAskedTimes) {
+  write_case();
+  const Result result = seiche(
+      "run case.toml --out out --json --set method.name=egc6 method.tolerance=1e-8 output.snapshot_interval=0.125");
+  ASSERT_EQ(result.exit, 0) << result.err;
+  const json summary = json::parse(result.out);
+  EXPECT_EQ(summary["tolerance"], 1e-8);
+  EXPECT_TRUE(summary["h"].is_null());
+  EXPECT_EQ(summary["energy"]["law"], "holds");
+  EXPECT_TRUE(summary["counts"].contains("rejected_steps"));
+  const double end = summary["t"];
+  const std::vector<std::string> snapshots = lines("out/snapshots.csv");
+  ASSERT_EQ(snapshots.size(), 2U + static_cast<std::size_t>(end / 0.125));
+  EXPECT_EQ(snapshots[2].substr(0, snapshots[2].find(',')), "0.125");
+  EXPECT_EQ(lines("out/energy.csv").size(), 2U + summary["steps"].get<std::size_t>());
+}
+
 TEST_F(Cli, ListsNameEverythingThereIs) {
   const json methods = json::parse(seiche("list methods --json").out);
   std::vector<std::string> names;

@@ -1,0 +1,80 @@
+// seiche check: which hypotheses of the energy laws a case meets, and which law is promised.
+#include "command_line.hpp"
+#include "law_promise.hpp"
+#include "load_case.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <seiche/study/certificate.hpp>
+
+#include <memory>
+
+namespace seiche::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CheckArguments {
+  CaseArgument case_argument;
+  bool json = false;
+};
+
+Json to_json(const RunSpec& spec, const Certificate& certificate) {
+  Json findings = Json::array();
+  for (const Finding& finding : certificate.findings) {
+    Json item = {{"hypothesis", finding.hypothesis},
+                 {"grade", to_string(finding.grade)},
+                 {"statement", finding.statement}};
+    item["margin"] = finding.margin ? Json(*finding.margin) : Json(nullptr);
+    item["witness"] = finding.witness.empty() ? Json(nullptr) : Json(finding.witness);
+    findings.push_back(item);
+  }
+  return {{"problem", spec.problem},
+          {"method", spec.method},
+          {"hypotheses", findings},
+          {"law",
+           {{"promised", certificate.law.promised},
+            {"reason", certificate.law.reason},
+            {"theorem", certificate.theorem.empty() ? Json(nullptr) : Json(certificate.theorem)}}}};
+}
+
+std::string to_text(const RunSpec& spec, const Certificate& certificate) {
+  std::string text;
+  for (const Finding& finding : certificate.findings) {
+    text += fmt::format("{:<30} {}\n", finding.hypothesis, to_string(finding.grade));
+    text += fmt::format("  {}\n", finding.statement);
+    if (!finding.witness.empty()) text += fmt::format("  witness: {}\n", finding.witness);
+  }
+  text += certificate.law.promised
+              ? fmt::format("\nThe energy law of {} is promised: {}.\n  {}\n", spec.method, certificate.law.reason,
+                            certificate.theorem)
+              : fmt::format("\nNo energy law is promised for {}: {}.\n", spec.method, certificate.law.reason);
+  return text;
+}
+
+ExitCode check(const CheckArguments& arguments) {
+  const RunSpec spec = load_case(arguments.case_argument);
+  const Problem problem = make_problem(spec);
+  Certificate certificate =
+      certify(problem, {.method = spec.method, .method_options = spec.method_options, .t_end = spec.t_end});
+  const Simulation simulation(problem, simulation_options(spec));
+  if (const LawPromise with_options = promise(simulation, spec); !with_options.promised) {
+    certificate.law = with_options;
+    certificate.theorem.clear();
+  }
+  print_data(arguments.json ? to_json(spec, certificate).dump(2) + "\n" : to_text(spec, certificate));
+  return success;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* command =
+      app.add_subcommand("check", "The hypotheses that a case meets, how that is known, and the law they promise");
+  add_case(*command, arguments->case_argument);
+  command->add_flag("--json", arguments->json, "Print one JSON document on stdout");
+  command->callback([arguments, &action] { action = [arguments] { return check(*arguments); }; });
+}
+
+}  // namespace seiche::cli

@@ -1,0 +1,26 @@
+// What is known about one hypothesis, how, and who stands against it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace seiche {
+
+enum class Grade {
+  by_structure,  // follows from the form of the problem, exactly
+  verified,      // computed, with a margin
+  sampled,       // seen at finitely many points or times
+  violated,      // a witness stands against it
+};
+
+struct Finding {
+  std::string hypothesis;  // "M ⪰ 0"
+  Grade grade;
+  std::string statement;                        // what was found, in a sentence
+  std::optional<double> margin = std::nullopt;  // how far from failing, in the units of the hypothesis
+  std::string witness = {};                     // the vector, mode, point or time that shows it
+};
+
+std::string to_string(Grade grade);  // "by structure", "verified with margin", "sampled", "violated"
+
+}  // namespace seiche

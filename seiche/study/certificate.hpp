@@ -1,0 +1,31 @@
+// Which hypotheses of the energy laws a problem meets, how that is known, and who stands against one that fails.
+#pragma once
+
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/finding.hpp>
+#include <seiche/core/run_report.hpp>
+
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+struct Certificate {
+  std::vector<Finding> findings;
+  LawPromise law;       // of H, or of the modified energy where the method has one
+  std::string theorem;  // by which the law follows from the hypotheses; "" if none is promised
+};
+
+struct CertificateOptions {
+  std::string method = "seisav";
+  MethodOptions method_options = {};
+  double t_end = 0.0;
+  bool sample_solution = true;  // follow a solution of its own, where structure decides nothing
+};
+
+// Nothing here is taken from the numbers that a method computes with: operators are looked at mode by mode or by
+// factorisation, and what can only be sampled is sampled along a solution of its own, by collocation with tolerance 1e-5.
+// Throws Error where the method does not apply to the problem.
+Certificate certify(const Problem& problem, const CertificateOptions& options);
+
+}  // namespace seiche

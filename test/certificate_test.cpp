@@ -1,0 +1,103 @@
+// The certificate: each hypothesis graded rightly, with a witness that can be checked.
+#include "support/paper_cases.hpp"
+
+#include <seiche/config/formula_compiler.hpp>
+#include <seiche/core/law.hpp>
+#include <seiche/damping/field_rates.hpp>
+#include <seiche/damping/rates.hpp>
+#include <seiche/problem/nls.hpp>
+#include <seiche/study/certificate.hpp>
+#include <seiche/study/reference.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace seiche::test {
+namespace {
+
+using testing::HasSubstr;
+
+Finding find(const Certificate& certificate, const std::string& hypothesis) {
+  for (const Finding& finding : certificate.findings)
+    if (finding.hypothesis == hypothesis) return finding;
+  ADD_FAILURE() << "no finding about " << hypothesis;
+  return {};
+}
+
+TEST(Certificate, OfTheKleinGordonEquationPromisesTheLaw) {
+  const Certificate c = certify(klein_gordon_case(), {.t_end = 50});
+  EXPECT_EQ(find(c, "sym(S) ⪯ 0").grade, Grade::by_structure);
+  const Finding M = find(c, "M ⪰ 0");
+  EXPECT_EQ(M.grade, Grade::verified);
+  EXPECT_NEAR(*M.margin, 0.2, 1e-15);  // ω², of the mean
+  EXPECT_EQ(find(c, "γ ≥ 0").grade, Grade::by_structure);
+  EXPECT_EQ(find(c, "V is untouched by the damping").grade, Grade::by_structure);
+  EXPECT_EQ(find(c, "sym(P_H D) ⪰ 0").grade, Grade::verified);
+  EXPECT_GT(*find(c, "V + C > 0").margin, 0);
+  EXPECT_TRUE(c.law.promised);
+  EXPECT_THAT(c.theorem, HasSubstr("modified energy"));
+}
+
+TEST(Certificate, NamesTheModeThatMakesMIndefinite) {
+  Problem p = klein_gordon_case();
+  p.M(0, 0) += Stencil::identity(-0.5);  // ω² = −0.3: the mean, and no oscillating mode
+  const Certificate c = certify(p, {.t_end = 50});
+  const Finding M = find(c, "M ⪰ 0");
+  EXPECT_EQ(M.grade, Grade::violated);
+  EXPECT_NEAR(*M.margin, -0.3, 1e-15);
+  EXPECT_THAT(M.witness, HasSubstr("mode k = (0), |z| = (u: 1, v: 0)"));
+  EXPECT_FALSE(c.law.promised);
+  EXPECT_EQ(c.theorem, "");
+}
+
+TEST(Certificate, NamesTheTimeAtWhichARateIsNegative) {
+  Problem p = klein_gordon_case();
+  p.damping.rate = formula_rate(compile_formula("0.5 - 0.1*t", {"t"}));
+  const Finding rate = find(certify(p, {.t_end = 50}), "γ ≥ 0");
+  EXPECT_EQ(rate.grade, Grade::violated);
+  const double t = std::stod(rate.witness.substr(4));
+  EXPECT_LT(p.damping.rate->value(t), 0);
+  EXPECT_EQ(find(certify(p, {.t_end = 4}), "γ ≥ 0").grade, Grade::sampled);
+}
+
+// σ = 1 and a large amplitude: the exact energy rises at the start, and falls where it is small.
+TEST(Certificate, FollowsASolutionWhereStructureDecidesNothing) {
+  const std::string condition = "sym(P_H D) ⪰ 0";
+  const Certificate large = certify(gkdv_case(0.5, 1.0, 3.0), {.t_end = 5});
+  EXPECT_EQ(find(large, condition).grade, Grade::violated);
+  const double t = std::stod(find(large, condition).witness.substr(4));
+  const Reference reference = make_reference(gkdv_case(0.5, 1.0, 3.0), {0, t, t + 1e-3});
+  EXPECT_GT(reference.energy(2), reference.energy(1)) << "the exact energy rises at the witness";
+  EXPECT_FALSE(large.law.promised);
+  EXPECT_EQ(find(large, "V is untouched by the damping").witness, "field u");
+  const Certificate small = certify(gkdv_case(0.5, 0.001), {.t_end = 5});
+  EXPECT_EQ(find(small, condition).grade, Grade::sampled);
+  EXPECT_GT(*find(small, condition).margin, 0);
+  EXPECT_EQ(find(certify(gkdv_case(0.5, -1.0), {.t_end = 5}), condition).grade, Grade::by_structure);
+}
+
+TEST(Certificate, DoesNotClaimWhatARateThatVariesInSpaceLeavesOpen) {
+  const Problem p =
+      nls({.kappa = -1.0, .gamma = formula_space_rate(compile_formula("1 + sin(x)", {"t", "x"}), 1, false)});
+  const Finding MD = find(certify(p, {.t_end = 1, .sample_solution = false}), "sym(MD) ⪰ 0");
+  EXPECT_EQ(MD.grade, Grade::sampled);
+  EXPECT_THAT(MD.statement, HasSubstr("not decided"));
+}
+
+TEST(Certificate, PromisesTheLawExactlyWhereTheRunDoes) {
+  for (const auto& [name, problem] : all_cases()) {
+    const Certificate c = certify(problem, {.method = "seavf", .t_end = 1, .sample_solution = false});
+    EXPECT_EQ(c.law.promised, promise_energy_law(problem, 1).promised) << name;
+    EXPECT_EQ(c.theorem.empty(), !c.law.promised) << name;
+    const bool violated = std::any_of(c.findings.begin(), c.findings.end(), [](const Finding& f) {
+      return f.grade == Grade::violated && f.hypothesis != "V is untouched by the damping" &&
+             f.hypothesis != "D(t)D(s) = D(s)D(t)";
+    });
+    EXPECT_FALSE(violated && c.law.promised) << name;
+  }
+}
+
+}  // namespace
+}  // namespace seiche::test
