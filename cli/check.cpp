@@ -21,12 +21,12 @@ struct CheckArguments {
 
 Json to_json(const RunSpec& spec, const Certificate& certificate) {
   Json findings = Json::array();
-  for (const Finding& finding : certificate.findings) {
-    Json item = {{"hypothesis", finding.hypothesis},
-                 {"grade", to_string(finding.grade)},
-                 {"statement", finding.statement}};
-    item["margin"] = finding.margin ? Json(*finding.margin) : Json(nullptr);
-    item["witness"] = finding.witness.empty() ? Json(nullptr) : Json(finding.witness);
+  for (const Hypothesis& hypothesis : certificate.hypotheses) {
+    Json item = {{"hypothesis", hypothesis.name},
+                 {"grade", to_string(hypothesis.grade)},
+                 {"statement", hypothesis.statement}};
+    item["margin"] = hypothesis.margin ? Json(*hypothesis.margin) : Json(nullptr);
+    item["witness"] = hypothesis.witness.empty() ? Json(nullptr) : Json(hypothesis.witness);
     findings.push_back(item);
   }
   return {{"problem", spec.problem},
@@ -40,10 +40,10 @@ Json to_json(const RunSpec& spec, const Certificate& certificate) {
 
 std::string to_text(const RunSpec& spec, const Certificate& certificate) {
   std::string text;
-  for (const Finding& finding : certificate.findings) {
-    text += fmt::format("{:<30} {}\n", finding.hypothesis, to_string(finding.grade));
-    text += fmt::format("  {}\n", finding.statement);
-    if (!finding.witness.empty()) text += fmt::format("  witness: {}\n", finding.witness);
+  for (const Hypothesis& hypothesis : certificate.hypotheses) {
+    text += fmt::format("{:<30} {}\n", hypothesis.name, to_string(hypothesis.grade));
+    text += fmt::format("  {}\n", hypothesis.statement);
+    if (!hypothesis.witness.empty()) text += fmt::format("  witness: {}\n", hypothesis.witness);
   }
   text += certificate.law.promised
               ? fmt::format("\nThe energy law of {} is promised: {}.\n  {}\n", spec.method, certificate.law.reason,

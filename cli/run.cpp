@@ -92,7 +92,8 @@ ExitCode run(const RunArguments& arguments) {
   write_file(directory / "case.toml", write_case(spec));
   if (spec.measure_plans) write_file(wisdom, planning_wisdom());
   const bool modified = simulation.stepper().has_modified_energy();
-  EnergyTrace trace(directory / "energy.csv", modified, {.every_steps = spec.energy_every});
+  EnergyTrace trace(directory / "energy.csv", modified, {.every_steps = spec.energy_every}, spec.ledger);
+  if (spec.ledger) simulation.stepper().keep_ledger();
   Snapshots snapshots(directory / "snapshots.csv", simulation.problem(), *simulation.system().space,
                       {.every_steps = spec.snapshot_every}, spec.snapshot_interval);
   Progress progress(stderr, spec.t_end);

@@ -2,10 +2,14 @@
 #include "support/convergence.hpp"
 #include "support/paper_cases.hpp"
 
+#include <seiche/config/formula_compiler.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
+#include <seiche/damping/rates.hpp>
+#include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/run/adaptive.hpp>
+#include <seiche/run/step_controller.hpp>
 
 #include <gtest/gtest.h>
 
@@ -174,6 +178,109 @@ TEST(Adaptive, AnEventWithoutAnActionEndsTheRun) {
                                               {.tolerance = 1e-10, .t_end = 10, .events = events});
   EXPECT_NEAR(report.t, std::numbers::pi / 3, 1e-9);
   EXPECT_NEAR(simulation.physical()[0], 0.5, 1e-9);
+}
+
+// Two functions that vanish together are two events.
+TEST(Adaptive, EventsAtTheSameTimeAllHappen) {
+  Simulation simulation(oscillator({.alpha = 0.0}), {.method = "egc6", .backend = "dense", .variable_steps = true});
+  int first = 0;
+  int second = 0;
+  const auto counting = [](int& count) {
+    return [&count](State&) {
+      ++count;
+      return true;
+    };
+  };
+  const std::vector<Event> events = {{.g = [](double, const Vector& z) { return z[0]; }, .action = counting(first)},
+                                     {.g = [](double, const Vector& z) { return 2 * z[0]; },
+                                      .action = counting(second)}};
+  integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                     {.tolerance = 1e-8, .t_end = 10, .events = events});
+  EXPECT_EQ(first, 3);
+  EXPECT_EQ(second, 3);
+}
+
+TEST(Adaptive, ABounceInAnyDirectionIsMetOnce) {
+  Simulation simulation(oscillator({.alpha = 0.0}), {.method = "egc6", .backend = "dense", .variable_steps = true});
+  int count = 0;
+  const auto bounce = [&](State& state) {
+    state.z[1] = -state.z[1];
+    return ++count < 100;
+  };
+  const std::vector<Event> events = {{.g = [](double, const Vector& z) { return z[0]; }, .action = bounce}};
+  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                              {.tolerance = 1e-10, .t_end = 10, .events = events});
+  EXPECT_EQ(report.status, RunReport::Status::success) << report.message;
+  EXPECT_EQ(report.events.size(), 3);
+}
+
+TEST(Adaptive, ATinyEventFunctionIsNoEventAndOneThatIsNoNumberEndsTheRun) {
+  const auto run_with = [](const std::function<double(double, const Vector&)>& g) {
+    Simulation simulation(duffing_case(), {.method = "egc6", .variable_steps = true});
+    const std::vector<Event> events = {{.g = g}};
+    return integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                              {.tolerance = 1e-6, .t_end = 60, .events = events});
+  };
+  const RunReport tiny = run_with([](double t, const Vector&) { return std::exp(-10 * t); });
+  EXPECT_EQ(tiny.status, RunReport::Status::success) << tiny.message;
+  EXPECT_TRUE(tiny.events.empty());
+  const RunReport none = run_with([](double t, const Vector&) { return std::sqrt(1 - t); });
+  EXPECT_EQ(none.status, RunReport::Status::failed);
+  EXPECT_NE(none.message.find("event 1"), std::string::npos) << none.message;
+}
+
+// Rows are in the order of time, also where an event lies in the very first step.
+TEST(Adaptive, TimesNeverGoBackAndAnEventThatDoesNothingBreaksNoLaw) {
+  class Order final : public Observer {
+   public:
+    bool is_due(const State&, bool) const override { return true; }
+    void observe(const State& state, const EnergyReading&) override {
+      EXPECT_GE(state.t, last);
+      last = state.t;
+    }
+    void finish(const RunReport&) override {}
+    double last = 0;
+  };
+  const Problem p =
+      klein_gordon({.alpha = 1.0, .gamma = formula_rate(compile_formula("0.001*(1 + 0.5*sin(t))", {"t"}))});
+  for (const std::string method : {"egc2", "egc6", "seisav", "ssav"}) {
+    Simulation simulation(p, {.method = method, .variable_steps = true});
+    Order order;
+    const std::vector<Observer*> observers = {&order};
+    const std::vector<Event> events = {{.g = [](double t, const Vector&) { return t - 0.005; },
+                                        .action = [](State&) { return true; }},
+                                       {.g = [](double t, const Vector&) { return std::sin(3 * t + 1); },
+                                        .action = [](State&) { return true; }}};
+    const RunReport report =
+        integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                           {.tolerance = 1e-3, .t_end = 10, .law = promise_energy_law(p, 10), .events = events},
+                           observers);
+    EXPECT_EQ(report.law, LawVerdict::holds) << method << ": " << report.message;
+    EXPECT_EQ(report.events.size(), 1 + 9) << method;
+  }
+}
+
+TEST(Adaptive, TheSolutionBetweenStepsEndsWhereTheStepDoes) {
+  const Problem p = klein_gordon_case();
+  for (const std::string method : {"egc2", "egc6", "seisav"}) {
+    Simulation simulation(p, {.method = method, .variable_steps = true});
+    AdaptiveStepper& stepper = simulation.adaptive_stepper();
+    for (int n = 0; n < 5; ++n) ASSERT_TRUE(stepper.attempt(simulation.state(), 0.25).solved());
+    Vector z = Vector::Zero(simulation.state().z.size());
+    stepper.interpolate(simulation.state(), simulation.state().t, z);
+    EXPECT_LE((z - simulation.state().z).lpNorm<Eigen::Infinity>(), 1e-14) << method;
+  }
+}
+
+TEST(Adaptive, TheControllerTakesNoNumberForNoError) {
+  StepController controller(4, 1e-6);
+  EXPECT_FALSE(controller.accepts(std::nan(""), 0.1, 0));
+  EXPECT_LT(controller.next(0.1), 0.1);
+  EXPECT_TRUE(controller.accepts(1e-9, 0.1, 0));
+  controller.reset();
+  StepController fresh(4, 1e-6);
+  EXPECT_EQ(controller.accepts(1e-8, 0.1, 0), fresh.accepts(1e-8, 0.1, 0));
+  EXPECT_EQ(controller.next(0.1), fresh.next(0.1));
 }
 
 TEST(Adaptive, NumbersThatMakeNoSenseAreRefused) {

@@ -19,17 +19,17 @@ namespace {
 
 using testing::HasSubstr;
 
-Finding find(const Certificate& certificate, const std::string& hypothesis) {
-  for (const Finding& finding : certificate.findings)
-    if (finding.hypothesis == hypothesis) return finding;
-  ADD_FAILURE() << "no finding about " << hypothesis;
+Hypothesis find(const Certificate& certificate, const std::string& name) {
+  for (const Hypothesis& hypothesis : certificate.hypotheses)
+    if (hypothesis.name == name) return hypothesis;
+  ADD_FAILURE() << "no finding about " << name;
   return {};
 }
 
 TEST(Certificate, OfTheKleinGordonEquationPromisesTheLaw) {
   const Certificate c = certify(klein_gordon_case(), {.t_end = 50});
   EXPECT_EQ(find(c, "sym(S) ⪯ 0").grade, Grade::by_structure);
-  const Finding M = find(c, "M ⪰ 0");
+  const Hypothesis M = find(c, "M ⪰ 0");
   EXPECT_EQ(M.grade, Grade::verified);
   EXPECT_NEAR(*M.margin, 0.2, 1e-15);  // ω², of the mean
   EXPECT_EQ(find(c, "γ ≥ 0").grade, Grade::by_structure);
@@ -44,7 +44,7 @@ TEST(Certificate, NamesTheModeThatMakesMIndefinite) {
   Problem p = klein_gordon_case();
   p.M(0, 0) += Stencil::identity(-0.5);  // ω² = −0.3: the mean, and no oscillating mode
   const Certificate c = certify(p, {.t_end = 50});
-  const Finding M = find(c, "M ⪰ 0");
+  const Hypothesis M = find(c, "M ⪰ 0");
   EXPECT_EQ(M.grade, Grade::violated);
   EXPECT_NEAR(*M.margin, -0.3, 1e-15);
   EXPECT_THAT(M.witness, HasSubstr("mode k = (0), |z| = (u: 1, v: 0)"));
@@ -55,7 +55,7 @@ TEST(Certificate, NamesTheModeThatMakesMIndefinite) {
 TEST(Certificate, NamesTheTimeAtWhichARateIsNegative) {
   Problem p = klein_gordon_case();
   p.damping.rate = formula_rate(compile_formula("0.5 - 0.1*t", {"t"}));
-  const Finding rate = find(certify(p, {.t_end = 50}), "γ ≥ 0");
+  const Hypothesis rate = find(certify(p, {.t_end = 50}), "γ ≥ 0");
   EXPECT_EQ(rate.grade, Grade::violated);
   const double t = std::stod(rate.witness.substr(4));
   EXPECT_LT(p.damping.rate->value(t), 0);
@@ -81,7 +81,7 @@ TEST(Certificate, FollowsASolutionWhereStructureDecidesNothing) {
 TEST(Certificate, DoesNotClaimWhatARateThatVariesInSpaceLeavesOpen) {
   const Problem p =
       nls({.kappa = -1.0, .gamma = formula_space_rate(compile_formula("1 + sin(x)", {"t", "x"}), 1, false)});
-  const Finding MD = find(certify(p, {.t_end = 1, .sample_solution = false}), "sym(MD) ⪰ 0");
+  const Hypothesis MD = find(certify(p, {.t_end = 1, .sample_solution = false}), "sym(MD) ⪰ 0");
   EXPECT_EQ(MD.grade, Grade::sampled);
   EXPECT_THAT(MD.statement, HasSubstr("not decided"));
 }
@@ -91,9 +91,8 @@ TEST(Certificate, PromisesTheLawExactlyWhereTheRunDoes) {
     const Certificate c = certify(problem, {.method = "seavf", .t_end = 1, .sample_solution = false});
     EXPECT_EQ(c.law.promised, promise_energy_law(problem, 1).promised) << name;
     EXPECT_EQ(c.theorem.empty(), !c.law.promised) << name;
-    const bool violated = std::any_of(c.findings.begin(), c.findings.end(), [](const Finding& f) {
-      return f.grade == Grade::violated && f.hypothesis != "V is untouched by the damping" &&
-             f.hypothesis != "D(t)D(s) = D(s)D(t)";
+    const bool violated = std::any_of(c.hypotheses.begin(), c.hypotheses.end(), [](const Hypothesis& f) {
+      return f.grade == Grade::violated && f.name != "V is untouched by the damping" && f.name != "D(t)D(s) = D(s)D(t)";
     });
     EXPECT_FALSE(violated && c.law.promised) << name;
   }

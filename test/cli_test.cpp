@@ -337,6 +337,39 @@ TEST_F(Cli, CheckShowsHypothesesWithGradesAndTheLawTheyPromise) {
   EXPECT_THAT(newton.out, HasSubstr("No energy law is promised for seilm: plain Newton"));
 }
 
+TEST_F(Cli, AnAuditConfirmsARunFromItsFilesAndSeesWhatWasChanged) {
+  write_case();
+  ASSERT_EQ(seiche("run case.toml --out out --set output.ledger=on").exit, 0);
+  EXPECT_EQ(lines("out/energy.csv").front(),
+            "t,H,H_modified,damping_left,substep,auxiliary,projection,damping_right,round_off");
+  const Result good = seiche("audit out --json");
+  EXPECT_EQ(good.exit, 0) << good.out;
+  const json audit = json::parse(good.out);
+  EXPECT_TRUE(audit["confirms"]);
+  EXPECT_GE(audit["entries"].size(), 8U);
+  for (const json& entry : audit["entries"]) EXPECT_EQ(entry["verdict"], "confirmed") << entry.dump();
+
+  for (const std::string file : {"energy.csv", "final.txt", "summary.json", "snapshots.csv"}) {
+    const std::string whole = text("out/" + file);
+    std::string changed = whole;
+    // a leading digit of H in the middle of the books, of the largest increase, of some value
+    const std::size_t from = file == "summary.json" ? changed.find("max_increase")
+                             : file == "energy.csv" ? changed.find(',', changed.size() / 2)
+                                                    : changed.size() / 2;
+    const std::size_t digit =
+        changed.find_first_of("123456789", file == "energy.csv" ? changed.find('\n', from) + 12 : from);
+    changed[digit] = changed[digit] == '9' ? '1' : '9';
+    std::ofstream(directory / "out" / file) << changed;
+    const Result bad = seiche("audit out");
+    EXPECT_EQ(bad.exit, 1) << file << "\n" << bad.out;
+    EXPECT_THAT(bad.out, HasSubstr("contradicted")) << file;
+    std::ofstream(directory / "out" / file) << whole;
+  }
+  EXPECT_EQ(seiche("audit nowhere").exit, 2);
+  fs::remove(directory / "out" / "final.txt");
+  EXPECT_EQ(seiche("audit out").exit, 2);
+}
+
 TEST_F(Cli, AToleranceTakesStepsOfItsOwnAndShowsAskedTimes) {
   write_case();
   const Result result = seiche(

@@ -92,6 +92,35 @@ TEST(EnergyLaw, WithoutDampingEveryMethodKeepsItsEnergyToTwelveDigits) {
   }
 }
 
+// Amplitudes at which every step is gross: the projection has far to go, along lines that are not rays where S has Casimirs.
+TEST(EnergyLaw, OfCollocationHoldsAtLargeAmplitudes) {
+  Problem both = klein_gordon_case(0.001, 1.0);  // damping of u and v: Q is no quadratic form, and V is of u alone
+  both.damping.rate_fields = {true, true};
+  const std::vector<std::pair<NamedProblem, std::vector<double>>> list = {{{"gKdV", gkdv_case(0.0, -0.5)},
+                                                                           {10, 100, 1e4}},
+                                                                          {{"gKdV_damped", gkdv_case(0.1, -0.5)},
+                                                                           {10, 100}},
+                                                                          {{"KG_both", both}, {1, 5, 20}},
+                                                                          {{"Duffing", duffing_case(0.0)}, {10, 100}}};
+  int runs = 0;
+  for (const auto& [named, amplitudes] : list) {
+    ASSERT_TRUE(promise_energy_law(named.problem, 10).promised) << named.name;
+    for (const double amplitude : amplitudes) {
+      Problem p = named.problem;
+      p.initial *= amplitude;
+      for (const MethodEntry& method : methods()) {
+        if (method.composition != Composition::collocation) continue;
+        for (const double h : {1.0 / 16, 0.25, 1.0, 2.5}) {
+          const LawRun result = run(p, method.name, "dense", h, 20 * h);
+          EXPECT_LE(result.worst_increase, 1) << named.name << " " << amplitude << " " << method.name << " h = " << h;
+          runs += result.steps;
+        }
+      }
+    }
+  }
+  EXPECT_GT(runs, 3000);
+}
+
 // The law is not a property of round-off: these must rise, or the tests above could not fail.
 TEST(EnergyLaw, IsSeenToFailWhereItsHypothesesFail) {
   const Problem fed = klein_gordon_case(-0.1, 1.0);  // negative damping

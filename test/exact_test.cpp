@@ -5,6 +5,7 @@
 
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/potential/polynomials.hpp>
 
 #include <gtest/gtest.h>
 
@@ -137,6 +138,24 @@ TEST(Exact, AnInitialStateWithoutFiniteEnergyIsRefused) {
   p.initial *= 1e100;
   EXPECT_THROW(Simulation(p, {.method = "seisav"}), Error);
   EXPECT_THROW(Simulation(p, {.method = "seavf"}), Error);
+}
+
+// V = q/10 + q⁴/4: the origin is no equilibrium, and a step from it leaves |z| = 0 behind.
+TEST(Exact, AStateThatStartsAtTheOriginLeavesItWhereVPulls) {
+  Problem p = duffing_case(0.1);
+  p.potential = nodal_polynomial({0, 0.1, 0, 0, 0.25});
+  p.initial.setZero();
+  Simulation expected(p, {.method = "seavf", .backend = "dense"});
+  for (int n = 0; n < 1024; ++n) ASSERT_TRUE(expected.step(1.0 / 1024).solved());
+  for (const MethodEntry& method : methods()) {
+    if (!applies(method.name, p)) continue;
+    for (const double start : {0.0, 1e-6}) {
+      p.initial.setConstant(start);
+      Simulation simulation(p, {.method = std::string(method.name), .backend = "dense"});
+      for (int n = 0; n < 64; ++n) ASSERT_TRUE(simulation.step(1.0 / 64).solved());
+      EXPECT_LE((simulation.physical() - expected.physical()).lpNorm<Eigen::Infinity>(), 1e-3) << method.name;
+    }
+  }
 }
 
 }  // namespace

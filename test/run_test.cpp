@@ -64,6 +64,7 @@ class FakeStepper : public Stepper {
     return modified ? EnergyReading{static_cast<double>(state.n), value, 0.0, round_off}
                     : EnergyReading{value, value, round_off, round_off};
   }
+  void keep_ledger() override {}
   bool has_modified_energy() const override { return modified; }
 
  private:

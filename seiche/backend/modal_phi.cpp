@@ -246,11 +246,10 @@ class ModalPhi final : public PhiEvaluator {
     return symbols_.are_real() ? ModeLayout::real_pairs : ModeLayout::complex_pairs;
   }
 
-  // Damping and sym(S) must leave alone what V depends on for Q to be quadratic.
+  // Damping and sym(S) must leave alone what V depends on for Q to be quadratic. Q ⪰ 0 is judged mode by mode: damping may
+  // differ by many orders of magnitude from one to another.
   void judge_dissipation() {
     dissipation_ = {true, true, true};
-    double smallest = 0;
-    double largest = 0;
     for (Index k = 0; k < symbols_.modes.count(); ++k) {
       const Block S = symbols_.S.symbol(symbols_.modes[k]);
       const Block twice_sym = S + S.adjoint();
@@ -259,12 +258,12 @@ class ModalPhi final : public PhiEvaluator {
         dissipation_.is_quadratic = dissipation_.is_quadratic && D0.row(f).isZero(0) && twice_sym.row(f).isZero(0);
       if (D0.isZero(0) && twice_sym.isZero(0)) continue;
       dissipation_.is_zero = false;
-      const Block Q = dissipation_matrix<Block>(S, symbols_.M.symbol(symbols_.modes[k]), D0);
+      const Block M = symbols_.M.symbol(symbols_.modes[k]);
+      const Block Q = dissipation_matrix<Block>(S, M, D0);
+      const double size = (M * D0).norm() + (M * twice_sym * M).norm();
       const Eigen::VectorXd rates = Eigen::SelfAdjointEigenSolver<Block>(Q, Eigen::EigenvaluesOnly).eigenvalues();
-      smallest = std::min(smallest, rates.minCoeff());
-      largest = std::max(largest, rates.maxCoeff());
+      dissipation_.is_nonnegative = dissipation_.is_nonnegative && rates.minCoeff() >= -1e-13 * size;
     }
-    dissipation_.is_nonnegative = smallest >= -1e-13 * largest;
   }
 
   void find_casimirs() {
@@ -273,13 +272,14 @@ class ModalPhi final : public PhiEvaluator {
       size = std::max(size, symbols_.S.symbol(symbols_.modes[k]).cwiseAbs().maxCoeff());
     for (Index k = 0; k < symbols_.modes.count(); ++k) {
       const Block S = symbols_.S.symbol(symbols_.modes[k]);
-      // A determinant may be small and S not singular, but never the other way round.
-      if (std::abs(S.determinant()) > std::pow(1e-13 * size, static_cast<double>(extent_.fields))) continue;
+      // |det S| ≤ σ_min · (m · size)^{m−1}: a determinant above this has no singular value below 1e-13 · size.
+      const auto m = static_cast<double>(extent_.fields);
+      if (std::abs(S.determinant()) > 1e-13 * size * std::pow(m * size, m - 1)) continue;
       const Eigen::JacobiSVD<Block> svd(S, Eigen::ComputeFullV);
       Block projector = Block::Zero(extent_.fields, extent_.fields);
       for (Index i = 0; i < extent_.fields; ++i)
         if (svd.singularValues()[i] <= 1e-13 * size) projector += svd.matrixV().col(i) * svd.matrixV().col(i).adjoint();
-      casimirs_.push_back({k, projector});
+      if (!projector.isZero(0)) casimirs_.push_back({k, projector});
     }
   }
 

@@ -25,7 +25,7 @@ std::vector<std::string> keys_of(const std::string& section, const ProblemEntry*
   if (section == "method") return {"name", "h", "tolerance", "C", "auxiliary", "scalar_solver"};
   if (section == "backend") return {"name", "plan", "exponential", "pade_degree", "lanczos_dimension"};
   if (section == "time") return {"end"};
-  if (section == "output") return {"directory", "energy_every", "snapshot_every", "snapshot_interval"};
+  if (section == "output") return {"directory", "energy_every", "ledger", "snapshot_every", "snapshot_interval"};
   if (section == "ensemble") return ensemble_keys(problem);
   std::vector<std::string> keys = {"name", "initial"};
   if (problem != nullptr)
@@ -272,6 +272,9 @@ class Reader {
     refuse_endless_files();
     on("output", "snapshot_every",
        [&](const std::string& key, const CaseValue& value) { spec_.snapshot_every = read_whole(key, value, 0); });
+    on("output", "ledger", [&](const std::string& key, const CaseValue& value) {
+      spec_.ledger = read_name(key, value, {"off", "on"}) == "on";
+    });
     on("output", "snapshot_interval", [&](const std::string& key, const CaseValue& value) {
       const double interval = read_number(key, value);
       if (interval < 0) throw Error("{} = {} must be ≥ 0", key, value.shown());
@@ -286,6 +289,8 @@ class Reader {
   void read_ensemble() {
     const CaseSection* section = table_.section("ensemble");
     if (section == nullptr || !section->is_table) return;
+    if (spec_.ledger)
+      complain(section->order, section->place, "an ensemble keeps no ledger: write output.ledger = \"off\"");
     if (spec_.tolerance)
       complain(section->order, section->place, "an ensemble takes steps of one size: write method.h, and no tolerance");
     EnsembleSpec& ensemble = spec_.ensemble.emplace();

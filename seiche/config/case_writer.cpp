@@ -88,6 +88,7 @@ std::string write_case(const RunSpec& spec) {
   text += fmt::format("\n[time]\nend = {}\n", toml_real(spec.t_end));
   text += fmt::format("\n[output]\ndirectory = {}\nenergy_every = {}\nsnapshot_every = {}\n",
                       toml_string(spec.output_directory), spec.energy_every, spec.snapshot_every);
+  if (spec.ledger) text += "ledger = \"on\"\n";
   if (spec.snapshot_interval > 0) text += fmt::format("snapshot_interval = {}\n", toml_real(spec.snapshot_interval));
   if (spec.ensemble) text += write_ensemble(*spec.ensemble);
   return text;
@@ -128,6 +129,7 @@ std::string example_case(const std::string& problem) {
   text += line("directory", toml_string("out/" + entry.name), "made if it is not there");
   text += line("energy_every", "1", "steps");
   text += line("snapshot_every", "64", "steps; 0: the first and the last state only");
+  text += line("ledger", "\"off\"", "on: columns of energy.csv that say where the change of H comes from");
   text += line("# snapshot_interval", "0.5", "time between snapshots, with a tolerance");
   return text;
 }

@@ -7,6 +7,6 @@
 namespace seiche {
 
 // Bytes of a run on the modal backend, all told (docs/performance.md).
-double run_bytes(const MethodEntry& method, const Problem& problem);
+double run_bytes(const MethodEntry& method, const Problem& problem, bool variable_steps = false);
 
 }  // namespace seiche

@@ -50,6 +50,7 @@ struct RunSpec {
   std::string output_directory;
   std::int64_t energy_every = 1;     // steps
   std::int64_t snapshot_every = 64;  // steps; 0: the first and the last state only
+  bool ledger = false;               // columns in energy.csv: where the change of H comes from
   double snapshot_interval = 0.0;    // time; 0: by steps. With a tolerance only
 
   std::optional<EnsembleSpec> ensemble;  // none: one run

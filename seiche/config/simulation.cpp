@@ -19,8 +19,8 @@ const BackendEntry& choose_backend(const std::string& name, const Problem& probl
   return name == "auto" ? automatic_backend(problem) : find_backend(name);
 }
 
-void require_memory(const MethodEntry& method, const Problem& problem) {
-  const double bytes = run_bytes(method, problem);
+void require_memory(const MethodEntry& method, const Problem& problem, bool variable_steps) {
+  const double bytes = run_bytes(method, problem, variable_steps);
   if (bytes > physical_memory())
     throw Error("{} on {} unknowns needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points{}",
                 method.name, problem.size(), bytes, physical_memory(),
@@ -33,7 +33,7 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
     : method_(find_method(options.method)), problem_(as_integrated(method_, problem)) {
   const BackendEntry& backend = choose_backend(options.backend, problem_);
   backend_name_ = backend.name;
-  require_memory(method_, problem_);
+  require_memory(method_, problem_, options.variable_steps);
   system_ = backend.system(problem_, options.backend_options);
   if (options.variable_steps) {
     auto stepper = make_adaptive_stepper(method_, system_, options.method_options);

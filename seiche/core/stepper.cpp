@@ -2,6 +2,15 @@
 
 namespace seiche {
 
+StepLedger& StepLedger::operator+=(const StepLedger& other) {
+  damping_left += other.damping_left;
+  substep += other.substep;
+  auxiliary += other.auxiliary;
+  projection += other.projection;
+  damping_right += other.damping_right;
+  return *this;
+}
+
 StepReport& StepReport::operator+=(const StepReport& other) {
   if (!other.solved()) {
     status = other.status;
@@ -10,6 +19,7 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   scalar_iterations += other.scalar_iterations;
   fallbacks += other.fallbacks;
   unresolved += other.unresolved;
+  ledger += other.ledger;
   return *this;
 }
 

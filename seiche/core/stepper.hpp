@@ -9,6 +9,19 @@
 
 namespace seiche {
 
+// Where the change of H comes from. The parts of a step add up to H after − H before, but for round-off.
+struct StepLedger {
+  double damping_left = 0.0;  // the first damping half-flow; for collocation all of −∫Q dt, by quadrature
+  double substep = 0.0;  // what the Hamiltonian substep changes of the energy it is to keep: the dissipation of S, the
+                         // residual of a scalar equation; for collocation what ẑ misses of the dissipation
+  double auxiliary = 0.0;      // change of H − modified energy in the substep: V drifts from r² − C
+  double projection = 0.0;     // onto the energy of the law
+  double damping_right = 0.0;  // the second damping half-flow
+
+  double sum() const { return damping_left + substep + auxiliary + projection + damping_right; }
+  StepLedger& operator+=(const StepLedger& other);
+};
+
 struct StepReport {
   enum class Status { solved, failed };
   Status status = Status::solved;
@@ -16,6 +29,7 @@ struct StepReport {
   int fallbacks = 0;          // times a solver left its first choice
   int unresolved = 0;         // scalar equations whose root was not found (plain Newton only)
   std::string message = {};   // set on failure: what, with the numbers
+  StepLedger ledger = {};     // filled where the stepper keeps one
 
   bool solved() const { return status == Status::solved; }
   StepReport& operator+=(const StepReport& other);
@@ -26,6 +40,7 @@ struct EnergyReading {
   double modified = 0.0;   // ½zᵀMz + r² − C; equal to H where the method has none
   double round_off = 0.0;  // of H
   double modified_round_off = 0.0;
+  StepLedger ledger = {};  // of all steps since the start of the run
 };
 
 // `step` allocates nothing for an h seen before, unless an implicit equation needs its Newton–Krylov fallback.
@@ -37,6 +52,9 @@ class Stepper {
   virtual StepReport step(State& state, double h) = 0;  // from t to t + h
   virtual EnergyReading energy(const State& state) const = 0;
   virtual bool has_modified_energy() const = 0;
+  // From now on every step fills the ledger of its report, at the price of a few energies; the bits of a solution may change,
+  // since what is fused otherwise is done part by part.
+  virtual void keep_ledger() = 0;
 };
 
 // A stepper that tells the error of its steps, and knows the solution inside the last one.
@@ -50,7 +68,8 @@ class AdaptiveStepper : public Stepper {
   virtual std::optional<double> error(const State& state) = 0;
   virtual void undo(State& state) = 0;                                    // takes that attempt back, once
   virtual void interpolate(const State& state, double t, Vector& z) = 0;  // the solution at a time inside it
-  virtual void restart(State& state) = 0;                                 // forgets what was before: z has been changed
+  virtual void forget(State& state) = 0;   // what it remembers of the steps before; all else stays
+  virtual void restart(State& state) = 0;  // as `begin`, for a z that something else has changed
 };
 
 }  // namespace seiche

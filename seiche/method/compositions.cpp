@@ -28,8 +28,32 @@ class Composed : public Stepper {
 
   EnergyReading energy(const State& s) const override { return closure_->energy(s); }
   bool has_modified_energy() const override { return closure_->has_modified_energy(); }
+  void keep_ledger() override { keeps_ledger_ = true; }
 
  protected:
+  bool keeps_ledger() const { return keeps_ledger_; }
+
+  // The change of H in a damping half-flow, where a ledger is kept.
+  double damp(State& s, double t, double h) {
+    if (!keeps_ledger_) {
+      closure_->damp(s, t, h);
+      return 0;
+    }
+    const double before = closure_->energy(s).H;
+    closure_->damp(s, t, h);
+    return closure_->energy(s).H - before;
+  }
+
+  StepReport substep(State& s, double t, double h) {
+    if (!keeps_ledger_) return closure_->advance(s, propagators_, t, h);
+    const EnergyReading before = closure_->energy(s);
+    StepReport report = closure_->advance(s, propagators_, t, h);
+    const EnergyReading after = closure_->energy(s);
+    report.ledger.substep = after.modified - before.modified;
+    report.ledger.auxiliary = (after.H - after.modified) - (before.H - before.modified);
+    return report;
+  }
+
   // On failure s is left as it was.
   virtual StepReport compose(State& s, double h) = 0;
 
@@ -53,6 +77,7 @@ class Composed : public Stepper {
   Propagators propagators_;
   std::unique_ptr<Closure> closure_;
   State saved_;
+  bool keeps_ledger_ = false;
 };
 
 class Whole final : public Composed {
@@ -61,8 +86,8 @@ class Whole final : public Composed {
 
  private:
   StepReport compose(State& s, double h) override {
-    if (closure().takes_half_flows()) return closure().advance_damped(s, propagators(), s.t, h, {});
-    return or_restore(s, h, [&] { return closure().advance(s, propagators(), s.t, h); });
+    if (closure().takes_half_flows() && !keeps_ledger()) return closure().advance_damped(s, propagators(), s.t, h, {});
+    return or_restore(s, h, [&] { return substep(s, s.t, h); });
   }
 };
 
@@ -78,13 +103,14 @@ class Strang final : public Composed {
  private:
   StepReport compose(State& s, double h) override {
     const double middle = s.t + h / 2;
-    if (closure().takes_half_flows() && damping_.field_factors(s.t, h / 2, before_) &&
+    if (closure().takes_half_flows() && !keeps_ledger() && damping_.field_factors(s.t, h / 2, before_) &&
         damping_.field_factors(middle, h / 2, after_))
       return closure().advance_damped(s, propagators(), s.t, h, {before_, after_});
     return or_restore(s, h, [&] {
-      closure().damp(s, s.t, h / 2);
-      StepReport report = closure().advance(s, propagators(), s.t, h);
-      if (report.solved()) closure().damp(s, middle, h / 2);
+      const double left = damp(s, s.t, h / 2);
+      StepReport report = substep(s, s.t, h);
+      report.ledger.damping_left = left;
+      if (report.solved()) report.ledger.damping_right = damp(s, middle, h / 2);
       return report;
     });
   }

@@ -7,7 +7,12 @@ namespace seiche {
 
 ContinuousExtension::ContinuousExtension(const PhiEvaluator& phi, const GaussRule& rule, PhiRows::Forces kind,
                                          Index size)
-    : phi_(phi), rule_(rule), kind_(kind), out_(1, Vector::Zero(size)), rest_(1, Vector::Zero(size)) {}
+    : phi_(phi),
+      rule_(rule),
+      kind_(kind),
+      defects_(cached_step_sizes(size)),
+      out_(1, Vector::Zero(size)),
+      rest_(1, Vector::Zero(size)) {}
 
 ContinuousExtension::Maps ContinuousExtension::maps(const Step& step, double theta, bool difference) const {
   const Index s = rule_.nodes.size();
@@ -46,6 +51,7 @@ const Vector& ContinuousExtension::defect(const Step& step, std::span<const Vect
                                           std::span<const Vector> forces) {
   std::vector<Maps>& of_h = defects_.at(step.h, [] { return std::make_unique<std::vector<Maps>>(); });
   auto found = std::find_if(of_h.begin(), of_h.end(), [&](const Maps& m) { return m.history_h == step.history_h; });
+  if (found == of_h.end() && of_h.size() == 4) found = of_h.erase(of_h.begin(), of_h.end());
   if (found == of_h.end()) found = of_h.insert(of_h.end(), maps(step, 1.0, true));
   found->of_this->apply(out_[0], forces, rest_);
   found->of_before->apply(out_[0], forces_before, out_);

@@ -40,7 +40,7 @@ class ContinuousExtension {
   const PhiEvaluator& phi_;
   GaussRule rule_;
   PhiRows::Forces kind_;
-  StepCache<std::vector<Maps>> defects_{16};
+  StepCache<std::vector<Maps>> defects_;
   std::vector<Vector> out_, rest_;
 };
 

@@ -10,12 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seiche {
 namespace {
 
 constexpr int max_halvings = 8;
-constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| is no solution
+constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| + h|F|, with F as predicted, is no solution
 
 class Collocation final : public AdaptiveStepper {
  public:
@@ -30,11 +31,12 @@ class Collocation final : public AdaptiveStepper {
         dissipation_(system, *phi_, output_, rule_, GaussRule(stages + 2)),
         projection_(system, *phi_),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
+        cache_(cached_step_sizes(system.space->size())),
         forces_(static_cast<std::size_t>(stages)) {
     const Index size = system.space->size();
     for (Vector& f : forces_) f.setZero(size);
     result_.assign(1, Vector::Zero(size));
-    for (Vector* v : {&gradient_, &rest_}) v->setZero(size);
+    for (Vector* v : {&gradient_, &rest_, &missing_}) v->setZero(size);
     physical_.setZero(system.space->physical_size());
   }
 
@@ -86,6 +88,7 @@ class Collocation final : public AdaptiveStepper {
   std::optional<double> error(const State& s) override {
     if (last_.history_h == 0) return std::nullopt;
     system_.space->to_physical(extension_.defect(last_, forces_, s.history), physical_);
+    if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
     const double of_forces = physical_.lpNorm<Eigen::Infinity>();
     // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is not,
     // the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
@@ -104,11 +107,25 @@ class Collocation final : public AdaptiveStepper {
     --s.n;
   }
 
+  // The extension is moved by θ^p times what it misses at the end, so that the solution is continuous from step to step.
   void interpolate(const State& s, double t, Vector& z) override {
-    extension_.evaluate(last_, (t - last_t_) / last_.h, result_[0], forces_, s.history, z);
-    if (dissipation_.kind() == StepDissipation::Kind::general) return;  // H may rise between: no law to keep
-    projection_.project(z, std::clamp(system_.energy(z), s.energy, last_energy_), last_energy_);
+    const auto extended = [&](double theta, Vector& out) {
+      extension_.evaluate(last_, theta, result_[0], forces_, s.history, out);
+    };
+    if (!missing_is_known_) {
+      extended(1.0, missing_);
+      missing_ = s.z - missing_;
+      missing_is_known_ = true;
+    }
+    const double theta = (t - last_t_) / last_.h;
+    extended(theta, z);
+    z += std::pow(theta, order()) * missing_;
+    if (last_dissipated_negative_) return;  // H may rise between: no law to keep
+    const double low = std::min(s.energy, last_energy_);
+    projection_.project(z, std::clamp(system_.energy(z), low, last_energy_), last_energy_);
   }
+
+  void forget(State& s) override { s.history_h = 0; }
 
   void restart(State& s) override {
     s.energy = system_.energy(s.z);
@@ -123,6 +140,7 @@ class Collocation final : public AdaptiveStepper {
     return reading;
   }
   bool has_modified_energy() const override { return false; }
+  void keep_ledger() override {}  // every step knows
 
  private:
   int stages() const { return static_cast<int>(forces_.size()); }
@@ -158,8 +176,9 @@ class Collocation final : public AdaptiveStepper {
     }
     system_.potential->gradient(v, gradient_);
     if (dissipated != nullptr) dissipation_.add(t, v, gradient_, weight, dissipated->coarse, dissipated->negative);
-    if (gradients) {
-      v.swap(gradient_);
+    if (gradients) {  // gradient_ stays zero outside the support
+      const Potential::Support support = system_.potential->support();
+      v.segment(support.begin, support.size) = gradient_.segment(support.begin, support.size);
       return;
     }
     system_.damping->apply_rest(t, v, rest_);
@@ -175,18 +194,19 @@ class Collocation final : public AdaptiveStepper {
       for (std::size_t i = 1; i < forces_.size(); ++i) forces_[i] = forces_[0];
       return 2 * stages();
     }
-    if (const double ratio = h / s.history_h; ratio != ratio_) {
-      ratio_ = ratio;
-      extrapolation_ = evaluation(rule_.nodes, Eigen::VectorXd::Ones(stages()) + ratio * rule_.nodes);
-    }
+    const double ratio = h / s.history_h;
+    const Eigen::MatrixXd& extrapolation = extrapolations_.at(ratio, [&] {
+      return std::make_unique<Eigen::MatrixXd>(
+          evaluation(rule_.nodes, Eigen::VectorXd::Ones(stages()) + ratio * rule_.nodes));
+    });
     constexpr Index chunk = 1024;  // stays in the first-level cache for all forces
     for (Index begin = 0; begin < s.z.size(); begin += chunk) {
       const Index size = std::min(chunk, s.z.size() - begin);
       for (Index i = 0; i < stages(); ++i) {
         auto out = forces_[static_cast<std::size_t>(i)].segment(begin, size);
-        out = extrapolation_(i, 0) * s.history[0].segment(begin, size);
+        out = extrapolation(i, 0) * s.history[0].segment(begin, size);
         for (Index j = 1; j < stages(); ++j)
-          out += extrapolation_(i, j) * s.history[static_cast<std::size_t>(j)].segment(begin, size);
+          out += extrapolation(i, j) * s.history[static_cast<std::size_t>(j)].segment(begin, size);
       }
     }
     return stages();
@@ -197,6 +217,8 @@ class Collocation final : public AdaptiveStepper {
     const Tables& of_h = tables(h);
     const int sweeps = predict(s, t, h);
     const bool general = dissipation_.kind() == StepDissipation::Kind::general;
+    double size = s.z.norm();
+    for (const Vector& f : forces_) size = std::max(size, s.z.norm() + h * f.norm());
     StepDissipation::Amount coarse;
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       of_h.nodes->apply(s.z, forces_, forces_);
@@ -207,22 +229,22 @@ class Collocation final : public AdaptiveStepper {
     of_h.end->apply(s.z, forces_, result_);
     Vector& z = result_[0];
 
-    const double growth = z.norm() / s.z.norm();
-    const bool resolved = std::isfinite(growth) ? growth <= gross_growth : z.isZero(0);
-    double target = s.energy;
-    double cap = s.energy;
+    resolved_ = z.norm() <= gross_growth * size;  // false for NaN
+    const bool resolved = resolved_;
+    EnergyTarget wanted{s.energy, s.energy};
+    StepDissipation::Amount amount;
+    double computed = 0;  // Ĥ
     if (resolved) {
-      const auto amount = dissipation_.measure(t, h, s.z, forces_, general ? &coarse : nullptr);
-      const EnergyTarget wanted =
-          energy_target(s.energy, system_.energy(z), projection_.energy_of_rest(), amount, dissipation_.kind());
-      target = wanted.H;
-      cap = wanted.cap;
+      amount = dissipation_.measure(t, h, s.z, forces_, general ? &coarse : nullptr);
+      computed = system_.energy(z);
+      wanted = energy_target(s.energy, computed, projection_.energy_of_rest(), amount, dissipation_.kind());
     } else {
       if (strict) return false;
       of_h.free->apply(s.z, {}, result_);
+      computed = system_.energy(z);
       ++report.fallbacks;
     }
-    const EnergyProjection::Outcome outcome = projection_.project(z, target, cap);
+    const EnergyProjection::Outcome outcome = projection_.project(z, wanted.H, wanted.cap);
     report.scalar_iterations += outcome.iterations;
     report.fallbacks += outcome.by_bisection ? 1 : 0;
     if (!outcome.admissible || !z.allFinite()) return false;
@@ -230,7 +252,12 @@ class Collocation final : public AdaptiveStepper {
     last_displacement_ = outcome.displacement;
     last_energy_ = s.energy;
     last_t_ = t;
-    s.energy = outcome.H_is_target ? target : outcome.H;
+    last_dissipated_negative_ = amount.negative;
+    missing_is_known_ = false;
+    s.energy = outcome.H_is_target ? wanted.H : std::min(outcome.H, wanted.cap);
+    report.ledger += {.damping_left = -amount.fine,
+                      .substep = computed - last_energy_ + amount.fine,
+                      .projection = s.energy - computed};
     s.z.swap(z);
     s.history.swap(forces_);
     s.history_h = resolved ? h : 0;
@@ -256,15 +283,17 @@ class Collocation final : public AdaptiveStepper {
   StepDissipation dissipation_;
   EnergyProjection projection_;
   ContinuousExtension extension_;
-  StepCache<Tables> cache_{16};
-  Eigen::MatrixXd extrapolation_;
-  double ratio_ = 0;
+  StepCache<Tables> cache_;
+  StepCache<Eigen::MatrixXd> extrapolations_{16};  // by the ratio of two step sizes
   std::vector<Vector> forces_, result_;
   Vector gradient_, rest_, physical_;
   State saved_;
   // The last step: zⁿ and the forces before it are left in result_ and forces_.
   ContinuousExtension::Step last_;
   double last_displacement_ = 0, last_energy_ = 0, last_t_ = 0;
+  bool last_dissipated_negative_ = false, resolved_ = true;
+  Vector missing_;  // what the extension misses at the end of it, once it was asked for
+  bool missing_is_known_ = false;
 };
 
 }  // namespace

@@ -3,20 +3,20 @@
 
 #include <seiche/core/system.hpp>
 
-#include <array>
 #include <cmath>
 #include <vector>
 
 namespace seiche {
 
-// What lines of one system share: their vectors, and the coefficients of V where it is a polynomial.
+// What lines of one system share.
 struct EnergyLineScratch {
   explicit EnergyLineScratch(const System& system);
-  Vector d, Md, trial;
-  std::vector<double> V;  // of λ ↦ V(z + λd), or of x ↦ V(xz)
+  Vector d, gradient, trial;
+  std::vector<double> V;  // coefficients of x ↦ V(xz), where V is a polynomial
 };
 
-// λ ↦ H(z + λd). On the ray d = z it is written in powers of 1 + λ, so that nothing cancels near the origin.
+// λ ↦ H(z + λd). On the ray d = z it is known in powers of 1 + λ, all of one sign where V has one power only; on other lines
+// it is evaluated at z + λd itself, since the terms of a polynomial in λ may be far larger than H.
 class EnergyLine {
  public:
   enum class Direction {
@@ -29,29 +29,33 @@ class EnergyLine {
              Direction direction);
 
   struct Parts {  // of H at one point
+    double lambda = 0;
     double K = 0, V = 0;
     double size = 0;  // of the terms of V, as far as they are known one by one
     double H() const { return K + V; }
     double round_off() const { return 4 * epsilon * (std::abs(K) + std::abs(V)); }  // to be hoped for
-    double loss() const { return 4 * epsilon * (std::abs(K) + size); }              // to be put up with
+    double loss() const { return 16 * epsilon * (std::abs(K) + size); }             // to be put up with
   };
   Parts at(double lambda) const;
 
   struct Slope {
     double value = 0, size = 0;  // size: the sum of its terms without their signs
   };
-  // dH/dλ at 0, or its part from ½zᵀMz where the other would cost a gradient
-  Slope slope() const;
+  Slope slope() const { return slope_; }  // dH/dλ at 0; on a ray without its part from V where V is no polynomial
 
   void move(Vector& z, double lambda) const;  // z is the vector of the line
   const Vector& direction() const { return is_ray_ ? z_ : scratch_.d; }
 
  private:
+  void prepare_ray();
+  void prepare_line(const PhiEvaluator& phi, Direction direction);
+
   const System& system_;
   EnergyLineScratch& scratch_;
   const Vector& z_;
   bool is_ray_, polynomial_;
-  std::array<double, 3> K_{};
+  double K_ = 0;  // at λ = 0
+  Slope slope_;
 };
 
 }  // namespace seiche

@@ -54,28 +54,20 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, double target, do
 // z to where H = target; false, with z as it was, if the secant iteration does not find it.
 bool EnergyProjection::solve(const EnergyLine& line, Vector& z, double target, double cap, Outcome& outcome) {
   EnergyLine::Parts here = line.at(0);
-  const auto misses_by = [&] { return std::abs(here.H() - target); };
-  double lambda = 0;
-  double previous = 0;
-  double previous_H = here.H();
-  if (misses_by() > here.round_off()) {
-    lambda = (target - here.H()) / line.slope().value;
-    for (int i = 0; i < max_secants && std::isfinite(lambda) && std::abs(lambda) < max_lambda; ++i) {
-      here = line.at(lambda);
-      ++outcome.iterations;
-      if (misses_by() <= here.round_off()) break;
-      const double H = here.H();
-      if (H == previous_H) break;  // as near as numbers come
-      const double next = lambda + (target - H) * (lambda - previous) / (H - previous_H);
-      previous = lambda;
-      previous_H = H;
-      lambda = next;
-    }
+  const auto miss = [&](const EnergyLine::Parts& p) { return std::abs(p.H() - target); };
+  double lambda = (target - here.H()) / line.slope().value;
+  for (int i = 0; miss(here) > here.round_off() && i < max_secants; ++i) {
+    if (!(std::abs(lambda) < max_lambda)) return false;  // or no number
+    const EnergyLine::Parts next = line.at(lambda);
+    ++outcome.iterations;
+    if (next.H() == here.H()) break;  // as near as numbers come
+    lambda = next.lambda + (target - next.H()) * (next.lambda - here.lambda) / (next.H() - here.H());
+    here = next;
   }
-  if (!(misses_by() <= here.loss()) || !(std::abs(lambda) < max_lambda)) return false;
-  outcome.displacement = std::abs(lambda) * line.direction().norm();
-  if (lambda != 0) line.move(z, lambda);
-  outcome.admissible = here.H() <= cap + here.round_off();
+  if (!(miss(here) <= here.loss()) || !(here.H() <= cap + here.loss())) return false;
+  outcome.displacement = std::abs(here.lambda) * line.direction().norm();
+  if (here.lambda != 0) line.move(z, here.lambda);
+  outcome.admissible = true;
   outcome.H = here.H();
   outcome.H_is_target = true;
   return true;
@@ -83,21 +75,21 @@ bool EnergyProjection::solve(const EnergyLine& line, Vector& z, double target, d
 
 // z towards the origin of the line, λ = −1, to a point with H ≤ goal; false, with z as it was, if H is above it even there.
 bool EnergyProjection::bisect(const EnergyLine& line, Vector& z, double goal, Outcome& outcome) {
-  double low = -1;
+  EnergyLine::Parts low = line.at(-1);
   double high = 0;
-  EnergyLine::Parts lowest = line.at(low);
-  if (!(lowest.H() <= goal)) return false;
+  if (!(low.H() <= goal)) return false;
   for (int i = 0; i < max_bisections; ++i) {
-    const double middle = (low + high) / 2;
-    const EnergyLine::Parts parts = line.at(middle);
+    const EnergyLine::Parts parts = line.at((low.lambda + high) / 2);
     ++outcome.iterations;
-    (parts.H() <= goal ? low : high) = middle;
-    if (parts.H() <= goal) lowest = parts;
+    if (parts.H() <= goal)
+      low = parts;
+    else
+      high = parts.lambda;
   }
-  outcome.displacement = std::abs(low) * line.direction().norm();
-  line.move(z, low);
+  outcome.displacement = std::abs(low.lambda) * line.direction().norm();
+  line.move(z, low.lambda);
   outcome.admissible = true;
-  outcome.H = lowest.H();
+  outcome.H = low.H();
   return true;
 }
 

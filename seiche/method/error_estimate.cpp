@@ -1,6 +1,7 @@
 #include <seiche/method/error_estimate.hpp>
 #include <seiche/method/step_cache.hpp>
 
+#include <limits>
 #include <vector>
 
 namespace seiche {
@@ -9,7 +10,10 @@ namespace {
 class Estimated final : public AdaptiveStepper {
  public:
   Estimated(const System& system, std::unique_ptr<Stepper> stepper)
-      : system_(system), stepper_(std::move(stepper)), phi_(system.make_phi()) {
+      : system_(system),
+        stepper_(std::move(stepper)),
+        phi_(system.make_phi()),
+        cache_(cached_step_sizes(system.space->size())) {
     const Index size = system.space->size();
     forces_.assign(3, Vector::Zero(size));
     out_.assign(1, Vector::Zero(size));
@@ -24,6 +28,7 @@ class Estimated final : public AdaptiveStepper {
   StepReport step(State& s, double h) override { return stepper_->step(s, h); }
   EnergyReading energy(const State& s) const override { return stepper_->energy(s); }
   bool has_modified_energy() const override { return stepper_->has_modified_energy(); }
+  void keep_ledger() override { stepper_->keep_ledger(); }
   int order() const override { return 2; }
 
   StepReport attempt(State& s, double h) override {
@@ -47,6 +52,7 @@ class Estimated final : public AdaptiveStepper {
     maps.end->apply(before_.z, forces_, out_);
     out_[0] -= s.z;
     system_.space->to_physical(out_[0], physical_);
+    if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
     return physical_.lpNorm<Eigen::Infinity>();
   }
 
@@ -63,6 +69,7 @@ class Estimated final : public AdaptiveStepper {
       z = before_.z + ((t - before_.t) / h_) * (s.z - before_.z);
   }
 
+  void forget(State&) override { end_force_is_known_ = false; }
   void restart(State& s) override { begin(s); }
 
  private:
@@ -93,7 +100,7 @@ class Estimated final : public AdaptiveStepper {
   const System& system_;
   std::unique_ptr<Stepper> stepper_;
   std::unique_ptr<PhiEvaluator> phi_;
-  StepCache<Maps> cache_{16};
+  StepCache<Maps> cache_;
   State before_, between_;
   double h_ = 0;
   bool end_force_is_known_ = false;  // forces_[2] is N at the state

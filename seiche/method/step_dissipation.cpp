@@ -12,7 +12,12 @@ PhiRows DenseOutput::at(const Eigen::VectorXd& thetas, PhiRows::Outputs outputs)
 
 StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output,
                                  const GaussRule& coarse, const GaussRule& fine)
-    : system_(system), phi_(phi), output_(std::move(output)), coarse_(coarse), fine_(fine) {
+    : system_(system),
+      phi_(phi),
+      output_(std::move(output)),
+      coarse_(coarse),
+      fine_(fine),
+      cache_(cached_step_sizes(system.space->size())) {
   const PhiEvaluator::Dissipation d = phi.dissipation();
   const bool frozen = system.damping->is_frozen();
   kind_ = !frozen                              ? Kind::general

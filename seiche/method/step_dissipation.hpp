@@ -62,7 +62,7 @@ class StepDissipation {
   GaussRule coarse_, fine_;
   Kind kind_;
   bool needs_gradient_;
-  StepCache<Tables> cache_{8};
+  StepCache<Tables> cache_;
   std::vector<Vector> node_;
   Vector gradient_, scratch_, gradient_H_;
 };

@@ -1,4 +1,5 @@
-// energy.csv: t, H and, for methods that have one, the modified energy at every due step. Streamed, so that a long
+// energy.csv: t, H and, for methods that have one, the modified energy at every due step; with a ledger also where the change
+// of H since the row before comes from (StepLedger), its last column what is left, round-off. Streamed, so that a long
 // run costs no memory.
 #pragma once
 
@@ -10,16 +11,20 @@ namespace seiche {
 
 class EnergyTrace : public Observer {
  public:
-  EnergyTrace(const std::filesystem::path& path, bool has_modified_energy, Schedule schedule = {});
+  EnergyTrace(const std::filesystem::path& path, bool has_modified_energy, Schedule schedule = {}, bool ledger = false);
 
   bool is_due(const State& state, bool last) const override { return schedule_.is_due(state.n, last); }
   void observe(const State& state, const EnergyReading& energy) override;
   void finish(const RunReport& report) override;
 
  private:
+  void add_ledger(const EnergyReading& energy);
+
   AtomicFile file_;
-  bool has_modified_energy_;
+  bool has_modified_energy_, has_ledger_;
   Schedule schedule_;
+  EnergyReading last_;  // shown
+  bool is_first_ = true;
   CsvRow row_;
 };
 

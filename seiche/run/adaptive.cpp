@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seiche {
 namespace {
+
+constexpr int forget_after = 8;  // rejections in a row: what a method remembers does not help any more
 
 class AdaptiveLoop {
  public:
@@ -25,15 +28,18 @@ class AdaptiveLoop {
 
   void run() {
     if (!recording_.record(state_.t >= options_.t_end)) return;
-    events_.start(state_);
     start();
     while (state_.t < options_.t_end) {
-      if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return recording_.interrupt(options_.t_end);
+      if (options_.stop && options_.stop->load(std::memory_order_relaxed)) {
+        if (unproven_) state_ = backup_;
+        return recording_.interrupt(options_.t_end);
+      }
       if (!advance()) return;
     }
   }
 
   std::string remark() const {
+    if (largest_ == 0) return "";
     return fmt::format(" of {:.3g} to {:.3g}, {} rejected", smallest_, largest_, recording_.report().rejected);
   }
 
@@ -42,6 +48,7 @@ class AdaptiveLoop {
   void start() {
     backup_ = state_;
     controller_.reset();
+    events_.start(state_);
     Vector rate(state_.z.size());
     system_.right_hand_side(state_.t, state_.z, rate);
     const double quotient = state_.z.norm() / rate.norm();
@@ -55,18 +62,13 @@ class AdaptiveLoop {
     const double left = options_.t_end - state_.t;
     const bool is_last = h_ * (1 + 1e-10) >= left;
     // What is left is cut in two equal parts before it, so that no step is far shorter than the one before.
-    if (!is_last && 2 * h_ > left) h_ = left / 2;
-    const double h = is_last && std::abs(h_ - left) > 1e-10 * left ? left : h_;
+    const bool is_cut = !is_last && 2 * h_ > left;
+    const double h = is_last && std::abs(h_ - left) > 1e-10 * left ? left : is_cut ? left / 2 : h_;
     const StepReport step = stepper_.attempt(state_, h);
     recording_.count(step);
     if (!step.solved()) return reject(StepController::rounded(h / 4), step.message);
     const std::optional<double> error = stepper_.error(state_);
-    if (!error && !is_last) {  // the first step of a method with history: the next one tells
-      unproven_ = true;
-      first_ = state_;
-      time_.add(h, state_);
-      return true;
-    }
+    if (!error && !is_last) return hold_back(h, step.ledger);
     const double noise = 8 * epsilon * state_.z.norm() / std::sqrt(static_cast<double>(state_.z.size()));
     if (error && !controller_.accepts(*error, h, noise)) {
       stepper_.undo(state_);
@@ -74,28 +76,46 @@ class AdaptiveLoop {
                     fmt::format("its error is {:.3g} and {:.3g} is asked for", *error, options_.tolerance));
     }
     if (unproven_ && !show_first()) return false;
+    recording_.enter(step.ledger);
     rejections_ = 0;
     time_.add(h, state_);
     if (is_last) state_.t = options_.t_end;
-    smallest_ = std::min(smallest_, h);
-    largest_ = std::max(largest_, h);
+    note(h);
     if (error) h_ = controller_.next(h);
+    if (is_cut && h_ > h / 1.1) h_ = h;  // the other half, not a power of 2^{1/8} below it
     return accept();
   }
+
+  // The first step of a method with history: the next one tells its error. It must not hold an event, since what follows one
+  // would have to be taken back too.
+  bool hold_back(double h, const StepLedger& ledger) {
+    if (h > least_step() * 1e3 && events_.any_crossing(state_)) {
+      stepper_.undo(state_);
+      return reject(StepController::rounded(h / 4), "an event lies in the first step");
+    }
+    unproven_ = true;
+    first_ = state_;
+    first_h_ = h;
+    first_ledger_ = ledger;
+    time_.add(h, state_);
+    first_.t = state_.t;
+    return true;
+  }
+
+  double least_step() const { return 16 * epsilon * std::max(std::abs(state_.t), 1e-3 * std::abs(options_.t_end)); }
 
   bool reject(double next, const std::string& reason) {
     ++recording_.report().rejected;
     if (unproven_) {
       state_ = backup_;
-      stepper_.restart(state_);
+      stepper_.forget(state_);
       time_ = Time(state_.t);
       unproven_ = false;
-    } else if (++rejections_ % 8 == 0) {  // what the method remembers does not help any more
-      stepper_.restart(state_);
+    } else if (++rejections_ % forget_after == 0) {
+      stepper_.forget(state_);
       backup_ = state_;
     }
-    const double least = 16 * epsilon * std::max(std::abs(state_.t), 1e-3 * options_.t_end);
-    if (next < least) {
+    if (next < least_step()) {
       recording_.fail_step(fmt::format("no step down to h = {:.3g} will do: {}", next, reason));
       return false;
     }
@@ -106,41 +126,46 @@ class AdaptiveLoop {
   // The step before, which has proved good by the one after it.
   bool show_first() {
     unproven_ = false;
+    recording_.enter(first_ledger_);
+    note(first_h_);
     std::swap(state_, first_);
     const bool good = recording_.record(false);
     std::swap(state_, first_);
     return good;
   }
 
+  void note(double h) {
+    smallest_ = std::min(smallest_, h);
+    largest_ = std::max(largest_, h);
+  }
+
   bool accept() {
     const EventFinder::Found found = events_.find(state_, stepper_);
-    const double until = found.event != nullptr ? found.t : state_.t;
-    show_until(until);
-    if (found.event == nullptr) return recording_.record(state_.t >= options_.t_end);
+    show_until(found.empty() ? state_.t : found.t);
+    if (found.empty()) return recording_.record(state_.t >= options_.t_end);
 
     State at = state_;
     at.t = found.t;
-    stepper_.interpolate(state_, found.t, at.z);
+    if (found.t != state_.t) stepper_.interpolate(state_, found.t, at.z);
     std::swap(state_, at);
-    recording_.report().events.push_back(found.t);
-    const bool goes_on = found.event->action && found.event->action(state_);
+    bool goes_on = true;
+    for (const Event* event : found.events) {
+      recording_.report().events.push_back(found.t);
+      goes_on = event->action && event->action(state_) && goes_on;
+    }
     stepper_.restart(state_);
     time_ = Time(state_.t);
+    recording_.reopen();
     if (!recording_.record(!goes_on) || !goes_on) return false;
-    events_.start(state_);
     start();
     return true;
   }
 
   void show_until(double t) {
     for (double next = recording_.next_time(); next <= t; next = recording_.next_time()) {
-      State between;
-      between.n = state_.n;
+      State between = state_;
       between.t = next;
-      between.r_squared = state_.r_squared;
-      between.shift = state_.shift;
-      between.z.resizeLike(state_.z);
-      stepper_.interpolate(state_, next, between.z);
+      if (next != state_.t) stepper_.interpolate(state_, next, between.z);
       recording_.show(between);
     }
   }
@@ -172,6 +197,8 @@ class AdaptiveLoop {
   int rejections_ = 0;     // since the last accepted step
   bool unproven_ = false;  // is there a first step whose error is not known yet?
   State backup_, first_;   // before it, and after
+  double first_h_ = 0;
+  StepLedger first_ledger_;
   double smallest_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };
 

@@ -22,12 +22,15 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
   if (empty_) {
     energy_ = {.initial = reading.H, .final = reading.H, .max_increase = 0.0};
     modified_ = {.initial = reading.modified, .final = reading.modified, .max_increase = 0.0};
-    first_n_ = n;
+
     empty_ = false;
+  } else if (reopened_) {
+    energy_.final = reading.H;
+    modified_.final = reading.modified;
   } else {
-    const bool first_increase = last_n_ == first_n_;
-    advance(energy_, reading.H - last_.H, reading.H, first_increase);
-    advance(modified_, reading.modified - last_.modified, reading.modified, first_increase);
+    advance(energy_, reading.H - last_.H, reading.H, !has_increase_);
+    advance(modified_, reading.modified - last_.modified, reading.modified, !has_increase_);
+    has_increase_ = true;
 
     const double increase = has_modified_energy_ ? reading.modified - last_.modified : reading.H - last_.H;
     // Both ends of the difference carry round-off, so the larger counts.
@@ -36,6 +39,7 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
     const double allowed = round_off * static_cast<double>(n - last_n_);
     if (increase > allowed && !first_violation_.found) first_violation_ = {t, increase, allowed, true};
   }
+  reopened_ = false;
   last_ = reading;
   last_n_ = n;
 }

@@ -15,13 +15,15 @@ class EnergyBook {
   // One reading per recorded step, in order. `n` counts steps, so that round-off may add up over those in between.
   void add(const EnergyReading& reading, double t, std::int64_t n);
   bool has(std::int64_t n) const { return !empty_ && n == last_n_; }  // was the last reading taken at step n?
+  void reopen() { reopened_ = true; }  // the next reading starts anew: no increase from the last one to it
   void write_to(RunReport& report) const;
 
  private:
   LawPromise promise_;
   bool has_modified_energy_;
   bool empty_ = true;
-  std::int64_t first_n_ = 0;
+  bool reopened_ = false;
+  bool has_increase_ = false;
   std::int64_t last_n_ = 0;
   EnergyReading last_;
   EnergySummary energy_, modified_;

@@ -1,14 +1,18 @@
+#include <seiche/core/error.hpp>
 #include <seiche/run/event_finder.hpp>
 
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace seiche {
 namespace {
 
 bool is_crossing(double before, double after, Event::Direction direction) {
-  if (before == 0 || !(before * after <= 0)) return false;
+  if (before == 0 || (after != 0 && std::signbit(before) == std::signbit(after))) return false;
   if (direction == Event::Direction::rising) return before < 0;
   if (direction == Event::Direction::falling) return before > 0;
   return true;
@@ -16,34 +20,59 @@ bool is_crossing(double before, double after, Event::Direction direction) {
 
 }  // namespace
 
+double EventFinder::value(std::size_t i, double t, const Vector& z) const {
+  const double g = events_[i].g(t, z);
+  if (!std::isfinite(g)) throw Error("the function of event {} is {} at t = {:.9g}", i + 1, g, t);
+  return g;
+}
+
 void EventFinder::start(const State& state) {
   t_ = state.t;
-  for (std::size_t i = 0; i < events_.size(); ++i) values_[i] = events_[i].g(state.t, state.z);
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    const bool just_now = std::find(happened_.begin(), happened_.end(), &events_[i]) != happened_.end();
+    values_[i] = just_now ? 0.0 : value(i, state.t, state.z);
+  }
+  happened_.clear();
+}
+
+bool EventFinder::any_crossing(const State& state) {
+  for (std::size_t i = 0; i < events_.size(); ++i)
+    if (is_crossing(values_[i], value(i, state.t, state.z), events_[i].direction)) return true;
+  return false;
+}
+
+double EventFinder::locate(std::size_t i, double after, const State& state, AdaptiveStepper& stepper) {
+  if (after == 0) return state.t;
+  const auto g = [&](double t) {
+    z_.resizeLike(state.z);
+    stepper.interpolate(state, t, z_);
+    return value(i, t, z_);
+  };
+  std::uintmax_t iterations = 100;
+  return boost::math::tools::toms748_solve(g, t_, state.t, values_[i], after,
+                                           boost::math::tools::eps_tolerance<double>(50), iterations)
+      .second;
 }
 
 EventFinder::Found EventFinder::find(const State& state, AdaptiveStepper& stepper) {
-  Found found;
+  struct Crossing {
+    const Event* event;
+    double t;
+  };
+  std::vector<Crossing> crossings;
+  Found found{.t = std::numeric_limits<double>::infinity(), .events = {}};
+  std::vector<double> after(events_.size());
   for (std::size_t i = 0; i < events_.size(); ++i) {
-    const Event& event = events_[i];
-    const double before = values_[i];
-    const double after = event.g(state.t, state.z);
-    values_[i] = after;
-    if (!is_crossing(before, after, event.direction)) continue;
-    const auto g = [&](double t) {
-      z_.resizeLike(state.z);
-      stepper.interpolate(state, t, z_);
-      return event.g(t, z_);
-    };
-    double t = state.t;
-    if (after != 0) {
-      std::uintmax_t iterations = 100;
-      const auto [low, high] =
-          boost::math::tools::toms748_solve(g, t_, state.t, before, after,
-                                            boost::math::tools::eps_tolerance<double>(50), iterations);
-      t = high;  // on the far side, so that the event is not found again
-    }
-    if (found.event == nullptr || t < found.t) found = {&event, t};
+    after[i] = value(i, state.t, state.z);
+    if (!is_crossing(values_[i], after[i], events_[i].direction)) continue;
+    crossings.push_back({&events_[i], locate(i, after[i], state, stepper)});
+    found.t = std::min(found.t, crossings.back().t);
   }
+  const double same = 4 * epsilon * std::abs(found.t);  // what the location is good for
+  for (const Crossing& crossing : crossings)
+    if (crossing.t <= found.t + same) found.events.push_back(crossing.event);
+  happened_ = found.events;
+  values_ = after;
   t_ = state.t;
   return found;
 }

@@ -1,4 +1,4 @@
-// Where an event function changes its sign inside a step.
+// Where event functions change their signs inside a step.
 #pragma once
 
 #include <seiche/core/stepper.hpp>
@@ -13,19 +13,27 @@ class EventFinder {
  public:
   explicit EventFinder(std::span<const Event> events) : events_(events), values_(events.size()) {}
 
-  void start(const State& state);  // the values from which signs change
+  // The values from which signs change. Those of events that have just happened count as zero, from which nothing crosses:
+  // the state stands on their surface, on either side by round-off.
+  void start(const State& state);
 
   struct Found {
-    const Event* event = nullptr;  // null: none
     double t = 0.0;
+    std::vector<const Event*> events;  // all that happen at t; none: no event in the step
+    bool empty() const { return events.empty(); }
   };
-  // The first event inside the last step, located on the solution inside it to round-off in t by bisection and secants
-  // (TOMS 748). Afterwards the values are those at the end of the step.
+  // The first events inside the last step, located on the solution inside it to round-off in t (TOMS 748). Throws Error
+  // where an event function is no number.
   Found find(const State& state, AdaptiveStepper& stepper);
+  bool any_crossing(const State& state);  // is there any, without locating it?
 
  private:
+  double value(std::size_t i, double t, const Vector& z) const;
+  double locate(std::size_t i, double after, const State& state, AdaptiveStepper& stepper);
+
   std::span<const Event> events_;
   std::vector<double> values_;
+  std::vector<const Event*> happened_;
   double t_ = 0.0;
   Vector z_;
 };

@@ -18,6 +18,7 @@ void loop(Recording& recording, Stepper& stepper, State& state, const TimeGrid& 
     const StepReport step = stepper.step(state, grid.step_size(k));
     recording.count(step);
     if (!step.solved()) return recording.fail_step(step.message);
+    recording.enter(step.ledger);
     state.n = recording.first_n() + k;
     state.t = grid.time(k);
     const bool last = k == grid.steps;

@@ -37,7 +37,8 @@ bool Recording::anyone_due() const {
 }
 
 bool Recording::record(bool last) {
-  const EnergyReading reading = stepper_.energy(state_);
+  EnergyReading reading = stepper_.energy(state_);
+  reading.ledger = ledger_;
   if (!is_finite(reading) || !state_.z.allFinite()) {
     fail_not_finite(is_finite(reading) ? "state" : "energy");
     return false;
@@ -70,7 +71,8 @@ void Recording::show(const State& between) {
 
 // The last good state of a run that ended early, for those who have not seen it.
 void Recording::record_rest() {
-  const EnergyReading reading = stepper_.energy(state_);
+  EnergyReading reading = stepper_.energy(state_);
+  reading.ledger = ledger_;
   if (!is_finite(reading) || !state_.z.allFinite()) {
     state_ = good_;
     return;

@@ -24,11 +24,14 @@ class Recording {
   std::int64_t steps() const { return state_.n - first_n_; }
   std::int64_t first_n() const { return first_n_; }
 
-  void count(const StepReport& step);  // its work, whatever came of it
+  void count(const StepReport& step);                          // its work, whatever came of it
+  void enter(const StepLedger& ledger) { ledger_ += ledger; }  // of a step that stands
   bool anyone_due() const;
   // Energy of the state, judged and shown to whom it is due; false if there is none: then the run has failed.
   bool record(bool last);
   bool check_finite();  // the same look at z alone
+
+  void reopen() { book_.reopen(); }  // after an event: what it did to the energy is not the method's
 
   // Observers that asked for a time up to `until`: the earliest such time, or infinity.
   double next_time() const;
@@ -55,7 +58,8 @@ class Recording {
   State& state_;
   std::span<Observer* const> observers_;
   EnergyBook book_;
-  State good_;  // as last recorded
+  StepLedger ledger_;  // of all steps
+  State good_;         // as last recorded
   RunReport report_;
   bool abandoned_ = false;
   std::int64_t first_n_;

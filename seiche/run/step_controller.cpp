@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seiche {
 namespace {
@@ -19,16 +20,24 @@ StepController::StepController(int order, double tolerance) : order_(order), all
 
 double StepController::rounded(double h) { return std::exp2(std::floor(8 * std::log2(h)) / 8); }
 
+void StepController::reset() {
+  scaled_ = 0;
+  previous_ = aim;
+  accepted_ = true;
+}
+
 bool StepController::accepts(double error, double h, double noise) {
-  const double before = accepted_ ? scaled_ : previous_;
-  if (accepted_ && before > 0) previous_ = before;
-  scaled_ = error <= noise ? least : std::max(least, error / (allowed_ * h));
-  accepted_ = scaled_ <= 1;  // false for NaN
+  if (accepted_ && scaled_ > 0) previous_ = scaled_;
+  if (!(error >= 0))
+    scaled_ = std::numeric_limits<double>::infinity();
+  else
+    scaled_ = error <= noise ? least : std::max(least, error / (allowed_ * h));
+  accepted_ = scaled_ <= 1;
   return accepted_;
 }
 
 double StepController::next(double h) const {
-  if (!accepted_) return rounded(h * std::max(0.2, std::isfinite(scaled_) ? std::pow(aim / scaled_, 1 / order_) : 0.2));
+  if (!accepted_) return rounded(h * std::max(0.2, std::pow(aim / scaled_, 1 / order_)));
   const double factor = std::pow(aim / scaled_, 0.7 / order_) * std::pow(previous_ / aim, 0.4 / order_);
   return rounded(h * std::clamp(factor, 0.3, 2.0));
 }

@@ -14,14 +14,14 @@ class StepController {
 
   static double rounded(double h);  // down to a power of 2^{1/8}
 
-  // of an estimate for a step of length h; errors below `noise` count as none
+  // of an estimate for a step of length h; errors below `noise` count as none; false for NaN
   bool accepts(double error, double h, double noise);
   double next(double h) const;  // after `accepts`
-  void reset() { previous_ = 0.5; }
+  void reset();                 // as new
 
  private:
   double order_, allowed_;
-  double scaled_ = 0, previous_ = 0.5;
+  double scaled_ = 0, previous_ = 0.5;  // of the last attempt, and of the last accepted step before it
   bool accepted_ = true;
 };
 

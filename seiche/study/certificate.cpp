@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
-#include <seiche/core/operator_findings.hpp>
+#include <seiche/core/operator_hypotheses.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/study/certificate.hpp>
 
@@ -11,29 +11,29 @@
 namespace seiche {
 namespace {
 
-Finding finding_of_rate(const Problem& problem, double t_end) {
-  const std::string hypothesis = "γ ≥ 0";
+Hypothesis hypothesis_of_rate(const Problem& problem, double t_end) {
+  const std::string name = "γ ≥ 0";
   const LinearDamping& damping = problem.damping;
-  if (!damping.rate && !damping.field_rate) return {hypothesis, Grade::by_structure, "there is no rate"};
+  if (!damping.rate && !damping.field_rate) return {name, Grade::by_structure, "there is no rate"};
   const std::string text = damping.rate ? damping.rate->text() : damping.field_rate->text();
   const double t =
       damping.rate ? damping.rate->first_negative_time(t_end) : damping.field_rate->first_negative_time(t_end);
   if (t >= 0)
-    return {hypothesis, Grade::violated, fmt::format("γ = {} feeds energy", text), {}, fmt::format("t = {:.6g}", t)};
+    return {name, Grade::violated, fmt::format("γ = {} feeds energy", text), {}, fmt::format("t = {:.6g}", t)};
   const bool constant = damping.rate && damping.rate->is_constant();
-  return {hypothesis, constant ? Grade::by_structure : Grade::sampled,
+  return {name, constant ? Grade::by_structure : Grade::sampled,
           fmt::format("γ = {} is nowhere negative{}", text,
                       constant ? "" : fmt::format(" at the times tried up to {:.6g}", t_end))};
 }
 
-Finding finding_of_touch(const Problem& problem) {
-  const std::string hypothesis = "V is untouched by the damping";
-  if (!problem.potential) return {hypothesis, Grade::by_structure, "there is no V"};
+Hypothesis hypothesis_of_touch(const Problem& problem) {
+  const std::string name = "V is untouched by the damping";
+  if (!problem.potential) return {name, Grade::by_structure, "there is no V"};
   if (!problem.damping_moves_potential())
-    return {hypothesis, Grade::by_structure, "no damped field is one that V depends on"};
+    return {name, Grade::by_structure, "no damped field is one that V depends on"};
   for (Index f = 0; f < problem.field_count(); ++f)
     if (problem.potential_depends_on(f) && problem.damping_moves(f))
-      return {hypothesis,
+      return {name,
               Grade::violated,
               "the damping moves what V depends on: sym(MD) ⪰ 0 is not enough",
               {},
@@ -68,7 +68,7 @@ class PowerWatch final : public Observer {
   Vector gradient_, scratch_, gradient_H_;
 };
 
-Finding sampled_condition(const Problem& problem, double t_end, const std::string& hypothesis) {
+Hypothesis sampled_condition(const Problem& problem, double t_end, const std::string& name) {
   Simulation simulation(problem, {.method = "egc4", .variable_steps = true});
   PowerWatch watch(simulation.system());
   const std::vector<Observer*> observers = {&watch};
@@ -76,38 +76,38 @@ Finding sampled_condition(const Problem& problem, double t_end, const std::strin
                                               {.tolerance = 1e-5, .t_end = t_end}, observers);
   const std::string where = fmt::format("at {} points of a solution up to t = {:.6g}", watch.points, report.t);
   if (watch.smallest < -100 * epsilon)
-    return {hypothesis, Grade::violated, "the exact energy rises where ∇HᵀDz − ∇HᵀS∇H < 0", watch.smallest,
+    return {name, Grade::violated, "the exact energy rises where ∇HᵀDz − ∇HᵀS∇H < 0", watch.smallest,
             fmt::format("t = {:.6g}, where −dH/dt = {:.6g}", watch.time, watch.rate)};
-  return {hypothesis, Grade::sampled,
+  return {name, Grade::sampled,
           fmt::format("−dH/dt ≥ 0 {}; relative to its terms it is smallest at t = {:.6g}", where, watch.time),
           watch.smallest};
 }
 
-Finding finding_of_condition(const Problem& problem, const CertificateOptions& options, const Finding& MD,
-                             const Finding& touch) {
-  const std::string hypothesis = "sym(P_H D) ⪰ 0";  // the energy-compatible damping condition (paper (1.2))
+Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOptions& options, const Hypothesis& MD,
+                                   const Hypothesis& touch) {
+  const std::string name = "sym(P_H D) ⪰ 0";  // the energy-compatible damping condition (paper (1.2))
   const bool touched = touch.grade == Grade::violated;
-  if (!problem.has_damping()) return {hypothesis, Grade::by_structure, "there is no damping"};
+  if (!problem.has_damping()) return {name, Grade::by_structure, "there is no damping"};
   if (!touched) {
-    Finding same = MD;
-    same.hypothesis = hypothesis;
+    Hypothesis same = MD;
+    same.name = name;
     same.statement = "P_H D is MD, as V is untouched: " + MD.statement;
     return same;
   }
   if (promise_energy_law(problem, options.t_end).promised)
-    return {hypothesis, Grade::by_structure, "D = γI and u·∇V(u) ≥ 0 for every u, by the form of V"};
+    return {name, Grade::by_structure, "D = γI and u·∇V(u) ≥ 0 for every u, by the form of V"};
   if (!options.sample_solution || options.t_end <= 0)
-    return {hypothesis, Grade::sampled, "not looked at: no solution was followed"};
-  return sampled_condition(problem, options.t_end, hypothesis);
+    return {name, Grade::sampled, "not looked at: no solution was followed"};
+  return sampled_condition(problem, options.t_end, name);
 }
 
-Finding finding_of_margin(const Problem& problem, const CertificateOptions& options) {
-  const std::string hypothesis = "V + C > 0";
+Hypothesis hypothesis_of_margin(const Problem& problem, const CertificateOptions& options) {
+  const std::string name = "V + C > 0";
   Simulation simulation(problem, {.method = options.method, .method_options = options.method_options});
   const State& s = simulation.state();
   const double V = simulation.system().potential->value(s.z);
   return {
-      hypothesis, Grade::verified,
+      name, Grade::verified,
       fmt::format(
           "at the start V + C = {:.6g} with C = {:.6g}; the guard of every step keeps it above a tenth of the energy",
           V + s.shift, s.shift),
@@ -131,21 +131,21 @@ std::string theorem(const Problem& problem, const MethodEntry& method) {
 Certificate certify(const Problem& problem, const CertificateOptions& options) {
   const MethodEntry& method = find_method(options.method);
   Certificate certificate;
-  auto& list = certificate.findings;
-  list.push_back(finding_of_S(problem));
-  list.push_back(finding_of_M(problem));
-  list.push_back(finding_of_rate(problem, options.t_end));
+  auto& list = certificate.hypotheses;
+  list.push_back(hypothesis_of_S(problem));
+  list.push_back(hypothesis_of_M(problem));
+  list.push_back(hypothesis_of_rate(problem, options.t_end));
   certificate.law = promise_energy_law(problem, options.t_end);
-  Finding MD = finding_of_MD(problem);
+  Hypothesis MD = hypothesis_of_MD(problem);
   // γ(x, t) does not commute with M where M couples points: the projector of the rate then says nothing.
   if (problem.damping.field_rate && !certificate.law.promised && MD.grade == Grade::verified)
-    MD = {MD.hypothesis, Grade::sampled, "not decided: " + certificate.law.reason};
+    MD = {MD.name, Grade::sampled, "not decided: " + certificate.law.reason};
   list.push_back(MD);
-  list.push_back(finding_of_touch(problem));
-  const Finding touch = list.back();
-  list.push_back(finding_of_condition(problem, options, MD, touch));
-  list.push_back(finding_of_commuting(problem));
-  if (method.closure == ClosureKind::sav) list.push_back(finding_of_margin(problem, options));
+  list.push_back(hypothesis_of_touch(problem));
+  const Hypothesis touch = list.back();
+  list.push_back(hypothesis_of_condition(problem, options, MD, touch));
+  list.push_back(hypothesis_of_commuting(problem));
+  if (method.closure == ClosureKind::sav) list.push_back(hypothesis_of_margin(problem, options));
   if (certificate.law.promised) certificate.theorem = theorem(problem, method);
   return certificate;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/config/simulation.hpp>
-#include <seiche/core/finding.hpp>
+#include <seiche/core/hypothesis.hpp>
 #include <seiche/core/run_report.hpp>
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace seiche {
 
 struct Certificate {
-  std::vector<Finding> findings;
+  std::vector<Hypothesis> hypotheses;
   LawPromise law;       // of H, or of the modified energy where the method has one
   std::string theorem;  // by which the law follows from the hypotheses; "" if none is promised
 };

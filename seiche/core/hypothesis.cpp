@@ -1,4 +1,4 @@
-#include <seiche/core/finding.hpp>
+#include <seiche/core/hypothesis.hpp>
 
 #include <array>
 

@@ -1,5 +1,5 @@
 #include <seiche/core/definiteness.hpp>
-#include <seiche/core/operator_findings.hpp>
+#include <seiche/core/operator_hypotheses.hpp>
 
 #include <fmt/ranges.h>
 #include <Eigen/Eigenvalues>
@@ -69,21 +69,19 @@ std::string witness(const Problem& problem, const NegativeDirection& x) {
 }
 
 // Of a matrix that should be positive semidefinite.
-Finding semidefinite(const Problem& problem, std::string hypothesis, const SparseMatrix& A,
-                     const std::string& meaning) {
+Hypothesis semidefinite(const Problem& problem, std::string name, const SparseMatrix& A, const std::string& meaning) {
   const auto x = negative_direction(A);
-  if (x) return {std::move(hypothesis), Grade::violated, meaning + " fails", x->value, witness(problem, *x)};
-  return {std::move(hypothesis), Grade::verified, meaning + ", by the signs of the pivots of LDLᵀ"};
+  if (x) return {std::move(name), Grade::violated, meaning + " fails", x->value, witness(problem, *x)};
+  return {std::move(name), Grade::verified, meaning + ", by the signs of the pivots of LDLᵀ"};
 }
 
-Finding semidefinite(const Problem& problem, std::string hypothesis, const Symbol& symbol, const std::string& meaning) {
+Hypothesis semidefinite(const Problem& problem, std::string name, const Symbol& symbol, const std::string& meaning) {
   const Smallest s = smallest_eigenvalue(problem.grid, symbol);
-  if (!s.is_nonnegative())
-    return {std::move(hypothesis), Grade::violated, meaning + " fails", s.value, witness(problem, s)};
+  if (!s.is_nonnegative()) return {std::move(name), Grade::violated, meaning + " fails", s.value, witness(problem, s)};
   std::string text =
       fmt::format("{}: the smallest eigenvalue over all modes is {:.6g}", meaning, std::max(s.value, 0.0));
   if (s.zeros > 0) text += fmt::format("; {} vanish, the first at {}", s.zeros, text_of(s.first_zero, problem.grid));
-  return {std::move(hypothesis), Grade::verified, std::move(text), std::max(s.value, 0.0)};
+  return {std::move(name), Grade::verified, std::move(text), std::max(s.value, 0.0)};
 }
 
 Block rate_symbol(const Problem& problem) {
@@ -96,12 +94,12 @@ bool has_rate(const Problem& problem) { return problem.damping.rate || problem.d
 
 }  // namespace
 
-Finding finding_of_S(const Problem& problem) {
-  const std::string hypothesis = "sym(S) ⪯ 0";
+Hypothesis hypothesis_of_S(const Problem& problem) {
+  const std::string name = "sym(S) ⪯ 0";
   if (problem.matrices) {
     const SparseMatrix symmetric = symmetric_part(problem.matrices->S);
-    if (symmetric.norm() == 0) return {hypothesis, Grade::by_structure, "S is skew: Sᵀ = −S entry by entry"};
-    return semidefinite(problem, hypothesis, SparseMatrix(-symmetric), "S dissipates: −sym(S) ⪰ 0");
+    if (symmetric.norm() == 0) return {name, Grade::by_structure, "S is skew: Sᵀ = −S entry by entry"};
+    return semidefinite(problem, name, SparseMatrix(-symmetric), "S dissipates: −sym(S) ⪰ 0");
   }
   const Symbol minus_twice_sym = [&](const Mode& mode) -> Block {
     const Block S = problem.S.symbol(mode);
@@ -110,53 +108,52 @@ Finding finding_of_S(const Problem& problem) {
   const Modes modes(problem.grid);
   bool skew = true;
   for (Index k = 0; k < modes.count(); ++k) skew = skew && minus_twice_sym(modes[k]).isZero(0);
-  if (skew) return {hypothesis, Grade::by_structure, "S is skew: S + Sᴴ = 0 exactly, on every mode"};
-  return semidefinite(problem, hypothesis, minus_twice_sym, "S dissipates: −(S + Sᴴ) ⪰ 0");
+  if (skew) return {name, Grade::by_structure, "S is skew: S + Sᴴ = 0 exactly, on every mode"};
+  return semidefinite(problem, name, minus_twice_sym, "S dissipates: −(S + Sᴴ) ⪰ 0");
 }
 
-Finding finding_of_M(const Problem& problem) {
+Hypothesis hypothesis_of_M(const Problem& problem) {
   if (problem.matrices) return semidefinite(problem, "M ⪰ 0", problem.matrices->M, "½zᵀMz ≥ 0");
   return semidefinite(
       problem, "M ⪰ 0", [&](const Mode& mode) { return problem.M.symbol(mode); }, "½zᵀMz ≥ 0");
 }
 
-Finding finding_of_MD(const Problem& problem) {
-  const std::string hypothesis = "sym(MD) ⪰ 0";
-  if (!problem.has_damping()) return {hypothesis, Grade::by_structure, "there is no damping"};
-  std::vector<Finding> parts;
+Hypothesis hypothesis_of_MD(const Problem& problem) {
+  const std::string name = "sym(MD) ⪰ 0";
+  if (!problem.has_damping()) return {name, Grade::by_structure, "there is no damping"};
+  std::vector<Hypothesis> parts;
   if (problem.matrices) {
     const SparseMatrix& M = problem.matrices->M;
     if (problem.has_constant_damping())
-      parts.push_back(semidefinite(problem, hypothesis, symmetric_part(M * problem.matrices->D),
+      parts.push_back(semidefinite(problem, name, symmetric_part(M * problem.matrices->D),
                                    "the constant part of D takes from ½zᵀMz"));
     if (has_rate(problem))
-      parts.push_back(semidefinite(problem, hypothesis, symmetric_part(M * rate_matrix(problem)),
+      parts.push_back(semidefinite(problem, name, symmetric_part(M * rate_matrix(problem)),
                                    "the rate takes from ½zᵀMz where it is ≥ 0"));
   } else {
     if (problem.has_constant_damping())
       parts.push_back(semidefinite(
-          problem, hypothesis,
+          problem, name,
           [&](const Mode& mode) -> Block { return problem.M.symbol(mode) * problem.damping.constant.symbol(mode); },
           "the constant part of D takes from ½zᵀMz"));
     if (has_rate(problem))
       parts.push_back(semidefinite(
-          problem, hypothesis, [&](const Mode& mode) -> Block { return problem.M.symbol(mode) * rate_symbol(problem); },
+          problem, name, [&](const Mode& mode) -> Block { return problem.M.symbol(mode) * rate_symbol(problem); },
           "the rate takes from ½zᵀMz where it is ≥ 0"));
   }
-  Finding worst = parts.front();
-  for (const Finding& part : parts)
+  Hypothesis worst = parts.front();
+  for (const Hypothesis& part : parts)
     if (part.grade == Grade::violated) worst = part;
   return worst;
 }
 
-Finding finding_of_commuting(const Problem& problem) {
-  const std::string hypothesis = "D(t)D(s) = D(s)D(t)";
+Hypothesis hypothesis_of_commuting(const Problem& problem) {
+  const std::string name = "D(t)D(s) = D(s)D(t)";
   const LinearDamping& damping = problem.damping;
   const bool constant_rate =
       (!damping.rate || damping.rate->is_constant()) && (!damping.field_rate || damping.field_rate->is_constant());
-  if (constant_rate) return {hypothesis, Grade::by_structure, "D does not depend on time"};
-  if (!problem.has_constant_damping())
-    return {hypothesis, Grade::by_structure, "D(t) is a diagonal matrix, at every time"};
+  if (constant_rate) return {name, Grade::by_structure, "D does not depend on time"};
+  if (!problem.has_constant_damping()) return {name, Grade::by_structure, "D(t) is a diagonal matrix, at every time"};
   double largest = 0;
   double size = 0;
   if (problem.matrices) {
@@ -175,8 +172,8 @@ Finding finding_of_commuting(const Problem& problem) {
     if (damping.field_rate) largest = size;  // γ(x, t) and a difference operator do not
   }
   if (largest <= round_off * size)
-    return {hypothesis, Grade::verified, "the constant part of D and its rate commute: exp(−∫D) is the exact flow"};
-  return {hypothesis, Grade::violated,
+    return {name, Grade::verified, "the constant part of D and its rate commute: exp(−∫D) is the exact flow"};
+  return {name, Grade::violated,
           "the constant part of D and its rate do not commute: the damping flow is of order two, and each factor of it "
           "still takes energy",
           largest};

@@ -13,8 +13,8 @@ enum class Grade {
   violated,      // a witness stands against it
 };
 
-struct Finding {
-  std::string hypothesis;  // "M ⪰ 0"
+struct Hypothesis {
+  std::string name;  // "M ⪰ 0"
   Grade grade;
   std::string statement;                        // what was found, in a sentence
   std::optional<double> margin = std::nullopt;  // how far from failing, in the units of the hypothesis

@@ -1,0 +1,215 @@
+#include <seiche/config/case_file.hpp>
+#include <seiche/config/initial_file.hpp>
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/law.hpp>
+#include <seiche/study/audit.hpp>
+#include <seiche/study/csv_table.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace seiche {
+namespace {
+
+using Verdict = AuditEntry::Verdict;
+using Json = nlohmann::json;
+
+constexpr double ledger_round_off = 1e-13;  // relative to the largest |H|, per row
+
+Json summary_of(const std::filesystem::path& file) {
+  std::ifstream input(file);
+  if (!input) throw Error("{} cannot be read", file.string());
+  const Json summary = Json::parse(input, nullptr, false);
+  if (summary.is_discarded() || !summary.contains("energy") || !summary.contains("method"))
+    throw Error("{} is no summary of a run", file.string());
+  return summary;
+}
+
+// H of states in files, by a backend of its own.
+class Energies {
+ public:
+  explicit Energies(const Problem& problem)
+      : system_(automatic_backend(problem).system(problem, {})), z_(system_.initial) {}
+  EnergyTerms of(const Vector& physical) {
+    system_.space->from_physical(physical, z_);
+    return system_.energy_terms(z_);
+  }
+
+ private:
+  System system_;
+  Vector z_;
+};
+
+class Auditor {
+ public:
+  explicit Auditor(const std::filesystem::path& directory)
+      : directory_(directory),
+        spec_(read_case(directory / "case.toml")),
+        problem_(make_problem(spec_)),
+        energies_(problem_),
+        energy_(CsvTable::read(directory / "energy.csv")),
+        summary_(summary_of(directory / "summary.json")),
+        t_(energy_.column("t")),
+        H_(energy_.column("H")) {
+    for (const double H : H_) largest_ = std::max(largest_, std::abs(H));
+    const EnergyTerms start = energies_.of(problem_.initial);
+    round_off_ = start.round_off();
+    compare("H at the start is that of the initial data in case.toml", start.sum(), H_.front(), round_off_);
+  }
+
+  Audit run() {
+    final_state();
+    snapshots();
+    summary();
+    law();
+    ledger();
+    return audit_;
+  }
+
+ private:
+  void add(std::string claim, Verdict verdict, std::string evidence) {
+    audit_.entries.push_back({std::move(claim), verdict, std::move(evidence)});
+  }
+
+  void compare(const std::string& claim, double recomputed, double written, double allowed) {
+    const double distance = std::abs(recomputed - written);
+    add(claim, distance <= allowed ? Verdict::confirmed : Verdict::contradicted,
+        fmt::format("{:.17g} recomputed, {:.17g} in the files: {:.2g} apart, round-off explains {:.2g}", recomputed,
+                    written, distance, allowed));
+  }
+
+  void final_state() {
+    const EnergyTerms end = energies_.of(read_initial_file(directory_ / "final.txt", problem_));
+    compare("the last H is that of final.txt", end.sum(), H_.back(), std::max(round_off_, end.round_off()));
+  }
+
+  // Rows of snapshots.csv whose time has an energy too.
+  void snapshots() {
+    const CsvTable table = CsvTable::read(directory_ / "snapshots.csv");
+    if (table.names.size() != static_cast<std::size_t>(problem_.size()) + 1)
+      throw Error("snapshots.csv has {} values a row and the case {} unknowns", table.names.size() - 1,
+                  problem_.size());
+    std::size_t compared = 0;
+    double worst = 0;
+    double at = 0;
+    for (const std::vector<double>& row : table.rows) {
+      const auto found = std::find(t_.begin(), t_.end(), row[0]);
+      if (found == t_.end()) continue;
+      const Vector z = Eigen::Map<const Vector>(row.data() + 1, problem_.size());
+      const EnergyTerms terms = energies_.of(z);
+      const double ratio = std::abs(terms.sum() - H_[static_cast<std::size_t>(found - t_.begin())]) /
+                           std::max({terms.round_off(), round_off_, std::numeric_limits<double>::min()});
+      ++compared;
+      if (ratio <= worst) continue;
+      worst = ratio;
+      at = row[0];
+    }
+    const std::string claim = "H of every snapshot is that of energy.csv";
+    if (compared == 0) return add(claim, Verdict::not_checked, "no snapshot stands at a time with an energy");
+    add(claim, worst <= 1 ? Verdict::confirmed : Verdict::contradicted,
+        fmt::format("{} of {} compared; the largest difference, at t = {:.6g}, is {:.2g} of what round-off explains",
+                    compared, table.rows.size(), at, worst));
+  }
+
+  static double largest_increase(const std::vector<double>& values) {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < values.size(); ++i) largest = std::max(largest, values[i] - values[i - 1]);
+    return values.size() > 1 ? largest : 0.0;
+  }
+
+  void summary() {
+    const Json& energy = summary_["energy"];
+    const auto number = [](const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); };
+    compare("energy.initial of summary.json is the first H", H_.front(), number(energy["initial"]), 0);
+    compare("energy.final of summary.json is the last H", H_.back(), number(energy["final"]), 0);
+    compare("energy.max_increase of summary.json is the largest of energy.csv", largest_increase(H_),
+            number(energy["max_increase"]), 0);
+  }
+
+  // The energy that the law is about, with the tolerance of a run: 50ε of its terms for every step between two rows.
+  void law() {
+    const bool modified = energy_.has("H_modified");
+    const std::string verdict = summary_["energy"]["law"];
+    const std::string claim = fmt::format("the law of {} {}", modified ? "the modified energy" : "H", verdict);
+    const LawPromise promise = promise_energy_law(problem_, spec_.t_end);
+    const double increase = largest_increase(modified ? energy_.column("H_modified") : H_);
+    const double allowed = 2 * round_off_ * static_cast<double>(std::max<std::int64_t>(1, spec_.energy_every));
+    const std::string evidence =
+        fmt::format("largest increase {:.3g}, round-off explains about {:.3g}; {}", increase, allowed,
+                    promise.promised ? "promised: " + promise.reason : "not promised: " + promise.reason);
+    if (verdict == "not promised") return add(claim, Verdict::not_checked, evidence);
+    const bool holds = increase <= allowed;
+    add(claim, promise.promised && holds == (verdict == "holds") ? Verdict::confirmed : Verdict::contradicted,
+        evidence);
+  }
+
+  void ledger() {
+    const std::string claim = "the columns of the ledger add up to the change of H";
+    if (!energy_.has("damping_left"))
+      return add(claim, Verdict::not_checked, "the run kept none; output.ledger = \"on\" does");
+    std::vector<std::vector<double>> columns;
+    for (const char* name : {"damping_left", "substep", "auxiliary", "projection", "damping_right", "round_off"})
+      columns.push_back(energy_.column(name));
+    double worst = 0;
+    double unexplained = 0;
+    double total = 0;
+    for (std::size_t i = 1; i < H_.size(); ++i) {
+      double sum = 0;
+      for (const auto& column : columns) sum += column[i];
+      total += sum;
+      worst = std::max(worst, std::abs(sum - (H_[i] - H_[i - 1])));
+      unexplained = std::max(unexplained, std::abs(columns.back()[i]));
+    }
+    const double allowed = ledger_round_off * largest_;
+    const bool sums = worst <= allowed && std::abs(total - (H_.back() - H_.front())) <= allowed;
+    add(claim, sums ? Verdict::confirmed : Verdict::contradicted,
+        fmt::format("{} rows; the sum of all is {:.17g} and H(end) − H(start) is {:.17g}", H_.size() - 1, total,
+                    H_.back() - H_.front()));
+    const double explained = 4 * round_off_ * static_cast<double>(std::max<std::int64_t>(1, spec_.energy_every));
+    add("what the ledger calls round-off is no more than that",
+        unexplained <= explained ? Verdict::confirmed : Verdict::contradicted,
+        fmt::format("at most {:.2g} a row, and {:.2g} is explained", unexplained, explained));
+  }
+
+  std::filesystem::path directory_;
+  RunSpec spec_;
+  Problem problem_;
+  Energies energies_;
+  CsvTable energy_;
+  Json summary_;
+  std::vector<double> t_, H_;
+  double largest_ = 0, round_off_ = 0;
+  Audit audit_;
+};
+
+}  // namespace
+
+bool Audit::confirms() const {
+  bool something = false;
+  for (const AuditEntry& entry : entries) {
+    if (entry.verdict == Verdict::contradicted) return false;
+    something = something || entry.verdict == Verdict::confirmed;
+  }
+  return something;
+}
+
+Audit audit(const std::filesystem::path& directory) {
+  if (!std::filesystem::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
+  return Auditor(directory).run();
+}
+
+std::string to_string(AuditEntry::Verdict verdict) {
+  switch (verdict) {
+    case Verdict::confirmed: return "confirmed";
+    case Verdict::contradicted: return "contradicted";
+    case Verdict::not_checked: return "not checked";
+  }
+  return "unknown";
+}
+
+}  // namespace seiche

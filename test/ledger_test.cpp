@@ -1,0 +1,87 @@
+// The energy ledger: its parts add up to the change of H, and each is what its name says.
+#include "support/paper_cases.hpp"
+
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/law.hpp>
+#include <seiche/run/adaptive.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace seiche::test {
+namespace {
+
+TEST(Ledger, AddsUpToTheChangeOfHInEveryStepOfEveryMethod) {
+  for (const auto& [name, problem] : all_cases()) {
+    for (const MethodEntry& method : methods()) {
+      if (!applies(method.name, problem)) continue;
+      Simulation simulation(problem, {.method = std::string(method.name)});
+      simulation.stepper().keep_ledger();
+      EnergyReading before = simulation.energy();
+      for (int n = 0; n < 40; ++n) {
+        const StepReport report = simulation.step(1.0 / 16);
+        ASSERT_TRUE(report.solved()) << name << " " << method.name << ": " << report.message;
+        const EnergyReading after = simulation.energy();
+        const double round_off = std::max(before.round_off, after.round_off);
+        EXPECT_LE(std::abs(report.ledger.sum() - (after.H - before.H)), 4 * round_off) << name << " " << method.name;
+        before = after;
+      }
+    }
+  }
+}
+
+TEST(Ledger, ASkewSubstepKeepsItsEnergyAndTheDampingTakesTheRest) {
+  const Problem p = klein_gordon_case();
+  for (const MethodEntry& method : methods()) {
+    if (method.composition != Composition::strang) continue;
+    Simulation simulation(p, {.method = std::string(method.name)});
+    simulation.stepper().keep_ledger();
+    const double round_off = simulation.energy().modified_round_off;
+    for (int n = 0; n < 100; ++n) {
+      const StepLedger ledger = simulation.step(1.0 / 32).ledger;
+      EXPECT_LE(std::abs(ledger.substep), round_off) << method.name;
+      EXPECT_LT(ledger.damping_left, 0) << method.name;
+      EXPECT_LT(ledger.damping_right, 0) << method.name;
+      EXPECT_EQ(ledger.auxiliary != 0, method.closure == ClosureKind::sav) << method.name;
+    }
+  }
+  // merged damping is a dissipation of S
+  Simulation whole(p, {.method = "avf"});
+  whole.stepper().keep_ledger();
+  const StepLedger ledger = whole.step(1.0 / 32).ledger;
+  EXPECT_LT(ledger.substep, -1e-6);
+  EXPECT_EQ(ledger.damping_left, 0);
+}
+
+TEST(Ledger, OfCollocationHoldsTheDissipationOfTheExactSolution) {
+  Simulation simulation(klein_gordon_case(), {.method = "egc8"});
+  simulation.stepper().keep_ledger();
+  StepLedger total;
+  const double start = simulation.energy().H;
+  for (int n = 0; n < 80; ++n) total += simulation.step(1.0 / 16).ledger;
+  EXPECT_NEAR(total.damping_left, simulation.energy().H - start, 1e-11);
+  EXPECT_LE(std::abs(total.projection), 1e-10);
+}
+
+TEST(Ledger, CountsNoRejectedStep) {
+  Problem well = duffing_case();
+  Simulation simulation(well, {.method = "egc4", .variable_steps = true});
+  class Watch final : public Observer {
+   public:
+    bool is_due(const State&, bool) const override { return true; }
+    void observe(const State&, const EnergyReading& energy) override { last = energy; }
+    void finish(const RunReport&) override {}
+    EnergyReading last;
+  } watch;
+  const std::vector<Observer*> observers = {&watch};
+  simulation.stepper().keep_ledger();
+  const double start = simulation.energy().H;
+  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                              {.tolerance = 1e-6, .t_end = 20, .first_h = 1.0}, observers);
+  EXPECT_GT(report.rejected, 0) << "the first step was far too long";
+  EXPECT_NEAR(watch.last.ledger.sum(), watch.last.H - start, 1e-12);
+}
+
+}  // namespace
+}  // namespace seiche::test
