@@ -3,7 +3,7 @@ PREFIX ?= /usr/local
 OUT ?= out/paper
 ARGS ?=
 WP_ARGS ?=
-JOBS ?= 2
+JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
 .PHONY: help deps configure build paper test bench install format tidy asan clean
@@ -19,20 +19,20 @@ configure: deps
 	@cmake --preset release >/dev/null
 
 build: configure  ## build/release/seiche, the program
-	@cmake --build --preset release --target seiche_cli
+	@cmake --build --preset release --parallel $(JOBS) --target seiche_cli
 
 paper: build  ## the paper's examples, figures and claims: out/paper/report.html (ARGS=--quick, OUT=folder)
 	@build/release/seiche paper --out "$(OUT)" $(ARGS)
 	@echo "The report is $(OUT)/report.html"
 
 test: configure  ## build and run all tests
-	@cmake --build --preset release
+	@cmake --build --preset release --parallel $(JOBS)
 	@ctest --preset release --parallel $(JOBS)
 
 bench:  ## build and run the benchmarks: step cost (ARGS), then work and precision (WP_ARGS=--quick, --help)
 	@bash scripts/install-deps --bench
 	@cmake --preset bench >/dev/null
-	@cmake --build --preset bench
+	@cmake --build --preset bench --parallel $(JOBS)
 	@build/bench/bench/seiche_bench $(ARGS)
 	@build/bench/bench/seiche_work_precision $(WP_ARGS)
 

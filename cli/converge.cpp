@@ -63,7 +63,12 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
     if (std::find(methods.begin(), name, *name) != name) throw Error("--methods names {} twice", *name);
   std::vector<double> step_sizes;
   for (const std::string& text : arguments.step_sizes) step_sizes.push_back(step_size(text));
+  if (step_sizes.empty() && spec.h == 0)
+    throw Error("{} has a tolerance and no h, and converge compares steps of one size: give --h 1/4,1/8,1/16",
+                spec.source);
   if (step_sizes.empty()) step_sizes = {spec.h, spec.h / 2, spec.h / 4};
+  for (const double h : step_sizes)
+    if (h > spec.t_end) throw Error("--h {} must be ≤ time.end = {}", h, spec.t_end);
 
   ConvergeOptions options;
   options.t_end = spec.t_end;

@@ -59,6 +59,7 @@ RunReport integrate(Simulation& simulation, const RunSpec& spec, const LawPromis
     const AdaptiveOptions options{.tolerance = *spec.tolerance,
                                   .t_end = spec.t_end,
                                   .first_h = spec.h,
+                                  .largest_h = spec.h_max,
                                   .law = law,
                                   .objection = objection,
                                   .stop = &stop};

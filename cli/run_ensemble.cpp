@@ -179,8 +179,8 @@ ExitCode exit_code(const Outcome& outcome) {
   return outcome.violated > 0 ? law_violated : success;
 }
 
-std::string summary(const RunSpec& spec, const EnsembleResult& result, const Outcome& outcome,
-                    const StatisticsFile& energies, bool has_modified) {
+std::string summary(const RunSpec& spec, const std::string& backend, const EnsembleResult& result,
+                    const Outcome& outcome, const StatisticsFile& energies, bool has_modified) {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::int64_t fallbacks = 0;
@@ -201,7 +201,7 @@ std::string summary(const RunSpec& spec, const EnsembleResult& result, const Out
       {"message", outcome.message},
       {"problem", spec.problem},
       {"method", spec.method},
-      {"backend", spec.backend},
+      {"backend", backend},
       {"h", spec.h},
       {"members", result.members.size()},
       {"side_by_side", result.in_lanes},
@@ -261,7 +261,9 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
                                   .on_record = [&](const EnsembleRecord& record) { energies.write(record); },
                                   .stop = &stop});
   const Outcome outcome(result);
-  const std::string json = summary(spec, result, outcome, energies, has_modified);
+  const std::string backend =
+      spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
+  const std::string json = summary(spec, backend, result, outcome, energies, has_modified);
   energies.commit();
   write_members(directory / "members.csv", members, result, has_modified);
   write_finals(directory / "finals.csv", problem, result);

@@ -21,9 +21,13 @@
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/network.hpp>
 #include <seiche/problem/nls.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/sine_gordon.hpp>
+#include <seiche/problem/sparse.hpp>
+#include <seiche/problem/truss.hpp>
+#include <seiche/problem/variable_wave.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
 #include <seiche/version.hpp>

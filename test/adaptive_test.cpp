@@ -283,6 +283,18 @@ TEST(Adaptive, TheControllerTakesNoNumberForNoError) {
   EXPECT_EQ(controller.next(0.1), fresh.next(0.1));
 }
 
+// A pulse of damping far shorter than the steps that the waves allow.
+TEST(Adaptive, ABoundOnStepsSeesWhatHappensInsideOne) {
+  const Problem p = klein_gordon({.gamma = formula_rate(compile_formula("0.1 + 20*exp(-400*(t - 20.123)^2)", {"t"}))});
+  const Reference reference = make_reference(p, every_unit(30));
+  Simulation simulation(p, {.method = "egc6", .variable_steps = true});
+  Judge judge(reference, *simulation.system().space);
+  const std::vector<Observer*> observers = {&judge};
+  integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                     {.tolerance = 1e-4, .t_end = 30, .largest_h = 0.1}, observers);
+  EXPECT_LE(judge.error, 1e-3);
+}
+
 TEST(Adaptive, NumbersThatMakeNoSenseAreRefused) {
   Simulation simulation(duffing_case(), {.method = "egc4", .variable_steps = true});
   const auto with = [&](AdaptiveOptions options) {

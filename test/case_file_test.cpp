@@ -198,7 +198,7 @@ TEST(CaseFile, UnknownSectionsAndKeysAreRefusedWithTheNearestName) {
                     HasSubstr("problem, method, backend, time, output")));
   EXPECT_THAT(complaint(minimal + "[method]\nC = 1\nauxilary = \"frozen\"\n"),
               AllOf(StartsWith("x.toml:5:1: "), HasSubstr("'auxilary'; did you mean 'auxiliary'?"),
-                    HasSubstr("Allowed: name, h, tolerance, C, auxiliary, scalar_solver")));
+                    HasSubstr("Allowed: name, h, tolerance, h_max, C, auxiliary, scalar_solver")));
   EXPECT_THAT(complaint(minimal + "kapa = 1\n"), AllOf(StartsWith("x.toml:3:1: "), HasSubstr("did you mean 'kappa'?")));
   EXPECT_THAT(complaint("h = 1\n" + minimal), HasSubstr("x.toml:1:1: the key 'h' stands outside every section; it "
                                                         "belongs into [method]"));
@@ -461,6 +461,9 @@ TEST(CaseFile, AToleranceStandsInsteadOfAStepSize) {
 
   EXPECT_THAT(complaint(minimal + "[method]\ntolerance = 0\n"), HasSubstr("method.tolerance = 0 must be > 0"));
   EXPECT_THAT(complaint(minimal + "[method]\ntolerance = 2\n"), HasSubstr("< 1"));
+  EXPECT_THAT(complaint(minimal + "[method]\ntolerance = 1e-30\n"), HasSubstr("at least 1e-14"));
+  EXPECT_THAT(complaint(minimal + "[method]\nh_max = 1\n"), HasSubstr("needs method.tolerance"));
+  EXPECT_EQ(parse_case(minimal + "[method]\ntolerance = 1e-3\nh_max = 0.5\n", "x.toml").h_max, 0.5);
   EXPECT_THAT(complaint(minimal + "[output]\nsnapshot_interval = 0.5\n"), HasSubstr("needs method.tolerance"));
 }
 

@@ -22,7 +22,7 @@ constexpr std::size_t at_the_end = std::numeric_limits<std::size_t>::max();
 std::vector<std::string> section_names() { return {"problem", "method", "backend", "time", "output", "ensemble"}; }
 
 std::vector<std::string> keys_of(const std::string& section, const ProblemEntry* problem) {
-  if (section == "method") return {"name", "h", "tolerance", "C", "auxiliary", "scalar_solver"};
+  if (section == "method") return {"name", "h", "tolerance", "h_max", "C", "auxiliary", "scalar_solver"};
   if (section == "backend") return {"name", "plan", "exponential", "pade_degree", "lanczos_dimension"};
   if (section == "time") return {"end"};
   if (section == "output") return {"directory", "energy_every", "ledger", "snapshot_every", "snapshot_interval"};
@@ -202,7 +202,16 @@ class Reader {
       const double tolerance = read_number(key, value);
       if (tolerance <= 0 || tolerance >= 1)
         throw Error("{} = {} must be > 0 and < 1: the error of values at the end of the run", key, value.shown());
+      if (tolerance < 1e-14)
+        throw Error("{} = {} is below what double precision can tell; write at least 1e-14", key, value.shown());
       spec_.tolerance = tolerance;
+    });
+    on("method", "h_max", [&](const std::string& key, const CaseValue& value) {
+      const double h = read_number(key, value);
+      if (h <= 0) throw Error("{} = {} must be > 0", key, value.shown());
+      if (!spec_.tolerance)
+        throw Error("{} = {} needs method.tolerance: it bounds steps of variable size", key, value.shown());
+      spec_.h_max = h;
     });
   }
 

@@ -76,6 +76,7 @@ std::string write_case(const RunSpec& spec) {
   text += fmt::format("\n[method]\nname = {}\n", toml_string(spec.method));
   if (spec.h > 0) text += fmt::format("h = {}\n", step_size(spec.h));
   if (spec.tolerance) text += fmt::format("tolerance = {}\n", toml_real(*spec.tolerance));
+  if (spec.h_max > 0) text += fmt::format("h_max = {}\n", toml_real(spec.h_max));
   text += fmt::format("C = {}\n", options.C ? toml_real(*options.C) : "\"auto\"");
   text += fmt::format("auxiliary = \"{}\"\n", to_text(options.auxiliary));
   text += fmt::format("scalar_solver = \"{}\"\n", options.scalar_solver == ScalarSolver::newton ? "newton" : "robust");
@@ -111,7 +112,11 @@ std::string example_case(const std::string& problem) {
   text += "\n[method]\n";
   text += line("name", "\"seisav\"", fmt::format("{}", fmt::join(method_names(), " | ")));
   text += line("h", number_or_string(entry.default_h), "step size, time; a number, or a fraction in quotes");
-  text += line("# tolerance", "1e-8", "instead of h: steps of variable size, with this error at the end (max norm)");
+  text += line("# tolerance", "1e-8",
+               "steps of variable size, with this error at the end (max norm); h is then the first step tried");
+  text += line(
+      "# h_max", "0.5",
+      "with a tolerance: no longer step; write it where γ(t) has pulses shorter than the waves, twice their width");
   text += line("C", "\"auto\"", "sav family: the shift in √(V + C), energy; \"auto\" or a number");
   text +=
       line("auxiliary", "\"transport\"", "transport | frozen | refresh: what the damping does to r (sav, lm family)");
@@ -130,7 +135,7 @@ std::string example_case(const std::string& problem) {
   text += line("energy_every", "1", "steps");
   text += line("snapshot_every", "64", "steps; 0: the first and the last state only");
   text += line("ledger", "\"off\"", "on: columns of energy.csv that say where the change of H comes from");
-  text += line("# snapshot_interval", "0.5", "time between snapshots, with a tolerance");
+  text += line("# snapshot_interval", "0.5", "time between snapshots, with a tolerance; 0: by steps");
   return text;
 }
 

@@ -41,6 +41,7 @@ struct RunSpec {
   std::string method = "seisav";
   double h = 0.0;                   // the step size; beside a tolerance the first one, or 0
   std::optional<double> tolerance;  // steps of variable size
+  double h_max = 0.0;               // and none longer than this; 0: no bound
   MethodOptions method_options;
   std::string backend = "auto";
   bool measure_plans = false;

@@ -54,8 +54,10 @@ class AdaptiveLoop {
     const double quotient = state_.z.norm() / rate.norm();
     const double left = std::min(options_.t_end, recording_.next_time()) - state_.t;
     h_ = options_.first_h > 0 ? options_.first_h : std::isfinite(quotient) && quotient > 0 ? 0.02 * quotient : 1e-3;
-    h_ = StepController::rounded(std::min(h_, std::max(left, options_.t_end * epsilon) / 3));
+    h_ = bounded(StepController::rounded(std::min(h_, std::max(left, options_.t_end * epsilon) / 3)));
   }
+
+  double bounded(double h) const { return options_.largest_h > 0 ? std::min(h, options_.largest_h) : h; }
 
   // One accepted step, or an attempt that was not; false: the run is over.
   bool advance() {
@@ -82,6 +84,7 @@ class AdaptiveLoop {
     if (is_last) state_.t = options_.t_end;
     note(h);
     if (error) h_ = controller_.next(h);
+    h_ = bounded(h_);
     if (is_cut && h_ > h / 1.1) h_ = h;  // the other half, not a power of 2^{1/8} below it
     return accept();
   }
@@ -210,8 +213,9 @@ RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, Sta
     throw Error("the tolerance must be finite and > 0, but it is {}", options.tolerance);
   if (!std::isfinite(options.t_end) || options.t_end < state.t)
     throw Error("t_end = {} must not lie before the start t = {}", options.t_end, state.t);
-  if (!std::isfinite(options.first_h) || options.first_h < 0)
-    throw Error("the first step size must be finite and ≥ 0, but it is {}", options.first_h);
+  for (const double h : {options.first_h, options.largest_h})
+    if (!std::isfinite(h) || h < 0)
+      throw Error("the first and the largest step size must be finite and ≥ 0, but one is {}", h);
   Recording recording(system, stepper, state, options.law, observers);
   AdaptiveLoop loop(system, stepper, state, options, recording);
   try {

@@ -24,7 +24,8 @@ struct Event {
 struct AdaptiveOptions {
   double tolerance = 0.0;  // of values at the end, in the max norm; > 0
   double t_end = 0.0;
-  double first_h = 0.0;  // 0: chosen from the first derivative
+  double first_h = 0.0;    // 0: chosen from the first derivative
+  double largest_h = 0.0;  // 0: no bound. What happens and ends inside one step, as a pulse of γ(t), no estimate sees
   LawPromise law = {};
   std::function<std::string()> objection = {};
   const std::atomic<bool>* stop = nullptr;
