@@ -291,7 +291,7 @@ TEST(Adaptive, ABoundOnStepsSeesWhatHappensInsideOne) {
   Judge judge(reference, *simulation.system().space);
   const std::vector<Observer*> observers = {&judge};
   integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                     {.tolerance = 1e-4, .t_end = 30, .largest_h = 0.1}, observers);
+                     {.tolerance = 1e-4, .t_end = 30, .largest_h = 0.05}, observers);
   EXPECT_LE(judge.error, 1e-3);
 }
 

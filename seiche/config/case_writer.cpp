@@ -116,7 +116,7 @@ std::string example_case(const std::string& problem) {
                "steps of variable size, with this error at the end (max norm); h is then the first step tried");
   text += line(
       "# h_max", "0.5",
-      "with a tolerance: no longer step; write it where γ(t) has pulses shorter than the waves, twice their width");
+      "with a tolerance: no longer step; write it where γ(t) has pulses shorter than the waves: no more than their width");
   text += line("C", "\"auto\"", "sav family: the shift in √(V + C), energy; \"auto\" or a number");
   text +=
       line("auxiliary", "\"transport\"", "transport | frozen | refresh: what the damping does to r (sav, lm family)");
