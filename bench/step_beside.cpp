@@ -31,8 +31,8 @@ StepBeside measure_step(const Problem& problem, const std::string& method, const
     transform = modal_transform(problem.grid, {.measure_plans = true});
     slots.setZero(transform->slots());
     contestants.emplace_back([&] {
-      transform->through_values({slots.data(), static_cast<std::size_t>(slots.size())},
-                                [](std::span<double>) { return 0.0; });
+      const std::span<double> all(slots.data(), static_cast<std::size_t>(slots.size()));
+      transform->through_values(all, all, [](std::span<double>) { return 0.0; });
     });
   }
   const std::vector<double> time = median_seconds(contestants);

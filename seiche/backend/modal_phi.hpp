@@ -11,8 +11,8 @@ namespace seiche {
 struct ModalOperators {
   Grid grid;
   BlockStencil S, M, D0;
-  Index first, count;  // the fields that V depends on
-  int threads;
+  Index first = 0, count = 0;  // the fields that V depends on
+  int threads = 1;
 };
 std::unique_ptr<PhiEvaluator> modal_phi(const ModalOperators& operators);
 

@@ -7,7 +7,7 @@ namespace {
 // Collocation in doubles per unknown: two forces a stage and some vectors, and for each step size that is kept the blocks of
 // stages, end and forms; with variable steps also those of the extension.
 double doubles_of_collocation(int order, Index size, bool variable_steps) {
-  const double s = order / 2;
+  const double s = 0.5 * order;
   const double blocks = s * (2 + s) + 2 * (2 + s) + (2 + s) * (3 + s) + 4;  // per mode, of two slots and two fields
   const double of_extension = 4 * 4 * s;                                    // four ratios of step sizes, two maps each
   const double step_sizes = variable_steps ? static_cast<double>(cached_step_sizes(size)) : 1.0;

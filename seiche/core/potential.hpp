@@ -35,7 +35,8 @@ class PointwisePotential {
   // Is V = Σ_j W(u_j)? Then parts of u may be given one at a time, on several threads.
   virtual bool is_local() const { return false; }
   virtual double value(std::span<const double> u) const = 0;
-  virtual ValueAndMagnitude value_and_magnitude(std::span<const double> u) const = 0;  // V and Σ|V_j|
+  virtual ValueAndMagnitude value_and_magnitude(
+      std::span<const double> u) const = 0;  // V and Σ|V_j|, or the sizes of the terms of V_j
   double magnitude(std::span<const double> u) const { return value_and_magnitude(u).magnitude; }
   virtual double value_and_gradient(std::span<const double> u, std::span<double> gradient) const = 0;
   // In place, between two transforms: with u = in · values, values ← out · ∇V(u); returns V(u).

@@ -40,6 +40,13 @@ template <class F>
   return sums.total();
 }
 
+// The size of the terms of W(u), or |W(u)| where they are not known.
+template <class W>
+[[gnu::always_inline]] inline double size_of(const W& w, double u, double value) {
+  if constexpr (requires { w.size(u); }) return w.size(u);
+  return std::abs(value);
+}
+
 template <class W>
 SEICHE_MULTIVERSION double sum_values(const W& w, const double* u, std::size_t n) {
   const W local = w;
@@ -53,7 +60,7 @@ SEICHE_MULTIVERSION ValueAndMagnitude sum_values_and_magnitudes(const W& w, cons
   for_points(n, [&](std::size_t j, std::size_t lane) {
     const double value = local.value(u[j]);
     values[lane] += value;
-    magnitudes[lane] += std::abs(value);
+    magnitudes[lane] += size_of(local, u[j], value);
   });
   return {values.total(), magnitudes.total()};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 
@@ -24,6 +25,13 @@ struct Polynomial {
   double value(double u) const {
     double sum = c[Degree];
     for (std::size_t i = Degree; i-- > 0;) sum = sum * u + c[i];
+    return sum;
+  }
+
+  // Σ|c_i uⁱ|: what round-off in the value is a fraction of, also where the terms cancel.
+  double size(double u) const {
+    double sum = std::abs(c[Degree]);
+    for (std::size_t i = Degree; i-- > 0;) sum = sum * std::abs(u) + std::abs(c[i]);
     return sum;
   }
 
