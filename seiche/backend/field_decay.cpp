@@ -1,8 +1,6 @@
 #include <seiche/backend/field_decay.hpp>
 #include <seiche/backend/segment.hpp>
 
-#include <algorithm>
-
 namespace seiche {
 
 FieldDecay::FieldDecay(FieldRatePointer rate, std::shared_ptr<const FieldTransform> transform)
@@ -21,16 +19,11 @@ const Vector& FieldDecay::factors(double t, double h) const {
     set_factors(t, h, current_);
     return current_;
   }
-  const auto found = std::find_if(cache_.begin(), cache_.end(), [h](const Cached& c) { return c.h == h; });
-  if (found == cache_.end()) {
-    constexpr std::size_t capacity = 16;
-    if (cache_.size() == capacity) cache_.pop_back();
-    cache_.insert(cache_.begin(), Cached{h, Vector(transform_->unknowns())});
-    set_factors(t, h, cache_.front().factors);
-  } else {
-    std::rotate(cache_.begin(), found, found + 1);
-  }
-  return cache_.front().factors;
+  return constant_.at(h, [&] {
+    auto made = std::make_unique<Vector>(transform_->unknowns());
+    set_factors(t, h, *made);
+    return made;
+  });
 }
 
 const Vector& FieldDecay::values(double t) const {

@@ -3,11 +3,11 @@
 
 #include <seiche/backend/transform.hpp>
 #include <seiche/core/rate.hpp>
+#include <seiche/core/step_cache.hpp>
 #include <seiche/core/vector.hpp>
 
 #include <memory>
 #include <span>
-#include <vector>
 
 namespace seiche {
 
@@ -22,15 +22,11 @@ class FieldDecay {
  private:
   void set_factors(double t, double h, Vector& factors) const;
 
-  struct Cached {
-    double h;
-    Vector factors;
-  };
   FieldRatePointer rate_;
   std::shared_ptr<const FieldTransform> transform_;
-  mutable std::vector<Cached> cache_;  // most recently used first
-  mutable Vector current_;             // at the points
-  mutable Vector physical_;            // the field, at the points
+  mutable StepCache<Vector> constant_;  // factors, where γ does not depend on t
+  mutable Vector current_;              // at the points
+  mutable Vector physical_;             // the field, at the points
 };
 
 }  // namespace seiche

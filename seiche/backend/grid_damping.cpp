@@ -2,7 +2,6 @@
 #include <seiche/backend/segment.hpp>
 #include <seiche/core/commuting_damping.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace seiche {
@@ -22,18 +21,6 @@ GridDamping::GridDamping(const Problem& problem, std::shared_ptr<const FieldTran
     field_rate_ = std::make_unique<FieldDecay>(problem.damping.field_rate, std::move(transform));
 }
 
-const LinearMap& GridDamping::flow_map(double h) const {
-  const auto found = std::find_if(flows_.begin(), flows_.end(), [h](const CachedFlow& c) { return c.h == h; });
-  if (found == flows_.end()) {
-    constexpr std::size_t capacity = 16;
-    if (flows_.size() == capacity) flows_.pop_back();
-    flows_.insert(flows_.begin(), CachedFlow{h, make_flow_(h)});
-  } else {
-    std::rotate(flows_.begin(), found, found + 1);
-  }
-  return *flows_.front().map;
-}
-
 double GridDamping::rate_decay(double t, double h) const {
   if (!rate_->is_constant()) return std::exp(-rate_->integral(t, h));
   if (decay_of_.h != h) decay_of_ = {h, std::exp(-rate_->integral(t, h))};
@@ -41,7 +28,7 @@ double GridDamping::rate_decay(double t, double h) const {
 }
 
 void GridDamping::constant_flow(double h, Vector& z) const {
-  flow_map(h).apply(z, scratch_);
+  flows_.at(h, [&] { return make_flow_(h); }).apply(z, scratch_);
   z.swap(scratch_);
 }
 

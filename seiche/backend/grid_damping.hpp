@@ -6,6 +6,7 @@
 #include <seiche/backend/transform.hpp>
 #include <seiche/core/damping.hpp>
 #include <seiche/core/problem.hpp>
+#include <seiche/core/step_cache.hpp>
 
 #include <functional>
 #include <memory>
@@ -34,16 +35,11 @@ class GridDamping final : public Damping {
   bool field_factors(double t, double h, std::span<double> factors) const override;
 
  private:
-  const LinearMap& flow_map(double h) const;
   void constant_flow(double h, Vector& z) const;
   void rates_flow(double t, double h, Vector& z) const;
   double rate_decay(double t, double h) const;                                 // e^{−∫γ}
   void add_rates(double gamma, double t, const Vector& z, Vector& out) const;  // out += (γ + γ(x, t))P z
 
-  struct CachedFlow {
-    double h;
-    std::unique_ptr<LinearMap> map;
-  };
   Index slots_;
   std::unique_ptr<LinearMap> constant_;  // null: none
   MakeFlow make_flow_;
@@ -52,8 +48,8 @@ class GridDamping final : public Damping {
   std::unique_ptr<FieldDecay> field_rate_;  // null: none
   std::vector<bool> rate_fields_;
   bool touches_potential_;
-  bool rates_commute_;                     // with the constant part
-  mutable std::vector<CachedFlow> flows_;  // most recently used first
+  bool rates_commute_;                  // with the constant part
+  mutable StepCache<LinearMap> flows_;  // of the constant part
   struct {
     double h = 0.0, decay = 1.0;
   } mutable decay_of_;  // of a constant rate: the last length asked for

@@ -1,5 +1,5 @@
 #include <seiche/config/run_memory.hpp>
-#include <seiche/method/step_cache.hpp>
+#include <seiche/core/step_cache.hpp>
 
 namespace seiche {
 namespace {

@@ -1,7 +1,6 @@
 #include <seiche/core/linear_part.hpp>
 #include <seiche/core/propagator.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace seiche {
@@ -27,17 +26,10 @@ void Propagator::advance(Vector& z, const Vector& f, Factor factor, FieldFactors
 }
 
 Propagators::Propagators(const LinearPart& linear, PropagatorKind kind, std::size_t capacity)
-    : linear_(linear), kind_(kind), capacity_(capacity) {}
+    : linear_(linear), kind_(kind), cache_(capacity) {}
 
 const Propagator& Propagators::at(double h) {
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [h](const Entry& e) { return e.h == h; });
-  if (found == entries_.end()) {
-    if (entries_.size() == capacity_) entries_.pop_back();
-    entries_.insert(entries_.begin(), Entry{h, linear_.propagator(kind_, h)});
-  } else {
-    std::rotate(entries_.begin(), found, found + 1);
-  }
-  return *entries_.front().propagator;
+  return cache_.at(h, [&] { return linear_.propagator(kind_, h); });
 }
 
 }  // namespace seiche

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <seiche/core/function_ref.hpp>
+#include <seiche/core/step_cache.hpp>
 #include <seiche/core/vector.hpp>
 
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace seiche {
 
@@ -52,21 +52,16 @@ void multiply_fields(Propagator::FieldFactors factors, Vector& z);
 
 class LinearPart;
 
-// The propagators of all step sizes that a method asks for; the least recently used goes first.
+// The propagators of all step sizes that a method asks for.
 class Propagators {
  public:
   Propagators(const LinearPart& linear, PropagatorKind kind, std::size_t capacity = 16);
   const Propagator& at(double h);
 
  private:
-  struct Entry {
-    double h;
-    std::unique_ptr<Propagator> propagator;
-  };
   const LinearPart& linear_;
   PropagatorKind kind_;
-  std::size_t capacity_;
-  std::vector<Entry> entries_;  // most recently used first
+  StepCache<Propagator> cache_;
 };
 
 }  // namespace seiche

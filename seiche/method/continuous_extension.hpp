@@ -2,11 +2,10 @@
 #pragma once
 
 #include <seiche/core/phi.hpp>
+#include <seiche/core/step_cache.hpp>
 #include <seiche/method/gauss.hpp>
-#include <seiche/method/step_cache.hpp>
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace seiche {

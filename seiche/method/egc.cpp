@@ -1,11 +1,12 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/step_cache.hpp>
 #include <seiche/method/collocation_weights.hpp>
 #include <seiche/method/continuous_extension.hpp>
 #include <seiche/method/egc.hpp>
 #include <seiche/method/energy_interval.hpp>
 #include <seiche/method/energy_projection.hpp>
 #include <seiche/method/gauss.hpp>
-#include <seiche/method/step_cache.hpp>
+#include <seiche/method/nonlinear_force.hpp>
 #include <seiche/method/step_dissipation.hpp>
 
 #include <algorithm>
@@ -23,10 +24,11 @@ class Collocation final : public AdaptiveStepper {
   Collocation(const System& system, int stages)
       : system_(system),
         phi_(system.make_phi()),
+        force_(system),
         rule_(stages),
         output_{.forces = stages,
                 .order = stages,
-                .kind = system.damping->is_frozen() ? PhiRows::Forces::gradients : PhiRows::Forces::states,
+                .kind = force_.kind(),
                 .weights = [C = interpolation(rule_.nodes)](double theta) { return collocation_weights(C, theta); }},
         dissipation_(system, *phi_, output_, rule_, GaussRule(stages + 2)),
         projection_(system, *phi_),
@@ -36,7 +38,7 @@ class Collocation final : public AdaptiveStepper {
     const Index size = system.space->size();
     for (Vector& f : forces_) f.setZero(size);
     result_.assign(1, Vector::Zero(size));
-    for (Vector* v : {&gradient_, &rest_, &missing_}) v->setZero(size);
+    missing_.setZero(size);
     physical_.setZero(system.space->physical_size());
   }
 
@@ -50,23 +52,18 @@ class Collocation final : public AdaptiveStepper {
 
   StepReport step(State& s, double h) override {
     StepReport report;
-    if (take(s, s.t, h, false, report)) {
-      ++s.n;
-      s.t += h;
-      return report;
+    const double t = s.t;
+    const std::int64_t n = s.n;
+    if (take(s, t, h, false, report) != Taken::whole) {
+      saved_ = s;
+      if (!take_halves(s, t, h, 1, report)) {
+        s = saved_;
+        fail(report, s, h, Taken::inadmissible, max_halvings);
+        return report;
+      }
     }
-    saved_ = s;
-    if (take_halves(s, s.t, h, 1, report)) {
-      s.n = saved_.n + 1;
-      s.t = saved_.t + h;
-      return report;
-    }
-    s = saved_;
-    report.status = StepReport::Status::failed;
-    report.message = fmt::format(
-        "no point near the solution has an energy H ≤ {:.9g} in the step from t = {:.6g} with h = {:.6g}, nor after {} "
-        "halvings of it: H(0) = {:.6g}",
-        s.energy, s.t, h, max_halvings, projection_.energy_of_rest());
+    s.n = n + 1;
+    s.t = t + h;
     return report;
   }
 
@@ -74,14 +71,13 @@ class Collocation final : public AdaptiveStepper {
 
   StepReport attempt(State& s, double h) override {
     StepReport report;
-    if (take(s, s.t, h, true, report)) {
-      ++s.n;
-      s.t += h;
+    const Taken taken = take(s, s.t, h, true, report);
+    if (taken != Taken::whole) {
+      fail(report, s, h, taken, 0);
       return report;
     }
-    report.status = StepReport::Status::failed;
-    report.message =
-        fmt::format("the collocation equations were not solved in the step from t = {:.6g} with h = {:.6g}", s.t, h);
+    ++s.n;
+    s.t += h;
     return report;
   }
 
@@ -122,7 +118,9 @@ class Collocation final : public AdaptiveStepper {
     z += std::pow(theta, order()) * missing_;
     if (last_dissipated_negative_) return;  // H may rise between: no law to keep
     const double low = std::min(s.energy, last_energy_);
-    projection_.project(z, std::clamp(system_.energy(z), low, last_energy_), last_energy_);
+    projection_.project(z, [&](double computed) {
+      return EnergyTarget{std::clamp(computed, low, last_energy_), last_energy_};
+    });
   }
 
   void forget(State& s) override { s.history_h = 0; }
@@ -144,6 +142,24 @@ class Collocation final : public AdaptiveStepper {
 
  private:
   int stages() const { return static_cast<int>(forces_.size()); }
+
+  enum class Taken {
+    whole,         // the step was taken
+    unresolved,    // not: `strict`, and ẑ is no solution
+    inadmissible,  // not: no point near ẑ has an energy that the law allows
+  };
+
+  void fail(StepReport& report, const State& s, double h, Taken taken, int halvings) const {
+    report.status = StepReport::Status::failed;
+    if (taken == Taken::unresolved)
+      report.message =
+          fmt::format("the collocation equations were not solved in the step from t = {:.6g} with h = {:.6g}", s.t, h);
+    else
+      report.message = fmt::format(
+          "no point near the solution has an energy H ≤ {:.9g} in the step from t = {:.6g} with h = {:.6g}{}: H(0) = {:.6g}",
+          s.energy, s.t, h, halvings > 0 ? fmt::format(", nor after {} halvings of it", halvings) : "",
+          projection_.energy_of_rest());
+  }
 
   struct Tables {
     std::unique_ptr<PhiMap> nodes;  // forces → Z_i
@@ -167,30 +183,11 @@ class Collocation final : public AdaptiveStepper {
     return output_.kind == PhiRows::Forces::states || dissipation_.kind() == StepDissipation::Kind::general;
   }
 
-  // v ← N(t, v), or ∇V(v) where forces are gradients.
-  void evaluate(double t, Vector& v, double weight, StepDissipation::Amount* dissipated) {
-    const bool gradients = output_.kind == PhiRows::Forces::gradients;
-    if (gradients && dissipated == nullptr) {
-      system_.potential->value_and_gradient(v, v);
-      return;
-    }
-    system_.potential->gradient(v, gradient_);
-    if (dissipated != nullptr) dissipation_.add(t, v, gradient_, weight, dissipated->coarse, dissipated->negative);
-    if (gradients) {  // gradient_ stays zero outside the support
-      const Potential::Support support = system_.potential->support();
-      v.segment(support.begin, support.size) = gradient_.segment(support.begin, support.size);
-      return;
-    }
-    system_.damping->apply_rest(t, v, rest_);
-    system_.linear->apply_S(gradient_, v);
-    v -= rest_;
-  }
-
   // First guess of the forces: those of the last step, extrapolated; or N(zⁿ) throughout. Returns how many sweeps it needs.
   int predict(const State& s, double t, double h) {
     if (s.history_h == 0) {
       forces_[0] = s.z;
-      evaluate(t, forces_[0], 0, nullptr);
+      force_.evaluate(t, forces_[0]);
       for (std::size_t i = 1; i < forces_.size(); ++i) forces_[i] = forces_[0];
       return 2 * stages();
     }
@@ -212,56 +209,61 @@ class Collocation final : public AdaptiveStepper {
     return stages();
   }
 
-  // One step; false, with s as it was, where no admissible point was found, or `strict` and ẑ is no solution.
-  bool take(State& s, double t, double h, bool strict, StepReport& report) {
+  // One step; s stays as it was where it is not taken. t and n are the caller's.
+  Taken take(State& s, double t, double h, bool strict, StepReport& report) {
     const Tables& of_h = tables(h);
     const int sweeps = predict(s, t, h);
     const bool general = dissipation_.kind() == StepDissipation::Kind::general;
-    double size = s.z.norm();
-    for (const Vector& f : forces_) size = std::max(size, s.z.norm() + h * f.norm());
+    double largest_force = 0;
+    for (const Vector& f : forces_) largest_force = std::max(largest_force, f.norm());
+    const double size = s.z.norm() + h * largest_force;
     StepDissipation::Amount coarse;
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       of_h.nodes->apply(s.z, forces_, forces_);
-      for (Index i = 0; i < stages(); ++i)
-        evaluate(t + rule_.nodes[i] * h, forces_[static_cast<std::size_t>(i)], h * rule_.weights[i],
-                 general && sweep == sweeps ? &coarse : nullptr);
+      for (Index i = 0; i < stages(); ++i) {
+        const double at = t + rule_.nodes[i] * h;
+        Vector& force = forces_[static_cast<std::size_t>(i)];
+        if (general && sweep == sweeps)
+          force_.evaluate(at, force, [&](const Vector& node, const Vector& gradient) {
+            dissipation_.add(at, node, gradient, h * rule_.weights[i], coarse.coarse, coarse.negative);
+          });
+        else
+          force_.evaluate(at, force);
+      }
     }
     of_h.end->apply(s.z, forces_, result_);
     Vector& z = result_[0];
 
-    resolved_ = z.norm() <= gross_growth * size;  // false for NaN
-    const bool resolved = resolved_;
-    EnergyTarget wanted{s.energy, s.energy};
+    const bool resolved = z.norm() <= gross_growth * size;  // false for NaN
     StepDissipation::Amount amount;
-    double computed = 0;  // Ĥ
     if (resolved) {
       amount = dissipation_.measure(t, h, s.z, forces_, general ? &coarse : nullptr);
-      computed = system_.energy(z);
-      wanted = energy_target(s.energy, computed, projection_.energy_of_rest(), amount, dissipation_.kind());
     } else {
-      if (strict) return false;
+      if (strict) return Taken::unresolved;
       of_h.free->apply(s.z, {}, result_);
-      computed = system_.energy(z);
       ++report.fallbacks;
     }
-    const EnergyProjection::Outcome outcome = projection_.project(z, wanted.H, wanted.cap);
+    const EnergyProjection::Outcome outcome = projection_.project(z, [&](double computed) {
+      if (!resolved) return EnergyTarget{s.energy, s.energy};
+      return energy_target(s.energy, computed, projection_.energy_of_rest(), amount, dissipation_.kind());
+    });
     report.scalar_iterations += outcome.iterations;
     report.fallbacks += outcome.by_bisection ? 1 : 0;
-    if (!outcome.admissible || !z.allFinite()) return false;
+    if (!outcome.admissible || !z.allFinite()) return Taken::inadmissible;
     last_ = {h, s.history_h};
     last_displacement_ = outcome.displacement;
     last_energy_ = s.energy;
     last_t_ = t;
     last_dissipated_negative_ = amount.negative;
     missing_is_known_ = false;
-    s.energy = outcome.H_is_target ? wanted.H : std::min(outcome.H, wanted.cap);
+    s.energy = outcome.H;
     report.ledger += {.damping_left = -amount.fine,
-                      .substep = computed - last_energy_ + amount.fine,
-                      .projection = s.energy - computed};
+                      .substep = outcome.computed - last_energy_ + amount.fine,
+                      .projection = outcome.H - outcome.computed};
     s.z.swap(z);
     s.history.swap(forces_);
     s.history_h = resolved ? h : 0;
-    return true;
+    return Taken::whole;
   }
 
   // The same time in two steps, or more where that does not help either.
@@ -270,7 +272,8 @@ class Collocation final : public AdaptiveStepper {
     ++report.fallbacks;
     for (const double begin : {t, t + h / 2}) {
       s.history_h = 0;
-      if (!take(s, begin, h / 2, false, report) && !take_halves(s, begin, h / 2, depth + 1, report)) return false;
+      if (take(s, begin, h / 2, false, report) != Taken::whole && !take_halves(s, begin, h / 2, depth + 1, report))
+        return false;
     }
     s.history_h = 0;
     return true;
@@ -278,6 +281,7 @@ class Collocation final : public AdaptiveStepper {
 
   const System& system_;
   std::unique_ptr<PhiEvaluator> phi_;
+  NonlinearForce force_;
   GaussRule rule_;
   DenseOutput output_;
   StepDissipation dissipation_;
@@ -286,12 +290,12 @@ class Collocation final : public AdaptiveStepper {
   StepCache<Tables> cache_;
   StepCache<Eigen::MatrixXd> extrapolations_{16};  // by the ratio of two step sizes
   std::vector<Vector> forces_, result_;
-  Vector gradient_, rest_, physical_;
+  Vector physical_;
   State saved_;
   // The last step: zⁿ and the forces before it are left in result_ and forces_.
   ContinuousExtension::Step last_;
   double last_displacement_ = 0, last_energy_ = 0, last_t_ = 0;
-  bool last_dissipated_negative_ = false, resolved_ = true;
+  bool last_dissipated_negative_ = false;
   Vector missing_;  // what the extension misses at the end of it, once it was asked for
   bool missing_is_known_ = false;
 };

@@ -19,62 +19,63 @@ EnergyProjection::EnergyProjection(const System& system, const PhiEvaluator& phi
       rest_(system.potential->value(Vector::Zero(system.space->size()))),
       scratch_(system) {}
 
-EnergyProjection::Outcome EnergyProjection::project(Vector& z, double target, double cap) {
+EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
   using Direction = EnergyLine::Direction;
   Outcome outcome;
   EnergyLine::Parts start;
+  EnergyTarget aim;
   {
     const EnergyLine line(system_, phi_, scratch_, z, Direction::casimir_free);
     start = line.at(0);
-    outcome.H = start.H();
+    outcome.H = outcome.computed = start.H();
+    aim = wanted(outcome.computed);
     const EnergyLine::Slope slope = line.slope();
     const bool conditioned = std::abs(slope.value) >= least_slope * slope.size;
-    if (!conditioned && target < cap && start.H() <= cap) {
+    if (!conditioned && aim.H < aim.cap && start.H() <= aim.cap) {
       outcome.admissible = true;
       return outcome;
     }
-    if (conditioned && solve(line, z, target, cap, outcome)) return outcome;
+    if (conditioned && solve(line, start, aim, z, outcome)) return outcome;
   }
   {
     const EnergyLine line(system_, phi_, scratch_, z, Direction::steepest);
-    if (solve(line, z, target, cap, outcome)) return outcome;
+    if (solve(line, line.at(0), aim, z, outcome)) return outcome;
   }
   outcome.by_bisection = true;
-  outcome.H = start.H();
-  outcome.admissible = start.H() <= cap + start.round_off();  // below what it should be: safe all the same
+  outcome.H = std::min(start.H(), aim.cap);
+  outcome.admissible = start.H() <= aim.cap + start.round_off();  // below what it should be: safe all the same
   if (outcome.admissible) return outcome;
 
   // H falls from H(z) > goal to H(Πz) or H(0) ≤ goal: there is a root between (intermediate value theorem).
-  const double goal = rest_ <= cap ? std::max(target, rest_) : target;
+  const double goal = rest_ <= aim.cap ? std::max(aim.H, rest_) : aim.H;
   for (const Direction direction : {Direction::casimir_free, Direction::ray})
-    if (bisect(EnergyLine(system_, phi_, scratch_, z, direction), z, goal, outcome)) break;
+    if (bisect(EnergyLine(system_, phi_, scratch_, z, direction), goal, z, outcome)) break;
   return outcome;
 }
 
-// z to where H = target; false, with z as it was, if the secant iteration does not find it.
-bool EnergyProjection::solve(const EnergyLine& line, Vector& z, double target, double cap, Outcome& outcome) {
-  EnergyLine::Parts here = line.at(0);
-  const auto miss = [&](const EnergyLine::Parts& p) { return std::abs(p.H() - target); };
-  double lambda = (target - here.H()) / line.slope().value;
+// z from `here` on its line to where H is what it should be; false, with z as it was, if the secant iteration does not find it.
+bool EnergyProjection::solve(const EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z,
+                             Outcome& outcome) {
+  const auto miss = [&](const EnergyLine::Parts& p) { return std::abs(p.H() - aim.H); };
+  double lambda = (aim.H - here.H()) / line.slope().value;
   for (int i = 0; miss(here) > here.round_off() && i < max_secants; ++i) {
     if (!(std::abs(lambda) < max_lambda)) return false;  // or no number
     const EnergyLine::Parts next = line.at(lambda);
     ++outcome.iterations;
     if (next.H() == here.H()) break;  // as near as numbers come
-    lambda = next.lambda + (target - next.H()) * (next.lambda - here.lambda) / (next.H() - here.H());
+    lambda = next.lambda + (aim.H - next.H()) * (next.lambda - here.lambda) / (next.H() - here.H());
     here = next;
   }
-  if (!(miss(here) <= here.loss()) || !(here.H() <= cap + here.loss())) return false;
+  if (!(miss(here) <= here.loss()) || !(here.H() <= aim.cap + here.loss())) return false;
   outcome.displacement = std::abs(here.lambda) * line.direction().norm();
   if (here.lambda != 0) line.move(z, here.lambda);
   outcome.admissible = true;
-  outcome.H = here.H();
-  outcome.H_is_target = true;
+  outcome.H = aim.H;
   return true;
 }
 
 // z towards the origin of the line, λ = −1, to a point with H ≤ goal; false, with z as it was, if H is above it even there.
-bool EnergyProjection::bisect(const EnergyLine& line, Vector& z, double goal, Outcome& outcome) {
+bool EnergyProjection::bisect(const EnergyLine& line, double goal, Vector& z, Outcome& outcome) {
   EnergyLine::Parts low = line.at(-1);
   double high = 0;
   if (!(low.H() <= goal)) return false;

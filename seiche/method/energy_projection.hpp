@@ -1,6 +1,8 @@
 // The last part of a step that keeps the law by projection: the point near ẑ where H is what it is to be.
 #pragma once
 
+#include <seiche/core/function_ref.hpp>
+#include <seiche/method/energy_interval.hpp>
 #include <seiche/method/energy_line.hpp>
 
 namespace seiche {
@@ -16,21 +18,22 @@ class EnergyProjection {
 
   struct Outcome {
     bool admissible = false;    // H(z) ≤ cap, and z as good as it could be made
-    bool H_is_target = false;   // to round-off
     bool by_bisection = false;  // nothing better was found
     int iterations = 0;
-    double H = 0;
+    double computed = 0;      // Ĥ, of the z that was passed
+    double H = 0;             // of the z that came out; the target itself, where it was met to round-off
     double displacement = 0;  // Euclidean norm of the move
   };
+  using Wanted = FunctionRef<EnergyTarget(double computed)>;
   // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned: then z
   // stays as it is if target < cap and H(z) ≤ cap, for the cap is the law; and otherwise it moves along ∇H. If no iteration
   // converges, to a point with H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if H(0) > cap and
   // H(z) > cap.
-  Outcome project(Vector& z, double target, double cap);
+  Outcome project(Vector& z, Wanted wanted);
 
  private:
-  bool solve(const EnergyLine& line, Vector& z, double target, double cap, Outcome& outcome);
-  bool bisect(const EnergyLine& line, Vector& z, double goal, Outcome& outcome);
+  bool solve(const EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z, Outcome& outcome);
+  bool bisect(const EnergyLine& line, double goal, Vector& z, Outcome& outcome);
 
   const System& system_;
   const PhiEvaluator& phi_;

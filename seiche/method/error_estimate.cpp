@@ -1,5 +1,6 @@
+#include <seiche/core/step_cache.hpp>
 #include <seiche/method/error_estimate.hpp>
-#include <seiche/method/step_cache.hpp>
+#include <seiche/method/nonlinear_force.hpp>
 
 #include <limits>
 #include <vector>
@@ -13,11 +14,11 @@ class Estimated final : public AdaptiveStepper {
       : system_(system),
         stepper_(std::move(stepper)),
         phi_(system.make_phi()),
+        force_(system),
         cache_(cached_step_sizes(system.space->size())) {
     const Index size = system.space->size();
     forces_.assign(3, Vector::Zero(size));
     out_.assign(1, Vector::Zero(size));
-    for (Vector* v : {&gradient_, &rest_}) v->setZero(size);
     physical_.setZero(system.space->physical_size());
   }
 
@@ -73,39 +74,30 @@ class Estimated final : public AdaptiveStepper {
   void restart(State& s) override { begin(s); }
 
  private:
-  PhiRows::Forces kind() const {
-    return system_.damping->is_frozen() ? PhiRows::Forces::gradients : PhiRows::Forces::states;
-  }
-
   void force(double t, const Vector& z, Vector& out) {
-    if (kind() == PhiRows::Forces::gradients) {
-      system_.potential->gradient(z, out);
-      return;
-    }
-    system_.potential->gradient(z, gradient_);
-    system_.linear->apply_S(gradient_, out);
-    system_.damping->apply_rest(t, z, rest_);
-    out -= rest_;
+    out = z;
+    force_.evaluate(t, out);
   }
 
   struct Maps {
     std::unique_ptr<PhiMap> middle, end;
   };
   Maps make_maps() const {
-    const PhiRows middle{.rows = {{0.5, {0.5}}}, .forces = 1, .order = 1, .kind = kind()};
-    const PhiRows end{.rows = {{1.0, {1, -3, 4, 0, 4, -8, 0, -1, 4}}}, .forces = 3, .order = 3, .kind = kind()};
+    const PhiRows middle{.rows = {{0.5, {0.5}}}, .forces = 1, .order = 1, .kind = force_.kind()};
+    const PhiRows end{.rows = {{1.0, {1, -3, 4, 0, 4, -8, 0, -1, 4}}}, .forces = 3, .order = 3, .kind = force_.kind()};
     return {phi_->map(middle, h_), phi_->map(end, h_)};
   }
 
   const System& system_;
   std::unique_ptr<Stepper> stepper_;
   std::unique_ptr<PhiEvaluator> phi_;
+  NonlinearForce force_;
   StepCache<Maps> cache_;
   State before_, between_;
   double h_ = 0;
   bool end_force_is_known_ = false;  // forces_[2] is N at the state
   std::vector<Vector> forces_, out_;
-  Vector gradient_, rest_, physical_;
+  Vector physical_;
 };
 
 }  // namespace

@@ -34,24 +34,14 @@ StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, 
 StepDissipation::Tables& StepDissipation::tables(double h) {
   return cache_.at(h, [&] {
     auto made = std::make_unique<Tables>();
-    if (kind_ == Kind::quadratic) {
-      const auto form = [&](const GaussRule& rule) {
-        PhiEvaluator::Form f{output_.at(rule.nodes, PhiRows::Outputs::all), {}};
-        for (const double w : rule.weights) f.coefficients.push_back(h * w);
-        return f;
-      };
-      const std::array forms = {form(fine_), form(coarse_)};
-      made->forms = phi_.forms(forms, h);
-      return made;
-    }
-    const auto nodes = [&](const GaussRule& rule) {
-      std::vector<std::unique_ptr<PhiMap>> maps;
-      for (const double theta : rule.nodes)
-        maps.push_back(phi_.map(output_.at(Eigen::VectorXd::Constant(1, theta), PhiRows::Outputs::all), h));
-      return maps;
+    if (kind_ != Kind::quadratic) return made;
+    const auto form = [&](const GaussRule& rule) {
+      PhiEvaluator::Form f{output_.at(rule.nodes, PhiRows::Outputs::all), {}};
+      for (const double w : rule.weights) f.coefficients.push_back(h * w);
+      return f;
     };
-    made->fine = nodes(fine_);
-    made->coarse = nodes(coarse_);
+    const std::array forms = {form(fine_), form(coarse_)};
+    made->forms = phi_.forms(forms, h);
     return made;
   });
 }
@@ -64,7 +54,10 @@ void StepDissipation::add(double t, const Vector& z, const Vector& gradient, dou
 }
 
 void StepDissipation::add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces,
-                                const GaussRule& rule, const NodeMaps& maps, double& sum, bool& negative) {
+                                const GaussRule& rule, NodeMaps& maps, double& sum, bool& negative) {
+  if (maps.empty())
+    for (const double theta : rule.nodes)
+      maps.push_back(phi_.map(output_.at(Eigen::VectorXd::Constant(1, theta), PhiRows::Outputs::all), h));
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const auto at = static_cast<Index>(i);
     maps[i]->apply(z, forces, node_);

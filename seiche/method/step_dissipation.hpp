@@ -1,9 +1,9 @@
 // What damping takes from H over one step, ∫ Q dt with Q = ∇Hᵀ(Dz − S∇H), by two quadratures on the dense output of a method.
 #pragma once
 
+#include <seiche/core/step_cache.hpp>
 #include <seiche/core/system.hpp>
 #include <seiche/method/gauss.hpp>
-#include <seiche/method/step_cache.hpp>
 
 #include <functional>
 #include <memory>
@@ -37,8 +37,8 @@ class StepDissipation {
 
   struct Amount {
     double fine = 0.0, coarse = 0.0;
-    bool negative =
-        false;  // is some Q beyond round-off below zero? Then the energy-compatible damping condition fails.
+    // Is some Q beyond round-off below zero? Then the energy-compatible damping condition fails.
+    bool negative = false;
   };
   // Of the step from (t, z) with these forces. `coarse`: where it is known already (general), else null.
   Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Amount* coarse = nullptr);
@@ -50,10 +50,10 @@ class StepDissipation {
   using NodeMaps = std::vector<std::unique_ptr<PhiMap>>;  // one for each node of a rule
   struct Tables {
     std::unique_ptr<PhiForms> forms;  // quadratic
-    NodeMaps fine, coarse;            // general
+    NodeMaps fine, coarse;            // general; each made when it is first asked for
   };
   void add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces, const GaussRule& rule,
-                 const NodeMaps& maps, double& sum, bool& negative);
+                 NodeMaps& maps, double& sum, bool& negative);
   Tables& tables(double h);
 
   const System& system_;

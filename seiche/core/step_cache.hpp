@@ -1,4 +1,4 @@
-// What a method computes once for each step size.
+// What is computed once for each step size.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline std::size_t cached_step_sizes(std::ptrdiff_t size) {
 template <class T>
 class StepCache {
  public:
-  explicit StepCache(std::size_t capacity) : capacity_(capacity) {}
+  explicit StepCache(std::size_t capacity = 16) : capacity_(capacity) {}
 
   // make(): a std::unique_ptr<T>, asked for where h is new.
   template <class Make>

@@ -1,0 +1,37 @@
+#include <seiche/method/nonlinear_force.hpp>
+
+namespace seiche {
+
+NonlinearForce::NonlinearForce(const System& system)
+    : system_(system),
+      kind_(system.damping->is_frozen() ? PhiRows::Forces::gradients : PhiRows::Forces::states),
+      gradient_(Vector::Zero(system.space->size())),
+      rest_(Vector::Zero(system.space->size())) {}
+
+void NonlinearForce::evaluate(double t, Vector& z) {
+  if (kind_ == PhiRows::Forces::gradients) {
+    system_.potential->value_and_gradient(z, z);
+    return;
+  }
+  system_.potential->gradient(z, gradient_);
+  complete(t, z);
+}
+
+void NonlinearForce::evaluate(double t, Vector& z, Look look) {
+  system_.potential->gradient(z, gradient_);
+  look(z, gradient_);
+  complete(t, z);
+}
+
+void NonlinearForce::complete(double t, Vector& z) {
+  if (kind_ == PhiRows::Forces::gradients) {
+    const Potential::Support support = system_.potential->support();
+    z.segment(support.begin, support.size) = gradient_.segment(support.begin, support.size);
+    return;
+  }
+  system_.damping->apply_rest(t, z, rest_);
+  system_.linear->apply_S(gradient_, z);
+  z -= rest_;
+}
+
+}  // namespace seiche

@@ -1,0 +1,28 @@
+// What drives z beside Lz, for methods that take L = SM − D₀ into exponentials.
+#pragma once
+
+#include <seiche/core/function_ref.hpp>
+#include <seiche/core/system.hpp>
+
+namespace seiche {
+
+// N(t, z) = S∇V(z) − (D(t) − D₀)z; or, where D(t) = D₀, only ∇V(z): then φ-maps multiply by S.
+class NonlinearForce {
+ public:
+  explicit NonlinearForce(const System& system);  // which outlives it
+
+  PhiRows::Forces kind() const { return kind_; }  // what PhiRows is to say of these forces
+
+  using Look = FunctionRef<void(const Vector& z, const Vector& potential_gradient)>;
+  void evaluate(double t, Vector& z);             // z ← N(t, z), or ∇V(z)
+  void evaluate(double t, Vector& z, Look look);  // the same, after a look at z and ∇V(z)
+
+ private:
+  void complete(double t, Vector& z);  // from gradient_ = ∇V(z)
+
+  const System& system_;
+  PhiRows::Forces kind_;
+  Vector gradient_, rest_;  // ∇V is zero outside its support
+};
+
+}  // namespace seiche
