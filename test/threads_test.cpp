@@ -4,6 +4,9 @@
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 
+#include <memory>
+#include <vector>
+
 namespace seiche::test {
 namespace {
 
@@ -33,6 +36,20 @@ TEST(Threads, DoNotChangeASingleBitOnAnyGrid) {
       for (const int threads : {2, 3}) EXPECT_EQ(after_some_steps(problem, method, threads), one) << method;
     }
   }
+}
+
+// A caller that runs several simulations on threads of its own.
+TEST(Threads, SimulationsInsideAParallelRegionOfTheCallerAreTheSame) {
+  const Problem problem = klein_gordon({.grid = {.points = {64, 64}, .length = {7.0}}, .alpha = 1});
+  const Vector expected = after_some_steps(problem, "seisav", 1);
+  constexpr int simulations = 4;
+  std::vector<std::unique_ptr<Simulation>> all;  // made one by one: FFTW plans on one thread at a time
+  for (int i = 0; i < simulations; ++i)
+    all.push_back(std::make_unique<Simulation>(problem, SimulationOptions{.method = "seisav", .backend = "modal"}));
+#pragma omp parallel for num_threads(simulations) schedule(static, 1)
+  for (int i = 0; i < simulations; ++i)
+    for (int n = 0; n < 4; ++n) all[static_cast<std::size_t>(i)]->step(1.0 / 32);
+  for (const auto& simulation : all) EXPECT_EQ(simulation->state().z, expected.head(simulation->state().z.size()));
 }
 
 }  // namespace

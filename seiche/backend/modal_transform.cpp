@@ -73,9 +73,9 @@ class ModalTransform final : public FieldTransform {
       });
     }
     columns_to_values(slots);
-    for_blocks(batch_count_, threads_, [&](Index batch) {
+    for_blocks_by_thread(batch_count_, threads_, [&](Index batch, int thread) {
       double* at = slots.data() + row(batch) * rows_->slots();
-      double* values = values_[static_cast<std::size_t>(thread_number())].get();
+      double* values = values_[static_cast<std::size_t>(thread)].get();
       rows_->to_values(at, values, rows_in(batch));
       sums_[static_cast<std::size_t>(batch)] = f({values, static_cast<std::size_t>(rows_in(batch) * rows_->values())});
       rows_->to_slots(values, at, rows_in(batch));
