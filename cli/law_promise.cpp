@@ -22,6 +22,9 @@ std::string negative_rate(const Problem& problem) {
     if (!rate || rate->negative_seen() < 0) return "";
     return fmt::format("the rate {} is negative at t = {:.6g}", rate->text(), rate->negative_seen());
   };
+  if (problem.friction)
+    if (const std::string place = problem.friction->fed_at(); !place.empty())
+      return fmt::format("the friction {} feeds energy at {}", problem.friction->text(), place);
   const std::string everywhere = complaint(problem.damping.rate);
   return everywhere.empty() ? complaint(problem.damping.field_rate) : everywhere;
 }

@@ -9,6 +9,8 @@
 #include <seiche/core/law.hpp>
 #include <seiche/core/observer.hpp>
 #include <seiche/damping/field_rates.hpp>
+#include <seiche/damping/formula_frictions.hpp>
+#include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>

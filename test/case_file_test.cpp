@@ -65,7 +65,7 @@ TEST(CaseFile, MissingKeysTakeTheirDefaults) {
     const RunSpec spec = parse_case("[problem]\nname = \"" + entry.name + "\"\n", "x.toml");
     EXPECT_EQ(spec.problem, entry.name);
     EXPECT_EQ(std::get<PresetData>(spec.initial).name, entry.presets.front());
-    EXPECT_EQ(spec.method, "seisav");
+    EXPECT_EQ(spec.method, entry.default_method);
     EXPECT_GT(spec.h, 0.0);
     EXPECT_EQ(spec.t_end, entry.default_end);
     EXPECT_FALSE(spec.method_options.C);

@@ -30,7 +30,7 @@ std::vector<Setting> settings() {
 // The largest entry of F + Fᵀ + FᵀMF in units of the terms: 0 for skew S.
 double skew_defect(const Matrix& F, const Matrix& M) {
   const Matrix FMF = F.transpose() * M * F;
-  return largest(F + F.transpose() + FMF) / (largest(F) + largest(FMF));
+  return largest(F + F.transpose() + FMF) / (largest(F) + largest(FMF) + 1e-300);  // S = 0: nothing moves
 }
 
 template <class Check>

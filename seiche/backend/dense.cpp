@@ -1,3 +1,4 @@
+#include <seiche/backend/beyond_linear.hpp>
 #include <seiche/backend/dense.hpp>
 #include <seiche/backend/dense_phi.hpp>
 #include <seiche/backend/force_map.hpp>
@@ -170,6 +171,9 @@ System dense_system(const Problem& problem, const BackendOptions&) {
     make_flow = [D](double h) { return std::make_unique<DenseMap>(damping_exponential(D, h)); };
   }
   system.damping = std::make_unique<GridDamping>(problem, n, std::move(constant), std::move(make_flow));
+  add_beyond_linear(system, problem, identity,
+                    problem.derivative.is_zero() ? nullptr
+                                                 : std::make_unique<DenseMap>(problem.derivative.matrix(problem.grid)));
   system.initial = problem.initial;
   return system;
 }

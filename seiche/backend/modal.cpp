@@ -1,3 +1,4 @@
+#include <seiche/backend/beyond_linear.hpp>
 #include <seiche/backend/force_map.hpp>
 #include <seiche/backend/grid_damping.hpp>
 #include <seiche/backend/grid_potential.hpp>
@@ -119,16 +120,10 @@ class ModalLinear final : public LinearPart {
     return true;
   }
 
-  static bool is_real(const BlockStencil& a) {
-    for (Index i = 0; i < a.fields(); ++i)
-      for (Index j = 0; j < a.fields(); ++j)
-        if (!a(i, j).is_symmetric()) return false;
-    return true;
-  }
-
   static ModeLayout layout(const Problem& problem) {
     if (!problem.grid.is_periodic()) return ModeLayout::singles;
-    return is_real(problem.S) && is_real(problem.M) ? ModeLayout::real_pairs : ModeLayout::complex_pairs;
+    return problem.S.has_real_symbol() && problem.M.has_real_symbol() ? ModeLayout::real_pairs
+                                                                      : ModeLayout::complex_pairs;
   }
   ModeLayout real_layout() const {
     return extent_.layout == ModeLayout::singles ? ModeLayout::singles : ModeLayout::real_pairs;
@@ -269,6 +264,14 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
     };
   }
   system.damping = std::make_unique<GridDamping>(problem, transform, std::move(constant), std::move(make_flow));
+  std::unique_ptr<LinearMap> derivative;
+  if (!problem.derivative.is_zero()) {
+    const Modes modes(problem.grid);
+    derivative = std::make_unique<ModeMap>(modes, 1, [&](Index k) -> Block {
+      return Block::Constant(1, 1, problem.derivative.symbol(modes[k]));
+    });
+  }
+  add_beyond_linear(system, problem, transform, std::move(derivative));
   system.initial.resize(system.space->size());
   system.space->from_physical(problem.initial, system.initial);
   return system;

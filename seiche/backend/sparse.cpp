@@ -1,3 +1,4 @@
+#include <seiche/backend/beyond_linear.hpp>
 #include <seiche/backend/grid_damping.hpp>
 #include <seiche/backend/grid_potential.hpp>
 #include <seiche/backend/grid_space.hpp>
@@ -10,7 +11,8 @@
 namespace seiche {
 namespace {
 
-SparseMatrix matrix_of(const Problem& problem, const BlockStencil& stencil) {
+template <class AnyStencil>
+SparseMatrix matrix_of(const Problem& problem, const AnyStencil& stencil) {
   try {
     return stencil.sparse_matrix(problem.grid);
   } catch (const Error& error) {
@@ -49,6 +51,8 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
     make_flow = sparse_damping_flow(matrices.D);
   }
   system.damping = std::make_unique<GridDamping>(problem, n, std::move(constant), std::move(make_flow));
+  add_beyond_linear(system, problem, identity,
+                    problem.derivative.is_zero() ? nullptr : sparse_map(matrix_of(problem, problem.derivative)));
   system.initial = problem.initial;
   return system;
 }

@@ -28,6 +28,11 @@ bool is_permutation_of_diagonal(const SparseMatrix& A) {
 SparseMatrix sparse_kernel(const SparseMatrix& A) {
   const Index n = A.cols();
   if (n > kernel_limit || is_permutation_of_diagonal(A)) return {n, 0};
+  if (A.nonZeros() == 0) {  // SparseQR finds no rank in nothing
+    SparseMatrix everything(n, n);
+    everything.setIdentity();
+    return everything;
+  }
   SparseMatrix transposed = A.transpose();
   transposed.makeCompressed();
   double largest = 0;

@@ -27,7 +27,7 @@ std::vector<std::string> keys_of(const std::string& section, const ProblemEntry*
   if (section == "time") return {"end"};
   if (section == "output") return {"directory", "energy_every", "ledger", "snapshot_every", "snapshot_interval"};
   if (section == "ensemble") return ensemble_keys(problem);
-  std::vector<std::string> keys = {"name", "initial"};
+  std::vector<std::string> keys = {"name", "initial", "friction", "force"};
   if (problem != nullptr)
     for (const Parameter& parameter : problem->parameters) keys.push_back(parameter.name);
   return keys;
@@ -157,9 +157,15 @@ class Reader {
     on("problem", "initial", [&](const std::string& key, const CaseValue& value) {
       spec_.initial = read_initial(key, value, *problem_, folder_);
     });
+    on("problem", "friction",
+       [&](const std::string& key, const CaseValue& value) { spec_.drives.friction = read_friction(key, value); });
+    on("problem", "force", [&](const std::string& key, const CaseValue& value) {
+      spec_.drives.forces = read_forces(key, value, *problem_);
+    });
   }
 
   void read_method() {
+    if (problem_ != nullptr) spec_.method = problem_->default_method;
     const MethodEntry* method = &find_method(spec_.method);
     on("method", "name", [&](const std::string&, const CaseValue& value) {
       method = nullptr;

@@ -37,21 +37,11 @@ RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, dou
   return formula_rate(std::move(formula));
 }
 
-// A formula in t alone is a rate for all points. Any other asks for as many axes as it names, and is checked on the grid.
+// A formula in t alone is a rate for all points. Any other is checked on the grid.
 ParameterValue read_formula_rate(const std::string& key, const Parameter& parameter, const std::string& text,
                                  double t_end) {
   if (FormulaPointer formula = compiled(text, {"t"})) return checked_rate(parameter, std::move(formula), t_end);
-  const std::vector<std::string> names = {"t", "x", "y", "z"};
-  const auto end = [&](Index axes) { return names.begin() + axes + 1; };
-  Index axes = 1;
-  while (axes < 3 && !compiled(text, {names.begin(), end(axes)})) ++axes;
-  try {
-    FormulaPointer formula = compile_formula(text, {names.begin(), end(axes)});
-    const bool constant_in_time = compiled(text, {names.begin() + 1, end(axes)}) != nullptr;
-    return formula_space_rate(std::move(formula), axes, constant_in_time);
-  } catch (const Error& error) {
-    throw Error("{}: {}", key, error.what());
-  }
+  return compile_space_rate(key, text);
 }
 
 ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, double t_end) {
@@ -115,6 +105,21 @@ std::vector<T> gathered(const std::vector<ParameterValue>& values) {
 }
 
 }  // namespace
+
+SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text) {
+  const std::vector<std::string> names = {"t", "x", "y", "z"};
+  const auto end = [&](Index axes) { return names.begin() + axes + 1; };
+  if (FormulaPointer formula = compiled(text, {"t"})) return uniform_space_rate(formula_rate(std::move(formula)));
+  Index axes = 1;
+  while (axes < 3 && !compiled(text, {names.begin(), end(axes)})) ++axes;
+  try {
+    FormulaPointer formula = compile_formula(text, {names.begin(), end(axes)});
+    const bool constant_in_time = compiled(text, {names.begin() + 1, end(axes)}) != nullptr;
+    return formula_space_rate(std::move(formula), axes, constant_in_time);
+  } catch (const Error& error) {
+    throw Error("{}: {}", key, error.what());
+  }
+}
 
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
                    const std::filesystem::path& folder) {

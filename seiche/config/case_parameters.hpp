@@ -14,6 +14,9 @@ namespace seiche {
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
                    const std::filesystem::path& folder = {});
 
+// A formula in t and as many of x, y, z as it names, which asks the grid for so many axes. Throws Error that names the key.
+SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text);
+
 // A preset, { file = "…" }, or a formula for every field. A relative file name starts at `folder`, or else at the
 // current one.
 InitialData read_initial(std::string_view key, const CaseValue& value, const ProblemEntry& problem,

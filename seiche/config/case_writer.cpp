@@ -71,6 +71,7 @@ std::string write_case(const RunSpec& spec) {
     text += fmt::format("{} = {}\n", parameter.name, parameter_literal(parameter, value->second));
   }
   text += fmt::format("initial = {}\n", initial_text(spec.initial));
+  text += write_drives(spec.drives);
 
   const MethodOptions& options = spec.method_options;
   text += fmt::format("\n[method]\nname = {}\n", toml_string(spec.method));
@@ -108,9 +109,10 @@ std::string example_case(const std::string& problem) {
   text += line("initial", toml_string(entry.presets.front()),
                fmt::format("{}; or {{ file = \"z0.txt\" }}; or formulas in x (y, z), j: {{ {} }}",
                            fmt::join(entry.presets, " | "), fmt::join(formulas, ", ")));
+  text += example_drives();
 
   text += "\n[method]\n";
-  text += line("name", "\"seisav\"", fmt::format("{}", fmt::join(method_names(), " | ")));
+  text += line("name", toml_string(entry.default_method), fmt::format("{}", fmt::join(method_names(), " | ")));
   text += line("h", number_or_string(entry.default_h), "step size, time; a number, or a fraction in quotes");
   text += line("# tolerance", "1e-8",
                "steps of variable size, with this error at the end (max norm); h is then the first step tried");

@@ -99,6 +99,7 @@ Problem make_problem(const RunSpec& spec) {
     const auto* preset = std::get_if<PresetData>(&spec.initial);
     Problem problem = entry.make(spec.parameters, preset != nullptr ? preset->name : entry.presets.front());
     check_field_rates(spec, problem);
+    add_drives(spec.drives, problem);
     if (const auto* data = std::get_if<FileData>(&spec.initial))
       problem.initial = read_initial_file(data->file, problem);
     if (const auto* data = std::get_if<FormulaData>(&spec.initial))

@@ -1,6 +1,7 @@
 // A case file, checked: what to run, with which method, and what to record.
 #pragma once
 
+#include <seiche/config/drive_case.hpp>
 #include <seiche/config/ensemble_case.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/parameter.hpp>
@@ -37,6 +38,7 @@ struct RunSpec {
   ParameterValues parameters;                          // one for every Parameter of the problem
   std::map<std::string, std::string> parameter_texts;  // the same as written: "1/3", "0.1 + 0.05*sin(t)"
   InitialData initial;
+  DriveSpec drives;
 
   std::string method = "seisav";
   double h = 0.0;                   // the step size; beside a tolerance the first one, or 0

@@ -1,8 +1,9 @@
-// The linear damping D(t) and its flow.
+// The damping D(t)z + R(t, z) and its flow; R = 0 but for friction beyond linear.
 #pragma once
 
 #include <seiche/core/vector.hpp>
 
+#include <cstdint>
 #include <span>
 
 namespace seiche {
@@ -11,13 +12,16 @@ class Damping {
  public:
   virtual ~Damping() = default;
   virtual bool is_zero() const = 0;
-  virtual bool touches_potential() const = 0;  // does it move a component that V depends on?
-  // z ← Ψ(t, t+h) z = exp(−∫ₜᵗ⁺ʰ D) z. The length h is passed instead of the end so that equal steps reuse one matrix.
+  virtual bool touches_potential() const = 0;      // does it move a component that V depends on?
+  virtual bool is_linear() const { return true; }  // R = 0
+  // z ← Ψ(t, t+h) z: exp(−∫ₜᵗ⁺ʰ D) z, or with R a symmetric composition of its flow and that one. The length h is passed
+  // instead of the end so that equal steps reuse one matrix.
   virtual void flow(double t, double h, Vector& z) const = 0;
-  virtual void apply(double t, const Vector& z, Vector& out) const = 0;  // D(t) z
-  // Beside the constant D₀ that exponential methods take into L = SM − D₀ (frozen_damping): is D(t) = D₀?
+  virtual void apply(double t, const Vector& z, Vector& out) const = 0;  // D(t)z + R(t, z)
+  // Beside the constant D₀ that exponential methods take into L = SM − D₀ (frozen_damping): is D(t)z + R(t, z) = D₀z?
   virtual bool is_frozen() const = 0;
-  virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀) z
+  virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀)z + R(t, z)
+  virtual std::int64_t corrections() const { return 0; }                      // Friction::corrections
   // Where Ψ(t, t+h) multiplies each field by a number: those numbers, and true. A step then need not make a pass of it.
   virtual bool field_factors(double /*t*/, double /*h*/, std::span<double> /*factors*/) const { return false; }
 };

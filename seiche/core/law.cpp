@@ -37,19 +37,6 @@ Extreme hermitian_extremes(const Grid& grid, const Symbol& symbol) {
   return extreme;
 }
 
-Eigen::MatrixXcd rate_symbol(const Problem& problem) {
-  Eigen::MatrixXcd p = Eigen::MatrixXcd::Zero(problem.field_count(), problem.field_count());
-  for (Index i = 0; i < problem.field_count(); ++i) p(i, i) = problem.damping.rate_fields[static_cast<std::size_t>(i)];
-  return p;
-}
-
-bool is_multiple_of_identity(const Grid& grid, const Stencil& stencil) {
-  const Modes modes(grid);
-  for (Index k = 0; k < modes.count(); ++k)
-    if (stencil.symbol(modes[k]) != stencil.symbol(modes[0])) return false;
-  return true;
-}
-
 // "t = 1, x = 0.5, y = 2" where the rate is smallest at time t.
 std::string place_of_smallest(const FieldRate& rate, const Grid& grid, double t) {
   std::vector<double> gamma(static_cast<std::size_t>(grid.unknowns()));
@@ -71,7 +58,7 @@ std::string complaint_about_field_rate(const Problem& problem, double t_end) {
   for (Index i = 0; i < problem.field_count(); ++i) {
     if (!problem.damping.rate_fields[static_cast<std::size_t>(i)]) continue;
     for (Index j = 0; j < problem.field_count(); ++j) {
-      if (i == j ? is_multiple_of_identity(problem.grid, problem.M(i, i)) : problem.M(i, j).is_zero()) continue;
+      if (i == j ? problem.M(i, i).factor_of_identity().has_value() : problem.M(i, j).is_zero()) continue;
       return fmt::format(
           "the rate {} changes from point to point and M is not a multiple of the identity on the damped field {}: "
           "sym(MD) ⪰ 0 is not guaranteed",
@@ -82,10 +69,7 @@ std::string complaint_about_field_rate(const Problem& problem, double t_end) {
   return "";
 }
 
-}  // namespace
-
-LawPromise promise_energy_law(const Problem& problem, double t_end) {
-  if (problem.matrices) return promise_energy_law_of_matrices(problem, t_end);
+LawPromise promise_of_stencils(const Problem& problem, double t_end) {
   const auto m = [&](const Mode& mode) { return problem.M.symbol(mode); };
   const Extreme metric = hermitian_extremes(problem.grid, m);
   if (!metric.is_nonnegative()) {
@@ -117,6 +101,14 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
     return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
   }
   return promise_given_semidefinite_MD(problem);
+}
+
+}  // namespace
+
+LawPromise promise_energy_law(const Problem& problem, double t_end) {
+  if (const std::string complaint = complaint_beyond_linear(problem, t_end); !complaint.empty())
+    return {false, complaint};
+  return problem.matrices ? promise_energy_law_of_matrices(problem, t_end) : promise_of_stencils(problem, t_end);
 }
 
 }  // namespace seiche

@@ -4,6 +4,13 @@
 
 namespace seiche {
 
+std::string complaint_beyond_linear(const Problem& problem, double t_end) {
+  if (problem.has_forces()) return "an external force does work on the system";
+  if (!problem.friction || problem.friction->is_dissipative()) return "";
+  const std::string place = problem.friction->feeds_at(t_end);
+  return place.empty() ? "" : fmt::format("the friction {} feeds energy at {}", problem.friction->text(), place);
+}
+
 LawPromise promise_given_semidefinite_MD(const Problem& problem) {
   if (!problem.damping_moves_potential()) return {true, "sym(MD) ⪰ 0 and V does not depend on the damped fields"};
   // sym(MD) ⪰ 0 is not enough where damping moves what V depends on. D = γI lets V fall where u·∇V(u) ≥ 0.

@@ -16,6 +16,9 @@ std::string complaint_about_rate(const AnyRate* rate, double t_end) {
   return t >= 0 ? fmt::format("the rate {} is negative at t = {:.6g}", rate->text(), t) : "";
 }
 
+// What stands against a law beside S, M and D: friction that feeds, external forces. A sentence, or "".
+std::string complaint_beyond_linear(const Problem& problem, double t_end);
+
 // The last question, once M ⪰ 0, sym(S) ⪯ 0 and sym(MD) ⪰ 0 are known: may the damping raise V?
 LawPromise promise_given_semidefinite_MD(const Problem& problem);
 

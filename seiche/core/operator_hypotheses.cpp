@@ -84,12 +84,6 @@ Hypothesis semidefinite(const Problem& problem, std::string name, const Symbol& 
   return {std::move(name), Grade::verified, std::move(text), std::max(s.value, 0.0)};
 }
 
-Block rate_symbol(const Problem& problem) {
-  Block p = Block::Zero(problem.field_count(), problem.field_count());
-  for (Index i = 0; i < problem.field_count(); ++i) p(i, i) = problem.damping.rate_fields[static_cast<std::size_t>(i)];
-  return p;
-}
-
 bool has_rate(const Problem& problem) { return problem.damping.rate || problem.damping.field_rate; }
 
 }  // namespace
@@ -120,7 +114,6 @@ Hypothesis hypothesis_of_M(const Problem& problem) {
 
 Hypothesis hypothesis_of_MD(const Problem& problem) {
   const std::string name = "sym(MD) ⪰ 0";
-  if (!problem.has_damping()) return {name, Grade::by_structure, "there is no damping"};
   std::vector<Hypothesis> parts;
   if (problem.matrices) {
     const SparseMatrix& M = problem.matrices->M;
@@ -141,6 +134,7 @@ Hypothesis hypothesis_of_MD(const Problem& problem) {
           problem, name, [&](const Mode& mode) -> Block { return problem.M.symbol(mode) * rate_symbol(problem); },
           "the rate takes from ½zᵀMz where it is ≥ 0"));
   }
+  if (parts.empty()) return {name, Grade::by_structure, "there is no linear damping"};
   Hypothesis worst = parts.front();
   for (const Hypothesis& part : parts)
     if (part.grade == Grade::violated) worst = part;

@@ -1,8 +1,13 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/problem.hpp>
 
+#include <algorithm>
+
 namespace seiche {
 namespace {
+
+constexpr std::string_view methods_that_split =
+    "the splitting methods (savf, ssav, slm, seavf, seisav, seilm, seidm) and egc2 … egc8 take it";
 
 bool any_entry_in_row(const BlockStencil& a, Index row) {
   for (Index j = 0; j < a.fields(); ++j)
@@ -55,13 +60,18 @@ bool Problem::potential_depends_on(Index field) const {
   return potential && field >= potential_field && field < potential_field + potential->fields();
 }
 
-bool Problem::has_damping() const { return damping.rate || damping.field_rate || has_constant_damping(); }
+bool Problem::has_damping() const { return damping.rate || damping.field_rate || friction || has_constant_damping(); }
+
+bool Problem::has_forces() const {
+  return std::any_of(forces.begin(), forces.end(), [](const FieldRatePointer& f) { return f != nullptr; });
+}
 
 bool Problem::has_constant_damping() const {
   return matrices ? matrices->D.nonZeros() > 0 : !damping.constant.is_zero();
 }
 
 bool Problem::damping_moves(Index field) const {
+  if (friction && field >= field_count() / 2) return true;  // momenta
   if ((damping.rate || damping.field_rate) && damping.rate_fields[static_cast<std::size_t>(field)]) return true;
   if (matrices) return matrices->damping_moves(field * grid.unknowns(), grid.unknowns());
   return any_entry_in_row(damping.constant, field);
@@ -77,6 +87,13 @@ SparseMatrix rate_matrix(const Problem& problem) {
   SparseMatrix p(problem.size(), problem.size());
   for (Index i = 0; i < problem.size(); ++i)
     if (problem.damping.rate_fields[static_cast<std::size_t>(i / problem.grid.unknowns())]) p.insert(i, i) = 1;
+  return p;
+}
+
+Eigen::MatrixXcd rate_symbol(const Problem& problem) {
+  const Index n = problem.field_count();
+  Eigen::MatrixXcd p = Eigen::MatrixXcd::Zero(n, n);
+  for (Index i = 0; i < n; ++i) p(i, i) = problem.damping.rate_fields[static_cast<std::size_t>(i)];
   return p;
 }
 
@@ -104,6 +121,15 @@ SparseMatrix frozen_damping_matrix(const Problem& problem) {
 
 Problem with_damping_merged(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
+  if (problem.friction)
+    throw Error("a method that merges the damping into S needs a linear damping, but {} has the friction {}; {}",
+                problem.name, problem.friction->text(), methods_that_split);
+  if (problem.structure)
+    throw Error("a method that merges the damping into S needs one matrix S, and in {} it is {}; egc2 … egc8 take it",
+                problem.name, problem.structure->text());
+  if (problem.has_forces())
+    throw Error("a method that merges the damping into S has no place for the external force on {}; {}", problem.name,
+                methods_that_split);
   if (!problem.has_damping()) return problem;
   if (damping.field_rate)
     throw Error(

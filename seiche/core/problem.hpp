@@ -1,12 +1,14 @@
-// An equation ż = S∇H(z) − D(t)z, stated by stencils on a grid or by sparse matrices, a potential and z₀; it knows no
-// backend.
+// An equation ż = S(z)∇H(z) − D(t)z − R(t, z) + f(t), stated by stencils on a grid or by sparse matrices, a potential and
+// z₀; it knows no backend.
 #pragma once
 
+#include <seiche/core/friction.hpp>
 #include <seiche/core/grid.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/rate.hpp>
 #include <seiche/core/sparse_operators.hpp>
 #include <seiche/core/stencil.hpp>
+#include <seiche/core/structure.hpp>
 
 #include <memory>
 #include <string>
@@ -28,6 +30,10 @@ struct Problem {
   std::vector<std::string> fields;  // z = (field 0 at all points, field 1 at all points, …)
   BlockStencil S, M;
   LinearDamping damping;
+  FrictionPointer friction = nullptr;         // R, on the momenta of the problem; null: none
+  std::vector<FieldRatePointer> forces = {};  // f(x, t) of every field, null for none; empty: none at all
+  StructurePointer structure = nullptr;       // S(z) − S; null: the structure matrix is S
+  Stencil derivative = {};                    // ∂, where `structure` asks for it
   // Where coefficients change from point to point: S, M and the constant part of D as matrices. S, M and damping.constant
   // above are then zero blocks, and `grid` only counts and places the points.
   std::shared_ptr<const SparseOperators> matrices;
@@ -40,13 +46,16 @@ struct Problem {
   Index size() const { return field_count() * grid.unknowns(); }
   bool potential_depends_on(Index field) const;
   bool has_damping() const;
+  bool has_forces() const;
   bool has_constant_damping() const;      // beside γ
   bool damping_moves(Index field) const;  // does the field change under Ψ?
   bool damping_moves_potential() const;   // does V?
 };
 
-// P of LinearDamping as a matrix: ones on the diagonal in the rows of `rate_fields`.
+// P of LinearDamping, ones on the diagonal in the rows of `rate_fields`: as a matrix of all unknowns, and as the block of
+// every mode.
 SparseMatrix rate_matrix(const Problem& problem);
+Eigen::MatrixXcd rate_symbol(const Problem& problem);
 
 // D₀, the constant damping that stands in for D(t) in the exponentials of L = SM − D₀: the constant part, γ(0) and the mean
 // of γ(x, 0). What D(t) has beyond it, if anything, acts as a force.

@@ -24,6 +24,15 @@ double sin_pi(Index p, Index q) {
 
 // Coefficients of a central difference, by offset.
 std::map<Index, double> taps(int order, Discretisation discretisation, double dx) {
+  if (order == 3) {
+    std::map<Index, double> product;
+    for (const auto& [i, a] : taps(1, discretisation, dx))
+      for (const auto& [j, b] : taps(2, discretisation, dx)) product[i + j] += a * b;
+    std::erase_if(product, [](const auto& tap) { return tap.first == 0; });
+    for (auto& [offset, c] : product)
+      if (offset < 0) c = -product.at(-offset);  // antisymmetric to the last bit, as the sums need not be
+    return product;
+  }
   if (order == 1) {
     if (discretisation == Discretisation::fd2) return {{-1, -1 / (2 * dx)}, {1, 1 / (2 * dx)}};
     const double c = 1 / (12 * dx);
@@ -99,12 +108,20 @@ Stencil Stencil::laplacian(const Grid& grid, Discretisation discretisation) {
   return s;
 }
 
-Stencil Stencil::derivative(const Grid& grid, Index axis, Discretisation discretisation) {
+Stencil Stencil::odd_derivative(const Grid& grid, Index axis, int order, Discretisation discretisation) {
   if (grid.axis(axis).boundary != Boundary::periodic)
-    throw Error("a first derivative along axis {} needs a periodic grid", axis);
+    throw Error("a {} derivative along axis {} needs a periodic grid", order == 1 ? "first" : "third", axis);
   Stencil s;
-  s.terms_.push_back({axis, 1, discretisation, grid.axis(axis).dx(), 1.0});
+  s.terms_.push_back({axis, order, discretisation, grid.axis(axis).dx(), 1.0});
   return s;
+}
+
+Stencil Stencil::derivative(const Grid& grid, Index axis, Discretisation discretisation) {
+  return odd_derivative(grid, axis, 1, discretisation);
+}
+
+Stencil Stencil::third_derivative(const Grid& grid, Index axis, Discretisation discretisation) {
+  return odd_derivative(grid, axis, 3, discretisation);
 }
 
 Stencil& Stencil::operator+=(const Stencil& other) {
@@ -130,6 +147,10 @@ Stencil& Stencil::operator*=(double factor) {
   return *this;
 }
 
+std::optional<double> Stencil::factor_of_identity() const {
+  return terms_.empty() ? std::optional(identity_) : std::nullopt;
+}
+
 bool Stencil::is_symmetric() const {
   return std::all_of(terms_.begin(), terms_.end(), [](const Term& t) { return t.order == 2; });
 }
@@ -141,7 +162,14 @@ bool Stencil::is_sparse() const {
 
 // With θ = 2πk/period the phase from point to point and s = sin(θ/2):
 //   second derivative  −4s²/Δx²,  −4s²(1 + s²/3)/Δx²,  −κ²;      first  i sin θ/Δx,  i sin θ (1 + 2s²/3)/Δx,  iκ
+// and the third is their product.
 std::complex<double> Stencil::symbol(const Term& term, Index k, Index period) {
+  if (term.order == 3) {
+    const auto of_order = [&](int order) {
+      return symbol({term.axis, order, term.discretisation, term.dx, 1.0}, k, period);
+    };
+    return term.factor * of_order(1) * of_order(2);
+  }
   if (2 * k > period) k -= period;
   const double kappa = 2 * std::numbers::pi * static_cast<double>(k) / (static_cast<double>(period) * term.dx);
   const double s2 = square(sin_pi(k, period));
@@ -262,6 +290,10 @@ bool BlockStencil::is_zero() const {
 
 bool BlockStencil::is_sparse() const {
   return std::all_of(entries_.begin(), entries_.end(), [](const Stencil& s) { return s.is_sparse(); });
+}
+
+bool BlockStencil::has_real_symbol() const {
+  return std::all_of(entries_.begin(), entries_.end(), [](const Stencil& s) { return s.is_symmetric(); });
 }
 
 Eigen::MatrixXcd BlockStencil::symbol(const Mode& mode) const {

@@ -3,6 +3,7 @@
 namespace seiche {
 
 StepLedger& StepLedger::operator+=(const StepLedger& other) {
+  work += other.work;
   damping_left += other.damping_left;
   substep += other.substep;
   auxiliary += other.auxiliary;

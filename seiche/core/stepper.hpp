@@ -11,6 +11,7 @@ namespace seiche {
 
 // Where the change of H comes from. The parts of a step add up to H after − H before, but for round-off.
 struct StepLedger {
+  double work = 0.0;          // of external forces
   double damping_left = 0.0;  // the first damping half-flow; for collocation all of −∫Q dt, by quadrature
   double substep = 0.0;  // what the Hamiltonian substep changes of the energy it is to keep: the dissipation of S, the
                          // residual of a scalar equation; for collocation what ẑ misses of the dissipation
@@ -18,7 +19,7 @@ struct StepLedger {
   double projection = 0.0;     // onto the energy of the law
   double damping_right = 0.0;  // the second damping half-flow
 
-  double sum() const { return damping_left + substep + auxiliary + projection + damping_right; }
+  double sum() const { return work + damping_left + substep + auxiliary + projection + damping_right; }
   StepLedger& operator+=(const StepLedger& other);
 };
 

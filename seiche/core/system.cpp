@@ -24,7 +24,15 @@ System::Dissipation System::dissipation(double t, const Vector& z, const Vector&
   result.round_off = gradient_H.cwiseAbs().dot(scratch.cwiseAbs());
   linear->apply_S(gradient_H, scratch);
   result.rate -= gradient_H.dot(scratch);
-  result.round_off = 100 * epsilon * (result.round_off + gradient_H.cwiseAbs().dot(scratch.cwiseAbs()));
+  double sizes = gradient_H.cwiseAbs().dot(scratch.cwiseAbs());
+  if (force) {
+    scratch.setZero();
+    force->add(t, 1, scratch);
+    result.work = gradient_H.dot(scratch);
+    result.rate -= result.work;
+    sizes += gradient_H.cwiseAbs().dot(scratch.cwiseAbs());
+  }
+  result.round_off = 100 * epsilon * (result.round_off + sizes);
   return result;
 }
 
@@ -32,8 +40,14 @@ void System::right_hand_side(double t, const Vector& z, Vector& out) const {
   Vector gradient_H(z.size());
   gradient(z, gradient_H);
   linear->apply_S(gradient_H, out);
+  if (structure) {
+    Vector more(z.size());
+    structure->apply(z, gradient_H, more);
+    out += more;
+  }
   damping->apply(t, z, gradient_H);
   out -= gradient_H;
+  if (force) force->add(t, 1, out);
 }
 
 void SparseOptions::validate() const {

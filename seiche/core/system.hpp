@@ -1,12 +1,14 @@
-// The equation ż = S∇H(z) − D(t)z in the coordinates of one backend.
+// The equation ż = S(z)∇H(z) − D(t)z − R(t, z) + f(t) in the coordinates of one backend.
 #pragma once
 
 #include <seiche/core/damping.hpp>
+#include <seiche/core/external_force.hpp>
 #include <seiche/core/linear_part.hpp>
 #include <seiche/core/phi.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/space.hpp>
+#include <seiche/core/structure.hpp>
 
 #include <functional>
 #include <memory>
@@ -26,7 +28,9 @@ struct System {
   std::unique_ptr<Space> space;
   std::unique_ptr<LinearPart> linear;
   std::unique_ptr<Potential> potential;
-  std::unique_ptr<Damping> damping;
+  std::unique_ptr<Damping> damping;                         // D and R
+  std::unique_ptr<ExternalForce> force;                     // f; null: none
+  std::unique_ptr<Structure> structure;                     // S(z) − S; null: S is all
   std::function<std::unique_ptr<PhiEvaluator>()> make_phi;  // of L = SM − D₀; methods that split have no use for it
   Vector initial;                                           // z₀
   Index fields = 1;                                         // of equal size, one after the other in State::z
@@ -34,14 +38,15 @@ struct System {
   double energy(const Vector& z) const { return linear->quadratic_energy(z) + potential->value(z); }
   EnergyTerms energy_terms(const Vector& z) const;
   void gradient(const Vector& z, Vector& out) const;  // ∇H
-  // −dH/dt = ∇HᵀDz − ∇Hᵀ S∇H, from ∇V(z), which may be left zero where neither damping nor sym(S) sees it.
+  // −dH/dt = ∇Hᵀ(Dz + R) − ∇HᵀS∇H − ∇Hᵀf, from ∇V(z), which may be left zero where neither damping nor sym(S) nor f sees it.
   struct Dissipation {
     double rate = 0.0;
+    double work = 0.0;       // ∇Hᵀf, which `rate` holds with a minus
     double round_off = 0.0;  // 100ε times the sizes of its terms
   };
   Dissipation dissipation(double t, const Vector& z, const Vector& potential_gradient, Vector& scratch,
                           Vector& gradient_H) const;
-  void right_hand_side(double t, const Vector& z, Vector& out) const;  // S∇H − Dz
+  void right_hand_side(double t, const Vector& z, Vector& out) const;  // S(z)∇H − Dz − R + f
 };
 
 // How the sparse backend takes exponentials: by Padé approximation with factorised matrices, or by Lanczos iteration.

@@ -38,6 +38,26 @@ class SteadyFieldRate final : public FieldRate {
   std::string text_;
 };
 
+// γ(t), the same at every point.
+class UniformFieldRate final : public FieldRate {
+ public:
+  explicit UniformFieldRate(RatePointer rate) : rate_(std::move(rate)) {}
+
+  void values(double t, std::span<double> gamma) const override {
+    std::fill(gamma.begin(), gamma.end(), rate_->value(t));
+  }
+  void integrals(double t, double h, std::span<double> out) const override {
+    std::fill(out.begin(), out.end(), rate_->integral(t, h));
+  }
+  bool is_constant() const override { return rate_->is_constant(); }
+  double first_negative_time(double t_end) const override { return rate_->first_negative_time(t_end); }
+  double negative_seen() const override { return rate_->negative_seen(); }
+  std::string text() const override { return rate_->text(); }
+
+ private:
+  RatePointer rate_;
+};
+
 class FormulaFieldRate final : public FieldRate {
  public:
   FormulaFieldRate(FormulaPointer formula, const Grid& grid) : formula_(std::move(formula)) {
@@ -91,6 +111,16 @@ class FormulaFieldRate final : public FieldRate {
   mutable std::atomic<double> negative_seen_ = never;
 };
 
+class UniformSpaceRate final : public SpaceRate {
+ public:
+  explicit UniformSpaceRate(RatePointer rate) : rate_(std::move(rate)) {}
+  FieldRatePointer on(const Grid&) const override { return std::make_shared<UniformFieldRate>(rate_); }
+  std::string text() const override { return rate_->text(); }
+
+ private:
+  RatePointer rate_;
+};
+
 class FormulaSpaceRate final : public SpaceRate {
  public:
   FormulaSpaceRate(FormulaPointer formula, Index axes, bool constant_in_time)
@@ -120,5 +150,7 @@ class FormulaSpaceRate final : public SpaceRate {
 SpaceRatePointer formula_space_rate(FormulaPointer formula, Index axes, bool constant_in_time) {
   return std::make_shared<FormulaSpaceRate>(std::move(formula), axes, constant_in_time);
 }
+
+SpaceRatePointer uniform_space_rate(RatePointer rate) { return std::make_shared<UniformSpaceRate>(std::move(rate)); }
 
 }  // namespace seiche

@@ -10,4 +10,7 @@ namespace seiche {
 // is not `constant_in_time`. Where it has a pole its values are not finite; the caller checks.
 SpaceRatePointer formula_space_rate(FormulaPointer formula, Index axes, bool constant_in_time);
 
+// γ(t) at every point.
+SpaceRatePointer uniform_space_rate(RatePointer rate);
+
 }  // namespace seiche

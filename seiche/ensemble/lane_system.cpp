@@ -78,7 +78,8 @@ void LaneQuadratic::operator()(const double* x, LaneValues& sum) const {
 std::unique_ptr<LaneSystem> LaneSystem::make(LaneSimulations members, PropagatorKind kind) {
   const Simulation& first = *members.front();
   for (const Simulation* member : members)
-    if (member->problem().damping.field_rate || member->backend() != first.backend() ||
+    if (member->problem().damping.field_rate || member->problem().friction || member->problem().has_forces() ||
+        member->problem().structure || member->backend() != first.backend() ||
         !have_one_shape(member->problem(), first.problem()))
       return nullptr;
   std::unique_ptr<LaneSystem> system(new LaneSystem(members, kind));

@@ -33,14 +33,15 @@ class Composed : public Stepper {
  protected:
   bool keeps_ledger() const { return keeps_ledger_; }
 
-  // The change of H in a damping half-flow, where a ledger is kept.
-  double damp(State& s, double t, double h) {
+  // The change of H in a part of the step, where a ledger is kept.
+  template <class Part>
+  double change(const State& s, const Part& part) {
     if (!keeps_ledger_) {
-      closure_->damp(s, t, h);
+      part();
       return 0;
     }
     const double before = closure_->energy(s).H;
-    closure_->damp(s, t, h);
+    part();
     return closure_->energy(s).H - before;
   }
 
@@ -94,7 +95,9 @@ class Whole final : public Composed {
 class Strang final : public Composed {
  public:
   Strang(const System& system, PropagatorKind propagator, std::unique_ptr<Closure> closure)
-      : Composed(system, propagator, std::move(closure)), damping_(*system.damping) {
+      : Composed(system, propagator, std::move(closure)),
+        damping_(*system.damping),
+        has_force_(system.force != nullptr) {
     const auto fields = static_cast<std::size_t>(system.fields);
     before_.resize(fields);
     after_.resize(fields);
@@ -103,19 +106,34 @@ class Strang final : public Composed {
  private:
   StepReport compose(State& s, double h) override {
     const double middle = s.t + h / 2;
-    if (closure().takes_half_flows() && !keeps_ledger() && damping_.field_factors(s.t, h / 2, before_) &&
+    if (closure().takes_half_flows() && !keeps_ledger() && !has_force_ && damping_.field_factors(s.t, h / 2, before_) &&
         damping_.field_factors(middle, h / 2, after_))
       return closure().advance_damped(s, propagators(), s.t, h, {before_, after_});
     return or_restore(s, h, [&] {
+      const std::int64_t corrections = damping_.corrections();
+      const double pushed = kick(s, s.t, h / 2);
       const double left = damp(s, s.t, h / 2);
       StepReport report = substep(s, s.t, h);
+      report.ledger.work = pushed;
       report.ledger.damping_left = left;
-      if (report.solved()) report.ledger.damping_right = damp(s, middle, h / 2);
+      if (report.solved()) {
+        report.ledger.damping_right = damp(s, middle, h / 2);
+        report.ledger.work += kick(s, middle, h / 2);
+      }
+      report.fallbacks += static_cast<int>(damping_.corrections() - corrections);
       return report;
     });
   }
 
+  double damp(State& s, double t, double h) {
+    return change(s, [&] { closure().damp(s, t, h); });
+  }
+  double kick(State& s, double t, double h) {
+    return has_force_ ? change(s, [&] { closure().kick(s, t, h); }) : 0.0;
+  }
+
   const Damping& damping_;
+  bool has_force_;
   std::vector<double> before_, after_;  // of each field
 };
 

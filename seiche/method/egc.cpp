@@ -217,7 +217,7 @@ class Collocation final : public AdaptiveStepper {
     double largest_force = 0;
     for (const Vector& f : forces_) largest_force = std::max(largest_force, f.norm());
     const double size = s.z.norm() + h * largest_force;
-    StepDissipation::Amount coarse;
+    StepDissipation::Sum coarse;
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       of_h.nodes->apply(s.z, forces_, forces_);
       for (Index i = 0; i < stages(); ++i) {
@@ -225,7 +225,7 @@ class Collocation final : public AdaptiveStepper {
         Vector& force = forces_[static_cast<std::size_t>(i)];
         if (general && sweep == sweeps)
           force_.evaluate(at, force, [&](const Vector& node, const Vector& gradient) {
-            dissipation_.add(at, node, gradient, h * rule_.weights[i], coarse.coarse, coarse.negative);
+            dissipation_.add(at, node, gradient, h * rule_.weights[i], coarse);
           });
         else
           force_.evaluate(at, force);
@@ -257,7 +257,8 @@ class Collocation final : public AdaptiveStepper {
     last_dissipated_negative_ = amount.negative;
     missing_is_known_ = false;
     s.energy = outcome.H;
-    report.ledger += {.damping_left = -amount.fine,
+    report.ledger += {.work = amount.work,
+                      .damping_left = -(amount.fine + amount.work),
                       .substep = outcome.computed - last_energy_ + amount.fine,
                       .projection = outcome.H - outcome.computed};
     s.z.swap(z);

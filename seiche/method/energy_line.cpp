@@ -1,6 +1,14 @@
 #include <seiche/method/energy_line.hpp>
 
 namespace seiche {
+namespace {
+
+// d = z without its linear Casimirs, or where S changes with z without the means that solutions keep; false: there are none.
+bool without_casimirs(const System& system, const PhiEvaluator& phi, const Vector& z, Vector& d) {
+  return system.structure ? system.structure->without_means(z, d) : phi.without_casimirs(z, d);
+}
+
+}  // namespace
 
 EnergyLineScratch::EnergyLineScratch(const System& system)
     : V(static_cast<std::size_t>(system.potential->degree()) + 1) {
@@ -13,7 +21,7 @@ EnergyLine::EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLine
       scratch_(scratch),
       z_(z),
       is_ray_(direction == Direction::ray ||
-              (direction == Direction::casimir_free && !phi.without_casimirs(z, scratch.d))),
+              (direction == Direction::casimir_free && !without_casimirs(system, phi, z, scratch.d))),
       polynomial_(system.potential->degree() > 0) {
   if (is_ray_)
     prepare_ray();
@@ -38,7 +46,7 @@ void EnergyLine::prepare_line(const PhiEvaluator& phi, Direction direction) {
   system_.linear->apply_M(z_, scratch_.trial);
   if (direction == Direction::steepest) {
     scratch_.trial += scratch_.gradient;  // ∇H, for a moment
-    if (!phi.without_casimirs(scratch_.trial, scratch_.d)) scratch_.d = scratch_.trial;
+    if (!without_casimirs(system_, phi, scratch_.trial, scratch_.d)) scratch_.d = scratch_.trial;
     const double length = scratch_.d.norm();
     if (length > 0) scratch_.d *= z_.norm() / length;
     scratch_.trial -= scratch_.gradient;

@@ -17,6 +17,8 @@ class LmClosure final : public Closure {
         start_(system.space->size()),
         equation_(*system.potential, system.space->size()),
         directed_(system) {
+    if (frozen_ && !system.damping->is_linear())
+      throw Error("auxiliary = \"frozen\" is the paper's scheme for a linear damping; with friction use \"transport\"");
     if (frozen_)
       for (Vector* v : {&before_damping_, &end_, &direction_}) v->setZero(system.space->size());
   }

@@ -97,6 +97,8 @@ void MethodOptions::validate(const MethodEntry& method) const {
 std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system, const MethodOptions& options) {
   options.validate(method);
   if (method.composition == collocation) return make_egc(system, method.order / 2);
+  if (system.structure)
+    throw Error("{} needs one structure matrix S; where S changes with z use egc2, egc4, egc6 or egc8", method.name);
   if (method.composition == whole) {
     if (!system.damping->is_zero()) throw Error("{} needs its damping merged into S first", method.name);
     return make_whole(system, method.propagator, make_closure(method, system, options));

@@ -4,9 +4,12 @@ namespace seiche {
 
 NonlinearForce::NonlinearForce(const System& system)
     : system_(system),
-      kind_(system.damping->is_frozen() ? PhiRows::Forces::gradients : PhiRows::Forces::states),
+      kind_(system.damping->is_frozen() && !system.force && !system.structure ? PhiRows::Forces::gradients
+                                                                              : PhiRows::Forces::states),
       gradient_(Vector::Zero(system.space->size())),
-      rest_(Vector::Zero(system.space->size())) {}
+      rest_(gradient_) {
+  if (system.structure) gradient_H_ = turned_ = gradient_;
+}
 
 void NonlinearForce::evaluate(double t, Vector& z) {
   if (kind_ == PhiRows::Forces::gradients) {
@@ -30,6 +33,13 @@ void NonlinearForce::complete(double t, Vector& z) {
     return;
   }
   system_.damping->apply_rest(t, z, rest_);
+  if (system_.force) system_.force->add(t, -1, rest_);
+  if (system_.structure) {
+    system_.linear->apply_M(z, gradient_H_);
+    gradient_H_ += gradient_;
+    system_.structure->apply(z, gradient_H_, turned_);
+    rest_ -= turned_;
+  }
   system_.linear->apply_S(gradient_, z);
   z -= rest_;
 }

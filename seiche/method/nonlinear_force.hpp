@@ -6,7 +6,7 @@
 
 namespace seiche {
 
-// N(t, z) = S∇V(z) − (D(t) − D₀)z; or, where D(t) = D₀, only ∇V(z): then φ-maps multiply by S.
+// N(t, z) = S∇V − (D(t) − D₀)z − R(t, z) + f(t) + (S(z) − S)∇H; or, where that is S∇V, only ∇V(z): then φ-maps multiply by S.
 class NonlinearForce {
  public:
   explicit NonlinearForce(const System& system);  // which outlives it
@@ -22,7 +22,8 @@ class NonlinearForce {
 
   const System& system_;
   PhiRows::Forces kind_;
-  Vector gradient_, rest_;  // ∇V is zero outside its support
+  Vector gradient_, rest_;      // ∇V is zero outside its support
+  Vector gradient_H_, turned_;  // where S changes with z
 };
 
 }  // namespace seiche

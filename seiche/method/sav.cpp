@@ -14,6 +14,7 @@ class SavClosure final : public Closure {
 
   void begin(State& s) override;
   void damp(State& s, double t, double h) override;
+  void kick(State& s, double t, double h) override;
   StepReport advance(State& s, Propagators& propagators, double t, double h) override {
     return advance_damped(s, propagators, t, h, {});
   }
@@ -55,11 +56,18 @@ void SavClosure::begin(State& s) {
 // The damping flow must change H̃ by what it changes H: r² moves with V (transport). The paper keeps r (frozen), which
 // is consistent only where the damping does not touch V.
 void SavClosure::damp(State& s, double t, double h) {
-  const bool moves = system().damping->touches_potential();
-  const double v_before = moves && auxiliary_ == AuxiliaryMode::transport ? potential().value(s.z) : 0.0;
+  const bool transports = auxiliary_ == AuxiliaryMode::transport && system().damping->touches_potential();
+  const double v_before = transports ? potential().value(s.z) : 0.0;
   Closure::damp(s, t, h);
-  if (moves && auxiliary_ == AuxiliaryMode::transport) s.r_squared += potential().value(s.z) - v_before;
+  if (transports) s.r_squared += potential().value(s.z) - v_before;
   if (auxiliary_ == AuxiliaryMode::refresh) s.r_squared = potential().value(s.z) + s.shift;
+}
+
+void SavClosure::kick(State& s, double t, double h) {
+  const bool transports = system().force->touches_potential();
+  const double v_before = transports ? potential().value(s.z) : 0.0;
+  Closure::kick(s, t, h);
+  if (transports) s.r_squared += potential().value(s.z) - v_before;
 }
 
 StepReport left_the_numbers(double v_mid, double t, double h) {

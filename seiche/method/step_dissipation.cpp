@@ -20,11 +20,12 @@ StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, 
       cache_(cached_step_sizes(system.space->size())) {
   const PhiEvaluator::Dissipation d = phi.dissipation();
   const bool frozen = system.damping->is_frozen();
-  kind_ = !frozen                              ? Kind::general
+  kind_ = !frozen || system.force              ? Kind::general
           : d.is_zero                          ? Kind::none
           : d.is_quadratic && d.is_nonnegative ? Kind::quadratic
                                                : Kind::general;
-  needs_gradient_ = !d.is_quadratic || system.damping->touches_potential();
+  needs_gradient_ =
+      !d.is_quadratic || system.damping->touches_potential() || (system.force && system.force->touches_potential());
   if (kind_ != Kind::general) return;
   const Index size = system.space->size();
   node_.assign(1, Vector::Zero(size));
@@ -46,15 +47,15 @@ StepDissipation::Tables& StepDissipation::tables(double h) {
   });
 }
 
-void StepDissipation::add(double t, const Vector& z, const Vector& gradient, double weight, double& sum,
-                          bool& negative) {
+void StepDissipation::add(double t, const Vector& z, const Vector& gradient, double weight, Sum& sum) {
   const System::Dissipation q = system_.dissipation(t, z, gradient, scratch_, gradient_H_);
-  sum += weight * q.rate;
-  negative = negative || q.rate < -q.round_off;
+  sum.taken += weight * q.rate;
+  sum.work += weight * q.work;
+  sum.negative = sum.negative || q.rate < -q.round_off;
 }
 
 void StepDissipation::add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces,
-                                const GaussRule& rule, NodeMaps& maps, double& sum, bool& negative) {
+                                const GaussRule& rule, NodeMaps& maps, Sum& sum) {
   if (maps.empty())
     for (const double theta : rule.nodes)
       maps.push_back(phi_.map(output_.at(Eigen::VectorXd::Constant(1, theta), PhiRows::Outputs::all), h));
@@ -62,12 +63,12 @@ void StepDissipation::add_nodes(double t, double h, const Vector& z, std::span<c
     const auto at = static_cast<Index>(i);
     maps[i]->apply(z, forces, node_);
     if (needs_gradient_) system_.potential->gradient(node_[0], gradient_);
-    add(t + rule.nodes[at] * h, node_[0], gradient_, h * rule.weights[at], sum, negative);
+    add(t + rule.nodes[at] * h, node_[0], gradient_, h * rule.weights[at], sum);
   }
 }
 
 StepDissipation::Amount StepDissipation::measure(double t, double h, const Vector& z, std::span<const Vector> forces,
-                                                 const Amount* coarse) {
+                                                 const Sum* coarse) {
   Amount amount;
   switch (kind_) {
     case Kind::none: break;
@@ -78,13 +79,19 @@ StepDissipation::Amount StepDissipation::measure(double t, double h, const Vecto
       amount.coarse = values[1];
       break;
     }
-    case Kind::general:
+    case Kind::general: {
+      Sum by_coarse, by_fine;
       if (coarse != nullptr)
-        amount = *coarse;
+        by_coarse = *coarse;
       else
-        add_nodes(t, h, z, forces, coarse_, tables(h).coarse, amount.coarse, amount.negative);
-      add_nodes(t, h, z, forces, fine_, tables(h).fine, amount.fine, amount.negative);
+        add_nodes(t, h, z, forces, coarse_, tables(h).coarse, by_coarse);
+      add_nodes(t, h, z, forces, fine_, tables(h).fine, by_fine);
+      amount = {.fine = by_fine.taken,
+                .coarse = by_coarse.taken,
+                .work = by_fine.work,
+                .negative = by_coarse.negative || by_fine.negative};
       break;
+    }
   }
   return amount;
 }

@@ -1,4 +1,4 @@
-// What damping takes from H over one step, ∫ Q dt with Q = ∇Hᵀ(Dz − S∇H), by two quadratures on the dense output of a method.
+// What leaves H over one step, ∫(Q − ∇Hᵀf) dt with Q = ∇Hᵀ(Dz + R − S∇H), by two quadratures on the dense output of a method.
 #pragma once
 
 #include <seiche/core/step_cache.hpp>
@@ -35,16 +35,22 @@ class StepDissipation {
   };
   Kind kind() const { return kind_; }
 
+  struct Sum {
+    double taken = 0.0;  // ∫Q − ∫∇Hᵀf
+    double work = 0.0;   // ∫∇Hᵀf, what external forces give
+    // Is some integrand beyond round-off below zero? Then the energy-compatible damping condition fails, or a force feeds.
+    bool negative = false;
+  };
   struct Amount {
-    double fine = 0.0, coarse = 0.0;
-    // Is some Q beyond round-off below zero? Then the energy-compatible damping condition fails.
+    double fine = 0.0, coarse = 0.0;  // of `taken`
+    double work = 0.0;                // fine
     bool negative = false;
   };
   // Of the step from (t, z) with these forces. `coarse`: where it is known already (general), else null.
-  Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Amount* coarse = nullptr);
+  Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Sum* coarse = nullptr);
 
-  // sum += weight · Q(z) at time t; negative is set where Q is below zero.
-  void add(double t, const Vector& z, const Vector& potential_gradient, double weight, double& sum, bool& negative);
+  // sum += weight · the integrands at (t, z).
+  void add(double t, const Vector& z, const Vector& potential_gradient, double weight, Sum& sum);
 
  private:
   using NodeMaps = std::vector<std::unique_ptr<PhiMap>>;  // one for each node of a rule
@@ -53,7 +59,7 @@ class StepDissipation {
     NodeMaps fine, coarse;            // general; each made when it is first asked for
   };
   void add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces, const GaussRule& rule,
-                 NodeMaps& maps, double& sum, bool& negative);
+                 NodeMaps& maps, Sum& sum);
   Tables& tables(double h);
 
   const System& system_;

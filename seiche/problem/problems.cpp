@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/beta_fpu.hpp>
+#include <seiche/problem/burgers.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
@@ -8,6 +9,7 @@
 #include <seiche/problem/nls.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/problems.hpp>
+#include <seiche/problem/rigid_body.hpp>
 #include <seiche/problem/sine_gordon.hpp>
 #include <seiche/problem/sparse.hpp>
 #include <seiche/problem/truss.hpp>
@@ -17,9 +19,9 @@ namespace seiche {
 
 std::span<const ProblemEntry> problems() {
   static const std::vector<ProblemEntry> list = {
-      klein_gordon_entry(),  alpha_fpu_entry(), gkdv_entry(),     sine_gordon_entry(),
-      oscillator_entry(),    nls_entry(),       beta_fpu_entry(), chain_entry(),
-      variable_wave_entry(), truss_entry(),     network_entry(),  sparse_entry(),
+      klein_gordon_entry(), alpha_fpu_entry(), gkdv_entry(),    sine_gordon_entry(),   oscillator_entry(),
+      nls_entry(),          beta_fpu_entry(),  chain_entry(),   variable_wave_entry(), truss_entry(),
+      network_entry(),      sparse_entry(),    burgers_entry(), rigid_body_entry(),
   };
   return list;
 }

@@ -20,9 +20,10 @@ struct ProblemEntry {
   std::vector<std::string> presets;  // names of initial data, the default first
   // Throws Error where the values do not fit together.
   Problem (*make)(const ParameterValues& values, const std::string& preset);
-  // What `seiche new` proposes.
+  // What `seiche new` proposes, and a case file that is silent takes.
   std::string default_h;
   double default_end;
+  std::string default_method = "seisav";
 };
 
 std::span<const ProblemEntry> problems();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace seiche {
 namespace {
@@ -41,6 +42,53 @@ Hypothesis hypothesis_of_touch(const Problem& problem) {
   throw Error("the fields of {} contradict one another", problem.name);
 }
 
+Hypothesis hypothesis_of_friction(const Problem& problem, double t_end) {
+  const std::string name = "v·R(v) ≥ 0";
+  const Friction& friction = *problem.friction;
+  if (friction.is_dissipative())
+    return {name, Grade::by_structure, fmt::format("R = {} opposes the velocity", friction.text())};
+  const std::string place = friction.feeds_at(t_end);
+  if (!place.empty()) return {name, Grade::violated, fmt::format("R = {} feeds energy", friction.text()), {}, place};
+  return {name, Grade::sampled,
+          fmt::format("R = {} feeds energy at none of the velocities, coordinates and times tried", friction.text())};
+}
+
+Hypothesis hypothesis_of_forces(const Problem& problem) {
+  for (std::size_t f = 0; f < problem.forces.size(); ++f)
+    if (problem.forces[f])
+      return {"no external force",
+              Grade::violated,
+              "an external force does work, and H may rise",
+              {},
+              fmt::format("f = {} on the field {}", problem.forces[f]->text(), problem.fields[f])};
+  throw Error("{} has no external force", problem.name);
+}
+
+// wᵀS(z)w = 0 for random z and w, as far as round-off lets one see.
+Hypothesis hypothesis_of_structure(const Problem& problem) {
+  const std::string name = "S(z) skew";
+  Simulation simulation(problem, {.method = "egc4"});
+  const System& system = simulation.system();
+  const Index n = system.space->physical_size();
+  Vector z(system.space->size()), w(z), out(z), values(n);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  constexpr int samples = 16;
+  double worst = 0;
+  for (int i = 0; i < samples; ++i) {
+    for (Vector* v : {&z, &w}) {
+      for (double& x : values) x = normal(random);
+      system.space->from_physical(values, *v);
+    }
+    system.structure->apply(z, w, out);
+    worst = std::max(worst, std::abs(w.dot(out)) / std::max(w.cwiseAbs().dot(out.cwiseAbs()), 1e-300));
+  }
+  const bool skew = worst <= 1e3 * epsilon;
+  return {name, skew ? Grade::sampled : Grade::violated,
+          fmt::format("{}: wᵀS(z)w is at most {:.2g} of its terms for {} random z and w", problem.structure->text(),
+                      worst, samples)};
+}
+
 // ∇HᵀDz along a solution: where, and how small against the sizes of its terms.
 class PowerWatch final : public Observer {
  public:
@@ -51,10 +99,11 @@ class PowerWatch final : public Observer {
     system_.potential->gradient(state.z, gradient_);
     const System::Dissipation q = system_.dissipation(state.t, state.z, gradient_, scratch_, gradient_H_);
     ++points;
-    const double relative = q.round_off > 0 ? 100 * epsilon * q.rate / q.round_off : 0.0;
+    const double taken = q.rate + q.work;  // by damping alone
+    const double relative = q.round_off > 0 ? 100 * epsilon * taken / q.round_off : 0.0;
     if (relative >= smallest) return;
     smallest = relative;
-    rate = q.rate;
+    rate = taken;
     time = state.t;
   }
   void finish(const RunReport&) override {}
@@ -84,7 +133,7 @@ Hypothesis sampled_condition(const Problem& problem, double t_end, const std::st
 }
 
 Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOptions& options, const Hypothesis& MD,
-                                   const Hypothesis& touch) {
+                                   const Hypothesis& touch, const LawPromise& law) {
   const std::string name = "sym(P_H D) ⪰ 0";  // the energy-compatible damping condition (paper (1.2))
   const bool touched = touch.grade == Grade::violated;
   if (!problem.has_damping()) return {name, Grade::by_structure, "there is no damping"};
@@ -94,8 +143,7 @@ Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOpti
     same.statement = "P_H D is MD, as V is untouched: " + MD.statement;
     return same;
   }
-  if (promise_energy_law(problem, options.t_end).promised)
-    return {name, Grade::by_structure, "D = γI and u·∇V(u) ≥ 0 for every u, by the form of V"};
+  if (law.promised) return {name, Grade::by_structure, "D = γI and u·∇V(u) ≥ 0 for every u, by the form of V"};
   if (!options.sample_solution || options.t_end <= 0)
     return {name, Grade::sampled, "not looked at: no solution was followed"};
   return sampled_condition(problem, options.t_end, name);
@@ -143,8 +191,11 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   list.push_back(MD);
   list.push_back(hypothesis_of_touch(problem));
   const Hypothesis touch = list.back();
-  list.push_back(hypothesis_of_condition(problem, options, MD, touch));
+  list.push_back(hypothesis_of_condition(problem, options, MD, touch, certificate.law));
   list.push_back(hypothesis_of_commuting(problem));
+  if (problem.friction) list.push_back(hypothesis_of_friction(problem, options.t_end));
+  if (problem.has_forces()) list.push_back(hypothesis_of_forces(problem));
+  if (problem.structure) list.push_back(hypothesis_of_structure(problem));
   if (method.closure == ClosureKind::sav) list.push_back(hypothesis_of_margin(problem, options));
   if (certificate.law.promised) certificate.theorem = theorem(problem, method);
   return certificate;

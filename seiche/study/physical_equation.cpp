@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/momenta.hpp>
 #include <seiche/study/physical_equation.hpp>
 
 #include <algorithm>
@@ -14,6 +15,12 @@ PhysicalEquation::Rows PhysicalEquation::rows(const BlockStencil& stencil, const
         "points, or finite differences",
         most, stencil.fields() * grid.unknowns());
   return rows(SparseMatrix(stencil.matrix(grid).sparseView()));
+}
+
+PhysicalEquation::Rows PhysicalEquation::rows(const Stencil& stencil, const Grid& grid) {
+  BlockStencil alone(1);
+  alone(0, 0) = stencil;
+  return rows(alone, grid);
 }
 
 PhysicalEquation::Rows PhysicalEquation::rows(const SparseMatrix& matrix) {
@@ -37,10 +44,17 @@ PhysicalEquation::PhysicalEquation(const Problem& problem)
       support_size_(potential_ ? static_cast<std::size_t>(potential_->fields()) * points_ : 0),
       rate_(problem.damping.rate),
       field_rate_(problem.damping.field_rate),
+      friction_(problem.friction),
+      forces_(problem.forces),
+      structure_(problem.structure),
       initial_(problem.initial.begin(), problem.initial.end()),
       gradient_(initial_.size()),
       force_(support_size_),
-      gamma_(points_) {
+      gamma_(points_),
+      velocity_(initial_.size()),
+      beyond_(initial_.size()) {
+  if (friction_) inverse_mass_ = momenta(problem).value().inverse_mass;
+  if (!problem.derivative.is_zero()) derivative_ = rows(problem.derivative, problem.grid);
   if (problem.matrices) {
     S_ = rows(problem.matrices->S);
     M_ = rows(problem.matrices->M);
@@ -74,12 +88,35 @@ void PhysicalEquation::right_hand_side(double t, std::span<const double> z, std:
   gradient(z);
   for_products(S_, gradient_, [&](std::size_t i, double S_gradient) { out[i] = S_gradient; });
   for_products(D_, z, [&](std::size_t i, double Dz) { out[i] -= Dz; });
+  add_beyond_linear(t, z, out);
   if (!rate_ && !field_rate_) return;
   std::fill(gamma_.begin(), gamma_.end(), 0.0);
   if (field_rate_) field_rate_->values(t, gamma_);
   const double everywhere = rate_ ? rate_->value(t) : 0.0;
   for (const std::size_t begin : rated_)
     for (std::size_t j = 0; j < points_; ++j) out[begin + j] -= (everywhere + gamma_[j]) * z[begin + j];
+}
+
+// After gradient(z).
+void PhysicalEquation::add_beyond_linear(double t, std::span<const double> z, std::span<double> out) const {
+  const std::size_t half = z.size() / 2;
+  if (friction_) {
+    for (std::size_t i = 0; i < half; ++i) velocity_[i] = inverse_mass_ * z[half + i];
+    friction_->force(t, z.first(half), {velocity_.data(), half}, {beyond_.data(), half});
+    for (std::size_t i = 0; i < half; ++i) out[half + i] -= beyond_[i];
+  }
+  for (std::size_t f = 0; f < forces_.size(); ++f) {
+    if (!forces_[f]) continue;
+    forces_[f]->values(t, {beyond_.data(), points_});
+    for (std::size_t j = 0; j < points_; ++j) out[f * points_ + j] += beyond_[j];
+  }
+  if (structure_) {
+    const auto derivative = [&](std::span<const double> u, std::span<double> du) {
+      for_products(derivative_, u, [&](std::size_t i, double value) { du[i] = value; });
+    };
+    structure_->apply(z, gradient_, derivative, beyond_);
+    for (std::size_t i = 0; i < z.size(); ++i) out[i] += beyond_[i];
+  }
 }
 
 double PhysicalEquation::potential(std::span<const double> z) const {

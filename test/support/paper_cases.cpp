@@ -3,16 +3,20 @@
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/field_rates.hpp>
+#include <seiche/damping/formula_frictions.hpp>
+#include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/beta_fpu.hpp>
+#include <seiche/problem/burgers.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/network.hpp>
 #include <seiche/problem/nls.hpp>
 #include <seiche/problem/oscillator.hpp>
+#include <seiche/problem/rigid_body.hpp>
 #include <seiche/problem/sine_gordon.hpp>
 #include <seiche/problem/sparse.hpp>
 #include <seiche/problem/truss.hpp>
@@ -168,12 +172,50 @@ Problem coupled_damping_case(RatePointer gamma) {
   return sparse_problem({.matrices = {.S = {}, .M = M, .D = D}, .quartic = 1.0, .gamma = std::move(gamma)});
 }
 
+std::vector<NamedProblem> beyond_linear_cases() {
+  const auto with = [](Problem p, FrictionPointer friction) {
+    p.friction = std::move(friction);
+    return p;
+  };
+  const auto formula = [](const char* text) {
+    return FrictionFormula{.formula = compile_formula(text, {"v", "u", "t", "x", "y", "z"})};
+  };
+  const auto forced = [](Problem p, std::size_t field, const char* text) {
+    p.forces.assign(static_cast<std::size_t>(p.field_count()), nullptr);
+    p.forces[field] = formula_space_rate(compile_formula(text, {"t", "x"}), 1, false)->on(p.grid);
+    return p;
+  };
+  const Problem wave = klein_gordon_case(0.1, 1.0);
+  const Problem undamped = klein_gordon_case(0, 1.0);
+  const Problem heavy = chain({.points = 7, .mass = 2.5});
+  return {
+      {"KG_drag", with(wave, quadratic_friction(0, 0.5))},
+      {"KG_cubic_friction", with(undamped, cubic_friction(2.0))},
+      {"KG_saturating_friction", with(undamped, saturating_friction(0.1, 0.2))},
+      {"chain_drag", with(heavy, quadratic_friction(0.1, 0.3))},
+      {"truss_isotropic_drag", with(truss({.panels = 4}), isotropic_friction(2.0, 2))},
+      {"KG_friction_by_position",
+       with(undamped, position_friction(formula("0.3*u^2 + 0.1*(1 + sin(3*x))"), undamped.grid))},
+      {"Duffing_formula_friction",
+       with(duffing_case(), formula_friction(formula("0.2*sinh(v) + 0.1*u^2*v"), duffing_case().grid))},
+      {"van_der_Pol", with(duffing_case(0), position_friction(formula("u^2 - 1"), duffing_case().grid))},
+      {"KG_forced", forced(wave, 1, "0.2*cos(2*t)*sin(3*x)")},
+      {"gKdV_forced", forced(gkdv_case(0.5, -0.5), 0, "0.1*sin(3*t)*cos(x)")},
+      {"Burgers", burgers({.points = 16, .nu = 0.02, .gamma = constant_rate(0.1)})},
+      {"KdV_quadratic_fd4",
+       burgers(
+           {.length = 12, .points = 24, .discretisation = Discretisation::fd4, .alpha = 2.0, .epsilon = 0.5, .nu = 0})},
+      {"rigid_body", rigid_body({.gamma = constant_rate(0.1)})},
+  };
+}
+
 std::vector<NamedProblem> all_cases() {
   std::vector<NamedProblem> cases = golden_cases();
   for (NamedProblem& c : grid_cases()) cases.push_back(std::move(c));
   for (NamedProblem& c : chain_cases()) cases.push_back(std::move(c));
   for (NamedProblem& c : field_rate_cases()) cases.push_back(std::move(c));
   for (NamedProblem& c : matrix_cases()) cases.push_back(std::move(c));
+  for (NamedProblem& c : beyond_linear_cases()) cases.push_back(std::move(c));
   cases.push_back({"KG_defocusing", klein_gordon_case(0.1, 1.0)});
   cases.push_back({"gKdV_sigma_1", gkdv_case(0.5, 1.0, 1.0)});
   cases.push_back({"Duffing", duffing_case()});
@@ -190,7 +232,9 @@ std::vector<NamedProblem> all_cases() {
 }
 
 bool applies(std::string_view method, const Problem& problem) {
-  if (find_method(method).composition != Composition::whole) return true;
+  const Composition composition = find_method(method).composition;
+  if (problem.structure) return composition == Composition::collocation;
+  if (composition != Composition::whole) return true;
   try {
     with_damping_merged(problem);
     return true;

@@ -31,10 +31,12 @@ std::vector<NamedProblem> chain_cases();
 std::vector<NamedProblem> field_rate_cases();
 // Coefficients that change from point to point, and graphs: stated by matrices.
 std::vector<NamedProblem> matrix_cases();
+// Friction beyond linear, external forces, structure matrices that change with the state.
+std::vector<NamedProblem> beyond_linear_cases();
 // Every problem that each method is to be tried on: all of the above and a few more.
 std::vector<NamedProblem> all_cases();
 
-// Does the method apply (whole methods need the damping in S)?
+// Does the method apply (whole methods need the damping in S, splitting ones a constant S)?
 bool applies(std::string_view method, const Problem& problem);
 // The backends that take it: modal no matrices, sparse no spectral derivatives.
 std::vector<BackendEntry> backends_for(const Problem& problem);

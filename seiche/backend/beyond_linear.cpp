@@ -1,0 +1,16 @@
+#include <seiche/backend/beyond_linear.hpp>
+#include <seiche/backend/friction_damping.hpp>
+#include <seiche/backend/grid_force.hpp>
+#include <seiche/backend/grid_structure.hpp>
+
+namespace seiche {
+
+void add_beyond_linear(System& system, const Problem& problem, const std::shared_ptr<const FieldTransform>& transform,
+                       std::unique_ptr<LinearMap> derivative) {
+  if (problem.friction)
+    system.damping = std::make_unique<FrictionDamping>(problem, transform, std::move(system.damping));
+  if (problem.has_forces()) system.force = std::make_unique<GridForce>(problem, transform);
+  if (problem.structure) system.structure = std::make_unique<GridStructure>(problem, transform, std::move(derivative));
+}
+
+}  // namespace seiche

@@ -1,0 +1,16 @@
+// A force f(x, t) from outside, in the coordinates of State::z.
+#pragma once
+
+#include <seiche/core/vector.hpp>
+
+namespace seiche {
+
+class ExternalForce {
+ public:
+  virtual ~ExternalForce() = default;
+  virtual void add(double t, double factor, Vector& out) const = 0;  // out += factor · f(t)
+  virtual void kick(double t, double h, Vector& z) const = 0;        // z += ∫ₜᵗ⁺ʰ f
+  virtual bool touches_potential() const = 0;                        // does it move a component that V depends on?
+};
+
+}  // namespace seiche

@@ -1,0 +1,167 @@
+#include <seiche/damping/formula_frictions.hpp>
+
+#include <fmt/format.h>
+#include <boost/math/tools/roots.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// 0 and ± 10ᵏ, k from −4 to 3 by quarters: where the sign of a formula is looked at. Of 0 alone if it does not matter.
+std::vector<double> sizes_to_try(bool matters) {
+  std::vector<double> sizes = {0.0};
+  for (int k = -16; matters && k <= 12; ++k)
+    for (const double sign : {-1.0, 1.0}) sizes.push_back(sign * std::pow(10.0, k / 4.0));
+  return sizes;
+}
+
+class FormulaFriction : public Friction {
+ public:
+  FormulaFriction(FrictionFormula formula, const Grid& grid) : f_(std::move(formula)) {
+    for (Index j = 0; j < grid.unknowns(); ++j) {
+      std::array<double, 3> place{};
+      for (Index a = 0; a < grid.dimension(); ++a) place[static_cast<std::size_t>(a)] = grid.coordinate(j, a);
+      places_.push_back(place);
+    }
+  }
+
+  void force(double t, std::span<const double> q, std::span<const double> v, std::span<double> r) const override {
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      r[i] = rate(t, q[i], v[i], place(i));
+      see(t, v[i], r[i]);
+    }
+  }
+  bool uses_coordinates() const override { return f_.uses_u; }
+  bool is_dissipative() const override { return false; }  // a formula has no form to judge by
+  std::string fed_at() const override {
+    const double t = fed_.load(std::memory_order_relaxed);
+    return std::isnan(t) ? "" : fmt::format("t = {:.6g}", t);
+  }
+
+  std::string feeds_at(double t_end) const override {
+    constexpr int times = 16;
+    constexpr std::size_t most_places = 16;
+    const std::size_t stride = f_.uses_place ? std::max<std::size_t>(1, places_.size() / most_places) : places_.size();
+    const std::vector<double> speeds = sizes_to_try(true);
+    const std::vector<double> coordinates = sizes_to_try(f_.uses_u);
+    for (int n = 0; n <= (f_.uses_t ? times : 0); ++n)
+      for (std::size_t j = 0; j < places_.size(); j += stride)
+        for (const double u : coordinates)
+          for (const double v : speeds) {
+            const double t = t_end * n / times;
+            const double r = rate(t, u, v, places_[j]);
+            if (v * r < 0) return witness(t, u, v, r);
+          }
+    return "";
+  }
+
+ protected:
+  using Place = std::array<double, 3>;
+  // R at one point.
+  virtual double rate(double t, double u, double v, const Place& place) const = 0;
+
+  double formula(double t, double u, double v, const Place& place) const {
+    const std::array<double, 6> arguments = {v, u, t, place[0], place[1], place[2]};
+    return (*f_.formula)(arguments);
+  }
+  const Place& place(std::size_t i) const { return places_[i % places_.size()]; }
+  const std::string& formula_text() const { return f_.formula->text(); }
+  void see(double t, double v, double r) const {
+    if (v * r < 0) fed_.store(t, std::memory_order_relaxed);
+  }
+
+ private:
+  std::string witness(double t, double u, double v, double r) const {
+    std::string text = fmt::format("v = {:.4g}", v);
+    if (f_.uses_u) text += fmt::format(", u = {:.4g}", u);
+    if (f_.uses_t) text += fmt::format(", t = {:.4g}", t);
+    return text + fmt::format(", where v·R = {:.4g}", v * r);
+  }
+
+  FrictionFormula f_;
+  std::vector<Place> places_;
+  mutable std::atomic<double> fed_ = nan;  // the last time at which v·R < 0 was met
+};
+
+class PositionFriction final : public FormulaFriction {
+ public:
+  using FormulaFriction::FormulaFriction;
+
+  void flow(double t, double h, double w, std::span<const double> q, std::span<double> v) const override {
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const double c = formula(t + h / 2, q[i], 0, place(i));
+      see(t, 1, c);
+      v[i] *= std::exp(-w * c * h);
+    }
+  }
+  std::string text() const override { return fmt::format("({})·v", formula_text()); }
+
+ private:
+  double rate(double t, double u, double v, const Place& place) const override { return formula(t, u, 0, place) * v; }
+};
+
+class VelocityFriction final : public FormulaFriction {
+ public:
+  using FormulaFriction::FormulaFriction;
+
+  void flow(double t, double h, double w, std::span<const double> q, std::span<double> v) const override {
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const auto r = [&](double m) { return formula(t + h / 2, q[i], m, place(i)); };
+      const double m = midpoint(v[i], w * h / 2, r);
+      see(t, m, r(m));
+      v[i] = 2 * m - v[i];
+    }
+  }
+  std::string text() const override { return formula_text(); }
+
+ private:
+  double rate(double t, double u, double v, const Place& place) const override { return formula(t, u, v, place); }
+
+  // The root m of g(m) = m − v + s r(m): between 0 and v where r opposes v. Elsewhere it is looked for on the side of v to which
+  // g falls in size, within |g(v)| where r rises.
+  template <class R>
+  static double midpoint(double v, double s, const R& r) {
+    const auto g = [&](double m) { return (m - v) + s * r(m); };
+    const double at_v = g(v);
+    if (at_v == 0 || !std::isfinite(at_v)) return at_v == 0 ? v : nan;
+    constexpr int most_doublings = 60;
+    double reach = std::abs(at_v);
+    double end = 0, at_end = g(0);
+    for (int i = 0; i < most_doublings && (at_end > 0) == (at_v > 0) && at_end != 0; ++i, reach *= 2) {
+      end = at_v > 0 ? v - reach : v + reach;
+      at_end = g(end);
+    }
+    if (!std::isfinite(at_end)) return nan;
+    if (at_end == 0) return end;
+    if ((at_end > 0) == (at_v > 0)) return nan;
+    constexpr int all_digits = std::numeric_limits<double>::digits - 1;
+    std::uintmax_t iterations = 100;
+    const boost::math::tools::eps_tolerance<double> tolerance(all_digits);
+    const auto [low, high] = end < v
+                                 ? boost::math::tools::toms748_solve(g, end, v, at_end, at_v, tolerance, iterations)
+                                 : boost::math::tools::toms748_solve(g, v, end, at_v, at_end, tolerance, iterations);
+    return (low + high) / 2;
+  }
+};
+
+}  // namespace
+
+FrictionPointer position_friction(FrictionFormula c, const Grid& grid) {
+  return std::make_shared<PositionFriction>(std::move(c), grid);
+}
+
+FrictionPointer formula_friction(FrictionFormula r, const Grid& grid) {
+  return std::make_shared<VelocityFriction>(std::move(r), grid);
+}
+
+}  // namespace seiche
