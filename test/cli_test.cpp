@@ -472,5 +472,36 @@ TEST_F(Cli, MeasuredPlansAreKeptAndUsedAgain) {
   EXPECT_EQ(text("out/final.txt"), first);
 }
 
+TEST_F(Cli, SpectrumTellsWhetherTheDampingIsPhysical) {
+  write_case();
+  const Result good = seiche("spectrum case.toml");
+  EXPECT_EQ(good.exit, 0) << good.err;
+  EXPECT_THAT(good.out, AllOf(HasSubstr("without V: one step of seisav"), HasSubstr("The damping is physical: every")));
+  const Result merged = seiche("spectrum case.toml --json --threads 2 --set method.name=avf method.h=1/4");
+  ASSERT_EQ(merged.exit, 0) << merged.err;
+  const json document = json::parse(merged.out);
+  EXPECT_EQ(document["method"], "avf");
+  EXPECT_EQ(document["modes"].size(), 5U);
+  EXPECT_GT(document["verdict"]["largest_relative_error"].get<double>(), 1e-4);
+  EXPECT_FALSE(fs::exists(directory / "out"));
+
+  EXPECT_THAT(refused("spectrum case.toml --out ''"), HasSubstr("--out must not be empty"));
+  write_case("gamma = \"0.1 + 0.05*sin(t)\"");
+  EXPECT_THAT(refused("spectrum case.toml --set method.name=avf"), HasSubstr("avf does not apply"));
+  EXPECT_THAT(seiche("spectrum case.toml").out, HasSubstr("γ as it is at t = 0"));
+  write_case("", "tolerance = 1e-6");
+  EXPECT_THAT(refused("spectrum case.toml"), HasSubstr("give --set method.h="));
+}
+
+TEST_F(Cli, SpectrumLeavesATableAndFigures) {
+  if (std::system("gnuplot --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot";
+  write_case();
+  const Result result = seiche("spectrum case.toml --out out");
+  ASSERT_EQ(result.exit, 0) << result.err;
+  EXPECT_EQ(lines("out/spectrum.csv").size(), 1U + 5U);
+  for (const char* name : {"spectrum_decay.png", "spectrum_decay.pdf", "spectrum_phase.png", "spectrum_phase.pdf"})
+    EXPECT_GT(fs::file_size(directory / "out" / name), 1000U) << name;
+}
+
 }  // namespace
 }  // namespace seiche
