@@ -1,6 +1,5 @@
 // seiche check: which hypotheses of the energy laws a case meets, and which law is promised.
 #include "command_line.hpp"
-#include "law_promise.hpp"
 #include "load_case.hpp"
 
 #include <fmt/format.h>
@@ -20,22 +19,9 @@ struct CheckArguments {
 };
 
 Json to_json(const RunSpec& spec, const Certificate& certificate) {
-  Json findings = Json::array();
-  for (const Hypothesis& hypothesis : certificate.hypotheses) {
-    Json item = {{"hypothesis", hypothesis.name},
-                 {"grade", to_string(hypothesis.grade)},
-                 {"statement", hypothesis.statement}};
-    item["margin"] = hypothesis.margin ? Json(*hypothesis.margin) : Json(nullptr);
-    item["witness"] = hypothesis.witness.empty() ? Json(nullptr) : Json(hypothesis.witness);
-    findings.push_back(item);
-  }
-  return {{"problem", spec.problem},
-          {"method", spec.method},
-          {"hypotheses", findings},
-          {"law",
-           {{"promised", certificate.law.promised},
-            {"reason", certificate.law.reason},
-            {"theorem", certificate.theorem.empty() ? Json(nullptr) : Json(certificate.theorem)}}}};
+  Json document = {{"problem", spec.problem}, {"method", spec.method}};
+  document.update(Json::parse(certificate_json(certificate)));
+  return document;
 }
 
 std::string to_text(const RunSpec& spec, const Certificate& certificate) {
@@ -55,13 +41,11 @@ std::string to_text(const RunSpec& spec, const Certificate& certificate) {
 ExitCode check(const CheckArguments& arguments) {
   const RunSpec spec = load_case(arguments.case_argument);
   const Problem problem = make_problem(spec);
-  Certificate certificate =
-      certify(problem, {.method = spec.method, .method_options = spec.method_options, .t_end = spec.t_end});
-  const Simulation simulation(problem, simulation_options(spec));
-  if (const LawPromise with_options = promise(simulation, spec); !with_options.promised) {
-    certificate.law = with_options;
-    certificate.theorem.clear();
-  }
+  const Simulation simulation(problem, simulation_options(spec));  // refuses what `run` refuses
+  const Certificate certificate = certify(problem, {.method = spec.method,
+                                                    .method_options = spec.method_options,
+                                                    .t_end = spec.t_end,
+                                                    .at_start = &simulation});
   print_data(arguments.json ? to_json(spec, certificate).dump(2) + "\n" : to_text(spec, certificate));
   return success;
 }

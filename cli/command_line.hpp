@@ -19,6 +19,7 @@ void add_run(CLI::App& app, Action& action);
 void add_converge(CLI::App& app, Action& action);
 void add_paper(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
+void add_spectrum(CLI::App& app, Action& action);
 void add_audit(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);

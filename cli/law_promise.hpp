@@ -8,7 +8,7 @@
 
 namespace seiche::cli {
 
-// What the problem promises, unless an option of the method gives it up.
+// What one member of an ensemble promises, unless an option of the method gives it up; a run quotes its certificate.
 LawPromise promise(const Simulation& simulation, const RunSpec& spec);
 
 // Why the promise is withdrawn after the run, or "": γ ≥ 0 was sampled before it, and the run itself looks closer.

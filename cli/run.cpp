@@ -10,7 +10,6 @@
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/law.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
 #include <seiche/output/progress.hpp>
@@ -18,6 +17,7 @@
 #include <seiche/output/summary.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
+#include <seiche/study/certificate.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -84,7 +84,13 @@ ExitCode run(const RunArguments& arguments) {
   SimulationOptions simulation_with = simulation_options(spec);
   simulation_with.backend_options.threads = arguments.threads;
   Simulation simulation(problem, simulation_with);
-  const LawPromise law = promise(simulation, spec);
+  // Cheap beside a run: what structure leaves open is not looked at here.
+  const Certificate certificate = certify(problem, {.method = spec.method,
+                                                    .method_options = spec.method_options,
+                                                    .t_end = spec.t_end,
+                                                    .sample_solution = false,
+                                                    .at_start = &simulation});
+  const LawPromise& law = certificate.law;
   const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
   const std::string remarks = notes(spec, problem);
   if (!remarks.empty() && !arguments.quiet) print_note(remarks);
@@ -109,6 +115,7 @@ ExitCode run(const RunArguments& arguments) {
                              .backend = simulation.backend(),
                              .h = spec.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec.h,
                              .tolerance = spec.tolerance,
+                             .certificate = certificate_json(certificate),
                              .versions = versions()};
   try {
     write_final_state(directory / "final.txt", simulation.physical());
@@ -120,6 +127,7 @@ ExitCode run(const RunArguments& arguments) {
   if (arguments.json) print_data(summary_json(identity, report));
   if (!arguments.quiet) {
     print_lines(report.full());
+    if (law.promised) print_lines(fmt::format("{:<10} {}\n", "theorem", certificate.theorem));
     print_lines(fmt::format("{:<10} {}\n", "files", directory.string()));
   } else if (report.status == RunReport::Status::failed || report.law == LawVerdict::violated) {
     print_note(report.message);

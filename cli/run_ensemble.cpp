@@ -12,6 +12,7 @@
 #include <seiche/ensemble/members.hpp>
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/output/csv_row.hpp>
+#include <seiche/study/certificate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -180,7 +181,8 @@ ExitCode exit_code(const Outcome& outcome) {
 }
 
 std::string summary(const RunSpec& spec, const std::string& backend, const EnsembleResult& result,
-                    const Outcome& outcome, const StatisticsFile& energies, bool has_modified) {
+                    const Outcome& outcome, const StatisticsFile& energies, bool has_modified,
+                    const Certificate& certificate) {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::int64_t fallbacks = 0;
@@ -215,6 +217,7 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
       {"energy", energy},
       {"counts", {{"scalar_iterations", iterations}, {"fallbacks", fallbacks}}},
       {"wall_seconds", result.wall_seconds},
+      {"certificate", Json::parse(certificate_json(certificate))},
       {"versions", about}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -246,6 +249,11 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
   const std::string remarks = notes(spec, problem);
   if (!remarks.empty() && !options.quiet) print_note(remarks);
 
+  // Of the first member; each member's own promise is counted in "laws".
+  const Certificate certificate = certify(problem, {.method = spec.method,
+                                                    .method_options = spec.method_options,
+                                                    .t_end = spec.t_end,
+                                                    .sample_solution = false});
   const fs::path directory = spec.output_directory;
   make_directory(directory);
   write_file(directory / "case.toml", write_case(spec));
@@ -263,7 +271,7 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
   const Outcome outcome(result);
   const std::string backend =
       spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
-  const std::string json = summary(spec, backend, result, outcome, energies, has_modified);
+  const std::string json = summary(spec, backend, result, outcome, energies, has_modified, certificate);
   energies.commit();
   write_members(directory / "members.csv", members, result, has_modified);
   write_finals(directory / "finals.csv", problem, result);

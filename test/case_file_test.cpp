@@ -1,8 +1,8 @@
 // Case files: what is right is read, what is wrong is refused with its place and what would be right.
+#include "support/error_of.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <seiche/config/case_file.hpp>
-#include <seiche/core/error.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <gmock/gmock.h>
@@ -19,6 +19,7 @@ namespace seiche {
 namespace {
 
 namespace fs = std::filesystem;
+using test::error_of;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -26,18 +27,8 @@ using Overrides = std::vector<std::string>;
 
 const std::string minimal = "[problem]\nname = \"klein_gordon\"\n";
 
-template <class Action>
-std::string complaint_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 std::string complaint(const std::string& text, const Overrides& overrides = {}) {
-  return complaint_of([&] { parse_case(text, "x.toml", overrides); });
+  return error_of([&] { parse_case(text, "x.toml", overrides); });
 }
 std::string complaint_of_override(const std::string& override) { return complaint(minimal, {override}); }
 
@@ -56,7 +47,7 @@ class CaseFolder : public test::InTemporaryDirectory {
     return make_problem(read_case(file));
   }
   std::string complaint_about(const std::string& numbers) const {
-    return complaint_of([&] { duffing_from(numbers); });
+    return error_of([&] { duffing_from(numbers); });
   }
 };
 
@@ -176,7 +167,7 @@ TEST(CaseFile, ExampleSaysTheDefaultsAndTheMeanings) {
     EXPECT_EQ(write_case(parse_case(example, "new.toml")), write_case(parse_case(defaults, "x.toml")));
     for (const Parameter& parameter : entry.parameters) EXPECT_THAT(example, HasSubstr(parameter.meaning));
   }
-  EXPECT_THAT(complaint_of([] { example_case("klein_gorden"); }), HasSubstr("did you mean 'klein_gordon'?"));
+  EXPECT_THAT(error_of([] { example_case("klein_gorden"); }), HasSubstr("did you mean 'klein_gordon'?"));
 }
 
 TEST(CaseFile, ShippedCasesAreReadAndMake) {
@@ -293,7 +284,7 @@ TEST(CaseFile, RatesAreNumbersOrFormulasInT) {
   EXPECT_THAT(complaint(minimal + "gamma = \"1/t\"\n"),
               HasSubstr("problem.gamma = inf must be a finite number at t = 0"));
   EXPECT_THAT(complaint(minimal + "gamma = \"log(25 - t)\"\n"), HasSubstr("must be a finite number at t = 25"));
-  EXPECT_EQ(complaint(minimal + "gamma = \"log(25 - t)\"\n[time]\nend = 20\n"), "accepted");
+  EXPECT_EQ(complaint(minimal + "gamma = \"log(25 - t)\"\n[time]\nend = 20\n"), "");
 }
 
 TEST(CaseFile, ARateMayChangeFromPointToPoint) {
@@ -313,15 +304,15 @@ TEST(CaseFile, ARateMayChangeFromPointToPoint) {
   EXPECT_TRUE(problem_with("0.1*t").damping.rate) << "the same at every point";
 
   const auto refusal = [&](const std::string& rate, const std::string& more = "") {
-    return complaint_of([&] { problem_with(rate, more); });
+    return error_of([&] { problem_with(rate, more); });
   };
   EXPECT_EQ(refusal("x*y"), "x.toml: the rate x*y names y, but the grid has 1 axis");
   EXPECT_EQ(refusal("x*z", "points = [4, 4]\n"), "x.toml: the rate x*z names z, but the grid has 2 axes");
   EXPECT_THAT(refusal("1/(x - 0.5)"),
               HasSubstr("problem.gamma = inf must be a finite number at t = 0, x = 0.5 (j = 5)"));
   EXPECT_THAT(refusal("x*log(25 - t)"), HasSubstr("must be a finite number at t = 2"));
-  EXPECT_EQ(refusal("x*log(25 - t)", "[time]\nend = 20\n"), "accepted");
-  EXPECT_THAT(complaint_of([] {
+  EXPECT_EQ(refusal("x*log(25 - t)", "[time]\nend = 20\n"), "");
+  EXPECT_THAT(error_of([] {
                 make_problem(
                     parse_case("[problem]\nname = \"alpha_fpu\"\nformulation = \"dissipative\"\ngamma = \"x\"\n",
                                "x.toml"));
@@ -333,7 +324,7 @@ TEST(CaseFile, ARateThatChangesFromPointToPointSurvivesWriting) {
   const RunSpec spec = parse_case(minimal + "gamma = \"0.1 + x^2\"\n", "x.toml");
   const RunSpec again = parse_case(write_case(spec), "y.toml");
   EXPECT_EQ(again.parameters.damping_rate("gamma").varying->text(), "0.1 + x^2");
-  EXPECT_THAT(complaint_of([&] { spec.parameters.rate("gamma"); }), HasSubstr("a number or a formula in t"));
+  EXPECT_THAT(error_of([&] { spec.parameters.rate("gamma"); }), HasSubstr("a number or a formula in t"));
 }
 
 TEST(CaseFile, MethodOptionsWithoutMeaningAreRefusedAtTheirKey) {
@@ -342,7 +333,7 @@ TEST(CaseFile, MethodOptionsWithoutMeaningAreRefusedAtTheirKey) {
   EXPECT_THAT(complaint(minimal + "[method]\nscalar_solver = \"newton\"\n"), HasSubstr("belongs to the lm family"));
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"seilm\"\nC = 1\n"), HasSubstr("C belongs to the sav family"));
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"refresh\"\n"), HasSubstr("refresh"));
-  EXPECT_EQ(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"frozen\"\n"), "accepted");
+  EXPECT_EQ(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"frozen\"\n"), "");
 }
 
 TEST(CaseFile, MistakesInTheSyntaxHaveAPlace) {
@@ -351,7 +342,7 @@ TEST(CaseFile, MistakesInTheSyntaxHaveAPlace) {
   EXPECT_THAT(complaint(minimal + "kappa = 1\nkappa = 2\n"), StartsWith("x.toml:4:"));
   EXPECT_THAT(complaint("[problem\n"), StartsWith("x.toml:1:"));
   EXPECT_THAT(complaint("\xFF\xFE"), StartsWith("x.toml:1:"));
-  EXPECT_NE(complaint(minimal + "initial = " + std::string(100000, '[')), "accepted") << "deep input must not crash";
+  EXPECT_NE(complaint(minimal + "initial = " + std::string(100000, '[')), "") << "deep input must not crash";
 }
 
 TEST(CaseFile, SetOverridesAnyKeyWithTheSameChecks) {
@@ -363,7 +354,7 @@ TEST(CaseFile, SetOverridesAnyKeyWithTheSameChecks) {
   EXPECT_EQ(spec.h, 1.0 / 16) << "the last one counts";
   EXPECT_EQ(spec.output_directory, "2024-01-01");
   EXPECT_FALSE(spec.parameters.rate("gamma")->is_constant());
-  EXPECT_EQ(complaint(minimal + "points = -1\n", {"problem.points=20"}), "accepted") << "what is replaced is not read";
+  EXPECT_EQ(complaint(minimal + "points = -1\n", {"problem.points=20"}), "") << "what is replaced is not read";
   EXPECT_EQ(parse_case("", "x.toml", {"problem.name=gkdv"}).problem, "gkdv");
 
   EXPECT_THAT(complaint_of_override("method.h=0"), StartsWith("--set method.h=0: method.h = 0 must be > 0"));
@@ -373,7 +364,7 @@ TEST(CaseFile, SetOverridesAnyKeyWithTheSameChecks) {
   for (const char* wrong : {"method.h", "h=1", ".h=1", "method.=1", "=1", ""})
     EXPECT_THAT(complaint_of_override(wrong), HasSubstr("write it as section.key=value")) << wrong;
   EXPECT_THAT(complaint_of_override("method.h="), HasSubstr("must be a finite number"));
-  EXPECT_NE(complaint_of_override("method.h=1\n[time]\nend = 3"), "accepted") << "one key, one value";
+  EXPECT_NE(complaint_of_override("method.h=1\n[time]\nend = 3"), "") << "one key, one value";
 }
 
 TEST(CaseFile, FormulasGiveTheInitialData) {
@@ -396,7 +387,7 @@ TEST(CaseFile, FormulasOfTheInitialDataAreChecked) {
   EXPECT_THAT(complaint(minimal + "initial = { u = \"t\", v = \"0\" }\n"), HasSubstr("unknown name 't'"));
   EXPECT_THAT(complaint(minimal + "initial = { u = \"0\", v = true }\n"), HasSubstr("must be a formula in quotes"));
   const RunSpec pole = parse_case(minimal + "initial = { u = \"1/(x - 1)\", v = \"0\" }\n", "x.toml");
-  EXPECT_THAT(complaint_of([&] { make_problem(pole); }),
+  EXPECT_THAT(error_of([&] { make_problem(pole); }),
               AllOf(StartsWith("x.toml: "), HasSubstr("u = 1/(x - 1) is inf at x = 1 (j = 10)")));
 }
 
@@ -427,23 +418,23 @@ TEST_F(CaseFolder, FileNamesStartAtTheCaseFileAndSurviveACopyOfTheCase) {
   const RunSpec copy = parse_case(write_case(spec), "elsewhere.toml");
   EXPECT_EQ(copy.initial, spec.initial);
   EXPECT_EQ(make_problem(copy).initial, make_problem(spec).initial);
-  EXPECT_THAT(complaint_of([&] { read_case(file, {"problem.initial={ file = \"none.txt\" }"}); }),
+  EXPECT_THAT(error_of([&] { read_case(file, {"problem.initial={ file = \"none.txt\" }"}); }),
               HasSubstr("none.txt does not exist"));
-  EXPECT_THAT(complaint_of([&] { read_case(file, {"problem.initial={ file = \"z0.txt\", q = \"1\" }"}); }),
+  EXPECT_THAT(error_of([&] { read_case(file, {"problem.initial={ file = \"z0.txt\", q = \"1\" }"}); }),
               HasSubstr("either a file or formulas"));
 }
 
 TEST_F(CaseFolder, ACaseFileThatCannotBeReadSaysSo) {
-  EXPECT_THAT(complaint_of([&] { read_case(directory / "none.toml"); }), HasSubstr("does not exist"));
-  EXPECT_THAT(complaint_of([&] { read_case(directory); }), HasSubstr("is a folder"));
+  EXPECT_THAT(error_of([&] { read_case(directory / "none.toml"); }), HasSubstr("does not exist"));
+  EXPECT_THAT(error_of([&] { read_case(directory); }), HasSubstr("is a folder"));
   const fs::path empty = write("empty.toml", "");
-  EXPECT_THAT(complaint_of([&] { read_case(empty); }), HasSubstr("has no name"));
+  EXPECT_THAT(error_of([&] { read_case(empty); }), HasSubstr("has no name"));
 }
 
 TEST(CaseFile, ParametersThatDoNotFitTogetherNameTheCase) {
   const RunSpec spec =
       parse_case("[problem]\nname = \"alpha_fpu\"\nformulation = \"dissipative\"\ngamma = \"exp(-t)\"\n", "x.toml");
-  EXPECT_THAT(complaint_of([&] { make_problem(spec); }), AllOf(StartsWith("x.toml: "), HasSubstr("conservative")));
+  EXPECT_THAT(error_of([&] { make_problem(spec); }), AllOf(StartsWith("x.toml: "), HasSubstr("conservative")));
 }
 
 TEST(CaseFile, AToleranceStandsInsteadOfAStepSize) {

@@ -1,4 +1,5 @@
 // [ensemble] in a case file: its members, its mistakes, and the files that a run leaves.
+#include "support/error_of.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <seiche/config/case_file.hpp>
@@ -26,12 +27,7 @@ RunSpec ensemble_case(const std::string& section) {
 }
 
 std::string complaint(const std::string& section) {
-  try {
-    make_members(ensemble_case(section));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test::error_of([&] { make_members(ensemble_case(section)); });
 }
 
 TEST(EnsembleCase, SamplesRepeatWithTheSeedAndMoreMembersBeginWithTheSameOnes) {

@@ -1,4 +1,5 @@
 // Every panel is drawn, the report holds every verdict and nothing from elsewhere, and bad numbers break neither.
+#include "support/error_of.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <seiche/core/error.hpp>
@@ -26,6 +27,7 @@ namespace seiche {
 namespace {
 
 namespace fs = std::filesystem;
+using test::error_of;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -35,15 +37,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 std::string text_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // Errors of order two, energies that decay: what a study brings.

@@ -1,6 +1,7 @@
 // Options given in C++ are refused where those of a case file are, with one sentence.
+#include "support/error_of.hpp"
+
 #include <seiche/backend/backends.hpp>
-#include <seiche/core/error.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/network.hpp>
 #include <seiche/problem/sine_gordon.hpp>
@@ -19,18 +20,9 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-std::string message_of(const auto& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Options, ALengthIsAPositiveNumber) {
   for (const double length : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
-    EXPECT_THAT(message_of([&] {
+    EXPECT_THAT(error_of([&] {
                   klein_gordon({.grid = {.points = {8, 8}, .length = {1.0, length}}});
                 }),
                 AllOf(HasSubstr("length = "), HasSubstr("axis 2"), HasSubstr("> 0")))
@@ -39,7 +31,7 @@ TEST(Options, ALengthIsAPositiveNumber) {
 
 TEST(Options, ABreatherHasAFrequencyBetweenZeroAndOne) {
   for (const double frequency : {0.0, 1.0, 1.5, -0.5, std::nan("")})
-    EXPECT_THAT(message_of([&] { sine_gordon({.breather_frequency = frequency}); }),
+    EXPECT_THAT(error_of([&] { sine_gordon({.breather_frequency = frequency}); }),
                 AllOf(HasSubstr("breather_frequency = "), HasSubstr("between 0 and 1")))
         << frequency;
 }
@@ -48,17 +40,17 @@ TEST(Options, WavesInLayersTakeDifferencesOfOrderTwoAndNoDealiasing) {
   GridOptions grid{.points = {16}, .length = {2.0}};
   for (const Discretisation discretisation : {Discretisation::fd4, Discretisation::spectral}) {
     grid.discretisation = discretisation;
-    EXPECT_THAT(message_of([&] { variable_wave({.grid = grid}); }), HasSubstr("fd2"));
+    EXPECT_THAT(error_of([&] { variable_wave({.grid = grid}); }), HasSubstr("fd2"));
   }
   grid.discretisation = Discretisation::fd2;
   grid.two_thirds = true;
-  EXPECT_THAT(message_of([&] { variable_wave({.grid = grid}); }), HasSubstr("two_thirds"));
+  EXPECT_THAT(error_of([&] { variable_wave({.grid = grid}); }), HasSubstr("two_thirds"));
   for (const Parameter& parameter : variable_wave_entry().parameters) EXPECT_NE(parameter.name, "dealias");
 }
 
 TEST(Options, TheModalBackendTakesOneThreadOrMore) {
   for (const int threads : {0, -2})
-    EXPECT_THAT(message_of([&] { find_backend("modal").system(klein_gordon(), {.threads = threads}); }),
+    EXPECT_THAT(error_of([&] { find_backend("modal").system(klein_gordon(), {.threads = threads}); }),
                 AllOf(HasSubstr("threads = "), HasSubstr("≥ 1")));
 }
 
@@ -67,14 +59,14 @@ TEST(Options, ASystemOfMatricesHasOneFieldOrTwo) {
   M.setIdentity();
   const SparseMatrix S(6, 6);
   for (const Index fields : {-1, 0, 3})
-    EXPECT_THAT(message_of([&] { sparse_problem({.fields = fields, .matrices = {.S = S, .M = M}}); }),
+    EXPECT_THAT(error_of([&] { sparse_problem({.fields = fields, .matrices = {.S = S, .M = M}}); }),
                 AllOf(HasSubstr("fields = "), HasSubstr("1 or 2")));
-  EXPECT_THAT(message_of([&] { sparse_problem({.fields = 1, .matrices = {.S = S, .M = SparseMatrix(0, 0)}}); }),
+  EXPECT_THAT(error_of([&] { sparse_problem({.fields = 1, .matrices = {.S = S, .M = SparseMatrix(0, 0)}}); }),
               HasSubstr("0 × 0"));
 }
 
 TEST(Options, ANetworkHasANode) {
-  EXPECT_THAT(message_of([] { network({.adjacency = SparseMatrix(0, 0)}); }), HasSubstr("at least one node"));
+  EXPECT_THAT(error_of([] { network({.adjacency = SparseMatrix(0, 0)}); }), HasSubstr("at least one node"));
 }
 
 }  // namespace

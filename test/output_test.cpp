@@ -1,7 +1,7 @@
 // Files appear whole or not at all, and numbers survive them to the last bit.
+#include "support/error_of.hpp"
 #include "support/temporary_directory.hpp"
 
-#include <seiche/core/error.hpp>
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
@@ -25,6 +25,7 @@ namespace seiche {
 namespace {
 
 namespace fs = std::filesystem;
+using test::error_of;
 using testing::HasSubstr;
 
 class Output : public test::InTemporaryDirectory {
@@ -47,15 +48,6 @@ class Output : public test::InTemporaryDirectory {
 const std::vector<double> awkward = {
     0.1, 1.0 / 3, -2.2250738585072014e-308, 5e-324, 1.7976931348623157e308, 1.0000000000000002, 123456789.12345679,
     -0.0};
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST_F(Output, AFileIsThereOnlyAfterCommit) {
   const fs::path path = directory / "x.txt";

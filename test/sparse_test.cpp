@@ -1,4 +1,5 @@
 // Sparse matrices: the backend, the problems that need it, and the files that they come from.
+#include "support/error_of.hpp"
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
 #include "support/temporary_directory.hpp"
@@ -11,7 +12,6 @@
 #include <seiche/config/matrix_market.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/definiteness.hpp>
-#include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/network.hpp>
@@ -48,15 +48,6 @@ Matrix force_of(const System& system, const Propagator& propagator) {
 double contract_defect(const Matrix& F, const Matrix& M) {
   const Matrix FMF = F.transpose() * M * F;
   return largest(F + F.transpose() + FMF) / (largest(F) + largest(FMF));
-}
-
-std::string message_of(const auto& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 double distance(const Vector& a, const Vector& b) { return largest(a - b); }
@@ -185,10 +176,10 @@ TEST(Sparse, TheEnergyLawHoldsToTwelveDigitsHoweverCoarseTheExponential) {
 TEST(Sparse, LanczosSaysWhereItDoesNotApply) {
   const SparseOptions lanczos{.exponential = ExponentialKind::lanczos};
   Problem periodic = variable_wave({.grid = {.points = {8}}});  // M annihilates constants
-  EXPECT_NE(message_of([&] { sparse(periodic, lanczos); }).find("M positive definite"), std::string::npos);
+  EXPECT_NE(error_of([&] { sparse(periodic, lanczos); }).find("M positive definite"), std::string::npos);
   const Problem merged = with_damping_merged(layered_wave(12, constant_rate(0.1)));
-  EXPECT_NE(message_of([&] { sparse(merged, lanczos); }).find("skew"), std::string::npos);
-  EXPECT_NE(message_of([&] { sparse(merged, {.pade_degree = 13}); }).find("between 1 and 12"), std::string::npos);
+  EXPECT_NE(error_of([&] { sparse(merged, lanczos); }).find("skew"), std::string::npos);
+  EXPECT_NE(error_of([&] { sparse(merged, {.pade_degree = 13}); }).find("between 1 and 12"), std::string::npos);
 }
 
 // So many blocks as the spectrum is long, and no step takes more than a few hundred.
@@ -203,7 +194,7 @@ TEST(Sparse, LanczosThatDoesNotSettleSaysWhatWouldHelp) {
   lanczos.linear->propagator(PropagatorKind::exponential, 0.05)->increment(z, y);  // hρ = 150
   EXPECT_LE(distance(x, y), 1e-11 * largest(x));
   const auto too_long = lanczos.linear->propagator(PropagatorKind::exponential, 0.3);  // hρ = 900
-  const std::string message = message_of([&] { too_long->increment(z, y); });
+  const std::string message = error_of([&] { too_long->increment(z, y); });
   for (const char* part : {"400", "hρ", "h = 0.3", "smaller h", "pade"})
     EXPECT_NE(message.find(part), std::string::npos) << part << ": " << message;
 }
@@ -258,9 +249,7 @@ TEST(Sparse, EveryProblemOfMatricesKeepsItsPromises) {
 
 TEST(Sparse, MatricesThatBreakAHypothesisAreRefusedWithAWitness) {
   const SparseMatrix good = layered_wave().matrices->M;
-  const auto refused = [](SparseOperators m) {
-    return message_of([&] { sparse_problem({.matrices = std::move(m)}); });
-  };
+  const auto refused = [](SparseOperators m) { return error_of([&] { sparse_problem({.matrices = std::move(m)}); }); };
   SparseMatrix bad = good;
   bad.coeffRef(2, 1) = 7;
   EXPECT_NE(refused({.M = bad}).find("(3, 2) = 7"), std::string::npos) << refused({.M = bad});
@@ -345,7 +334,7 @@ TEST(Sparse, StencilsWithMoreEntriesThanAMatrixCanCountAreRefused) {
   const Grid grid{
       .axes = {{600, 1.0, Boundary::periodic}, {600, 1.0, Boundary::periodic}, {600, 1.0, Boundary::periodic}}};
   const Stencil laplacian = Stencil::laplacian(grid, Discretisation::fd4);
-  const std::string message = message_of([&] { laplacian.sparse_matrix(grid); });
+  const std::string message = error_of([&] { laplacian.sparse_matrix(grid); });
   EXPECT_NE(message.find("fewer points"), std::string::npos) << message;
 }
 
@@ -371,7 +360,7 @@ class MatrixMarket : public InTemporaryDirectory {
     return file;
   }
   std::string refusal(const std::string& text) const {
-    return message_of([&] { read_matrix_market(write(text)); });
+    return error_of([&] { read_matrix_market(write(text)); });
   }
 };
 
@@ -411,7 +400,7 @@ TEST_F(MatrixMarket, AMistakeIsNamedWithItsLine) {
   EXPECT_NE(refusal(head + "2 2 1000000000\n2 1 1\n").find("do not fit"), std::string::npos);
   const std::string huge = refusal("%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 1 1\n");
   EXPECT_NE(huge.find("a.mtx:2: a matrix of 2000000000 × 2000000000 needs at least"), std::string::npos) << huge;
-  EXPECT_NE(message_of([] { read_matrix_market("no_such.mtx"); }).find("no_such.mtx"), std::string::npos);
+  EXPECT_NE(error_of([] { read_matrix_market("no_such.mtx"); }).find("no_such.mtx"), std::string::npos);
 }
 
 TEST(Sparse, CaseFilesNameMatricesBesideThemselves) {
@@ -425,7 +414,7 @@ TEST(Sparse, CaseFilesNameMatricesBesideThemselves) {
     const RunSpec again = parse_case(write_case(spec), "again.toml");  // file names are absolute there
     EXPECT_EQ(write_case(again), write_case(spec)) << name;
   }
-  EXPECT_NE(message_of([] {
+  EXPECT_NE(error_of([] {
               parse_case("[problem]\nname = \"network\"\ngraph = \"absent.mtx\"\n", "c.toml");
             }).find("problem.graph file absent.mtx does not exist"),
             std::string::npos);

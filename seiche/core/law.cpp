@@ -3,39 +3,10 @@
 #include <seiche/core/law_matrices.hpp>
 #include <seiche/core/law_of_damping.hpp>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 
 namespace seiche {
 namespace {
-
-constexpr double round_off = 1e-13;  // relative to the size of the symbol
-
-struct Extreme {
-  double smallest;
-  double largest;
-  double size;
-  bool is_nonnegative() const { return smallest >= -round_off * size; }
-  bool is_nonpositive() const { return largest <= round_off * size; }
-};
-
-// Extreme eigenvalues over all modes of the Hermitian part of a symbol.
-template <class Symbol>
-Extreme hermitian_extremes(const Grid& grid, const Symbol& symbol) {
-  Extreme extreme{0, 0, 0};
-  const Modes modes(grid);
-  for (Index k = 0; k < modes.count(); ++k) {
-    const Eigen::MatrixXcd a = symbol(modes[k]);
-    const Eigen::MatrixXcd hermitian = 0.5 * (a + a.adjoint());
-    const Eigen::VectorXd values =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(hermitian, Eigen::EigenvaluesOnly).eigenvalues();
-    extreme.smallest = std::min(extreme.smallest, values.minCoeff());
-    extreme.largest = std::max(extreme.largest, values.maxCoeff());
-    extreme.size = std::max(extreme.size, a.cwiseAbs().maxCoeff());
-  }
-  return extreme;
-}
 
 // "t = 1, x = 0.5, y = 2" where the rate is smallest at time t.
 std::string place_of_smallest(const FieldRate& rate, const Grid& grid, double t) {
@@ -69,16 +40,12 @@ std::string complaint_about_field_rate(const Problem& problem, double t_end) {
   return "";
 }
 
-LawPromise promise_of_stencils(const Problem& problem, double t_end) {
-  const auto m = [&](const Mode& mode) { return problem.M.symbol(mode); };
-  const Extreme metric = hermitian_extremes(problem.grid, m);
-  if (!metric.is_nonnegative()) {
-    return {false, fmt::format("M is not positive semidefinite (eigenvalue {:.3g})", metric.smallest)};
-  }
-  const Extreme structure = hermitian_extremes(problem.grid, [&](const Mode& mode) { return problem.S.symbol(mode); });
-  if (!structure.is_nonpositive()) {
-    return {false, fmt::format("sym(S) is not negative semidefinite (eigenvalue {:.3g})", structure.largest)};
-  }
+LawPromise promise_of_stencils(const Problem& problem, double t_end, const OperatorFindings& findings) {
+  if (!findings.M.holds())
+    return {false, fmt::format("M is not positive semidefinite (eigenvalue {:.3g})", findings.M.over_modes->value)};
+  if (!findings.minus_S.holds())
+    return {false, fmt::format("sym(S) is not negative semidefinite (eigenvalue {:.3g})",
+                               -findings.minus_S.over_modes->value)};
   const LinearDamping& damping = problem.damping;
   if (!problem.has_damping()) return {true, "sym(S) ⪯ 0 and no damping flow"};
 
@@ -88,27 +55,23 @@ LawPromise promise_of_stencils(const Problem& problem, double t_end) {
     const std::string complaint = complaint_about_field_rate(problem, t_end);
     if (!complaint.empty()) return {false, complaint};
   }
-  const Extreme constant = hermitian_extremes(problem.grid, [&](const Mode& mode) -> Eigen::MatrixXcd {
-    return problem.M.symbol(mode) * problem.damping.constant.symbol(mode);
-  });
-  Extreme varying{0, 0, 0};
-  if (damping.rate) {
-    varying = hermitian_extremes(problem.grid, [&](const Mode& mode) -> Eigen::MatrixXcd {
-      return problem.M.symbol(mode) * rate_symbol(problem);
-    });
-  }
-  if (!constant.is_nonnegative() || !varying.is_nonnegative()) {
-    return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
-  }
+  const bool feeds =
+      (findings.MD_constant && !findings.MD_constant->holds()) || (damping.rate && !findings.MD_rate->holds());
+  if (feeds) return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
   return promise_given_semidefinite_MD(problem);
 }
 
 }  // namespace
 
 LawPromise promise_energy_law(const Problem& problem, double t_end) {
+  return promise_energy_law(problem, t_end, look_at_operators(problem));
+}
+
+LawPromise promise_energy_law(const Problem& problem, double t_end, const OperatorFindings& findings) {
   if (const std::string complaint = complaint_beyond_linear(problem, t_end); !complaint.empty())
     return {false, complaint};
-  return problem.matrices ? promise_energy_law_of_matrices(problem, t_end) : promise_of_stencils(problem, t_end);
+  return problem.matrices ? promise_energy_law_of_matrices(problem, t_end, findings)
+                          : promise_of_stencils(problem, t_end, findings);
 }
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 // Which energy law a problem promises, judged from its structure alone.
 #pragma once
 
+#include <seiche/core/operator_findings.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/run_report.hpp>
 
@@ -10,5 +11,7 @@ namespace seiche {
 // sym(S) ⪯ 0 and the energy-compatible damping condition sym(P_H D) ⪰ 0 (paper (1.2)); each is decided mode by mode
 // from the stencils and from the form of V.
 LawPromise promise_energy_law(const Problem& problem, double t_end);
+// The same from what was seen before: the one place where findings become a promise.
+LawPromise promise_energy_law(const Problem& problem, double t_end, const OperatorFindings& findings);
 
 }  // namespace seiche

@@ -1,4 +1,3 @@
-#include <seiche/core/definiteness.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law_matrices.hpp>
 #include <seiche/core/law_of_damping.hpp>
@@ -31,18 +30,17 @@ std::string complaint_about_rates(const Problem& problem, double t_end) {
 
 }  // namespace
 
-LawPromise promise_energy_law_of_matrices(const Problem& problem, double t_end) {
-  const SparseOperators& matrices = *problem.matrices;
+LawPromise promise_energy_law_of_matrices(const Problem& problem, double t_end, const OperatorFindings& findings) {
   const LinearDamping& damping = problem.damping;
-  if (const auto x = negative_direction(matrices.M))
+  if (const auto& x = findings.M.negative_direction)
     return {false, fmt::format("M is not positive semidefinite (zᵀMz = {:.3g} for a z of norm 1)", x->value)};
-  if (const auto x = negative_direction(SparseMatrix(-symmetric_part(matrices.S))))
+  if (const auto& x = findings.minus_S.negative_direction)
     return {false, fmt::format("sym(S) is not negative semidefinite (zᵀSz = {:.3g} for a z of norm 1)", -x->value)};
   if (!problem.has_damping()) return {true, "sym(S) ⪯ 0 and no damping flow"};
 
   if (std::string text = complaint_about_rates(problem, t_end); !text.empty()) return {false, text};
-  const bool feeds = negative_direction(symmetric_part(matrices.M * matrices.D)) ||
-                     (damping.rate && negative_direction(symmetric_part(matrices.M * rate_matrix(problem))));
+  const bool feeds =
+      (findings.MD_constant && !findings.MD_constant->holds()) || (damping.rate && !findings.MD_rate->holds());
   if (feeds) return {false, "sym(MD) is not positive semidefinite: the damping feeds some direction"};
   return promise_given_semidefinite_MD(problem);
 }

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <seiche/core/hypothesis.hpp>
+#include <seiche/core/operator_findings.hpp>
 #include <seiche/core/problem.hpp>
 
 namespace seiche {
 
-Hypothesis hypothesis_of_S(const Problem& problem);  // sym(S) ⪯ 0, by structure if S is skew
-Hypothesis hypothesis_of_M(const Problem& problem);  // M ⪰ 0, its kernel named
-Hypothesis hypothesis_of_MD(
-    const Problem& problem);  // sym(MD) ⪰ 0, for the constant part of D and for the projector of its rate
+// sym(S) ⪯ 0, by structure if S is skew
+Hypothesis hypothesis_of_S(const Problem& problem, const OperatorFindings& findings);
+// M ⪰ 0, its kernel named
+Hypothesis hypothesis_of_M(const Problem& problem, const OperatorFindings& findings);
+// sym(MD) ⪰ 0, for the constant part of D and for the projector of its rate
+Hypothesis hypothesis_of_MD(const Problem& problem, const OperatorFindings& findings);
 Hypothesis hypothesis_of_commuting(const Problem& problem);  // D(t)D(s) = D(s)D(t)
 
 }  // namespace seiche

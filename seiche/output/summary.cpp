@@ -44,6 +44,7 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                     {"fallbacks", report.fallbacks}}},
                   {"wall_seconds", number(report.wall_seconds)},
                   {"versions", versions}};
+  if (!run.certificate.empty()) summary["certificate"] = Json::parse(run.certificate);
   if (run.tolerance) {
     summary["tolerance"] = number(*run.tolerance);
     summary["counts"]["rejected_steps"] = report.rejected;

@@ -4,9 +4,12 @@
 #include <seiche/run/adaptive.hpp>
 #include <seiche/study/certificate.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 namespace seiche {
@@ -65,10 +68,11 @@ Hypothesis hypothesis_of_forces(const Problem& problem) {
 }
 
 // wᵀS(z)w = 0 for random z and w, as far as round-off lets one see.
-Hypothesis hypothesis_of_structure(const Problem& problem) {
+Hypothesis hypothesis_of_structure(const Problem& problem, const CertificateOptions& options) {
   const std::string name = "S(z) skew";
-  Simulation simulation(problem, {.method = "egc4"});
-  const System& system = simulation.system();
+  std::optional<Simulation> own;
+  if (options.at_start == nullptr) own.emplace(problem, SimulationOptions{.method = options.method});
+  const System& system = own ? own->system() : options.at_start->system();
   const Index n = system.space->physical_size();
   Vector z(system.space->size()), w(z), out(z), values(n);
   std::mt19937_64 random(1);
@@ -132,8 +136,8 @@ Hypothesis sampled_condition(const Problem& problem, double t_end, const std::st
           watch.smallest};
 }
 
-Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOptions& options, const Hypothesis& MD,
-                                   const Hypothesis& touch, const LawPromise& law) {
+Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOptions& options, const LawPromise& law,
+                                   const Hypothesis& MD, const Hypothesis& touch) {
   const std::string name = "sym(P_H D) ⪰ 0";  // the energy-compatible damping condition (paper (1.2))
   const bool touched = touch.grade == Grade::violated;
   if (!problem.has_damping()) return {name, Grade::by_structure, "there is no damping"};
@@ -145,13 +149,16 @@ Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOpti
   }
   if (law.promised) return {name, Grade::by_structure, "D = γI and u·∇V(u) ≥ 0 for every u, by the form of V"};
   if (!options.sample_solution || options.t_end <= 0)
-    return {name, Grade::sampled, "not looked at: no solution was followed"};
+    return {name, Grade::sampled, "not looked at: no solution was followed; seiche check follows one"};
   return sampled_condition(problem, options.t_end, name);
 }
 
 Hypothesis hypothesis_of_margin(const Problem& problem, const CertificateOptions& options) {
   const std::string name = "V + C > 0";
-  Simulation simulation(problem, {.method = options.method, .method_options = options.method_options});
+  std::optional<Simulation> own;
+  if (options.at_start == nullptr)
+    own.emplace(problem, SimulationOptions{.method = options.method, .method_options = options.method_options});
+  const Simulation& simulation = own ? *own : *options.at_start;
   const State& s = simulation.state();
   const double V = simulation.system().potential->value(s.z);
   return {
@@ -176,29 +183,60 @@ std::string theorem(const Problem& problem, const MethodEntry& method) {
 
 }  // namespace
 
+std::string law_given_up(const MethodEntry& method, const MethodOptions& options) {
+  if (options.auxiliary == AuxiliaryMode::refresh)
+    return "auxiliary = \"refresh\" resets r after the damping, and the modified energy may rise there";
+  const bool frozen = options.auxiliary == AuxiliaryMode::frozen;
+  if (options.scalar_solver == ScalarSolver::newton || (method.closure == ClosureKind::lm && frozen))
+    return "plain Newton accepts steps whose scalar equation it did not solve";
+  return "";
+}
+
 Certificate certify(const Problem& problem, const CertificateOptions& options) {
   const MethodEntry& method = find_method(options.method);
+  const OperatorFindings findings = look_at_operators(problem);
+  const LawPromise law = promise_energy_law(problem, options.t_end, findings);
   Certificate certificate;
   auto& list = certificate.hypotheses;
-  list.push_back(hypothesis_of_S(problem));
-  list.push_back(hypothesis_of_M(problem));
+  list.push_back(hypothesis_of_S(problem, findings));
+  list.push_back(hypothesis_of_M(problem, findings));
   list.push_back(hypothesis_of_rate(problem, options.t_end));
-  certificate.law = promise_energy_law(problem, options.t_end);
-  Hypothesis MD = hypothesis_of_MD(problem);
+  Hypothesis MD = hypothesis_of_MD(problem, findings);
   // γ(x, t) does not commute with M where M couples points: the projector of the rate then says nothing.
-  if (problem.damping.field_rate && !certificate.law.promised && MD.grade == Grade::verified)
-    MD = {MD.name, Grade::sampled, "not decided: " + certificate.law.reason};
+  if (problem.damping.field_rate && !law.promised && MD.grade == Grade::verified)
+    MD = {MD.name, Grade::sampled, "not decided: " + law.reason};
   list.push_back(MD);
-  list.push_back(hypothesis_of_touch(problem));
-  const Hypothesis touch = list.back();
-  list.push_back(hypothesis_of_condition(problem, options, MD, touch, certificate.law));
+  const Hypothesis touch = hypothesis_of_touch(problem);
+  list.push_back(touch);
+  list.push_back(hypothesis_of_condition(problem, options, law, MD, touch));
   list.push_back(hypothesis_of_commuting(problem));
   if (problem.friction) list.push_back(hypothesis_of_friction(problem, options.t_end));
   if (problem.has_forces()) list.push_back(hypothesis_of_forces(problem));
-  if (problem.structure) list.push_back(hypothesis_of_structure(problem));
+  if (problem.structure) list.push_back(hypothesis_of_structure(problem, options));
   if (method.closure == ClosureKind::sav) list.push_back(hypothesis_of_margin(problem, options));
+  const std::string given_up = law_given_up(method, options.method_options);
+  certificate.law = given_up.empty() ? law : LawPromise{false, given_up};
   if (certificate.law.promised) certificate.theorem = theorem(problem, method);
   return certificate;
+}
+
+std::string certificate_json(const Certificate& certificate) {
+  using Json = nlohmann::ordered_json;
+  Json findings = Json::array();
+  for (const Hypothesis& hypothesis : certificate.hypotheses) {
+    Json item = {{"hypothesis", hypothesis.name},
+                 {"grade", to_string(hypothesis.grade)},
+                 {"statement", hypothesis.statement}};
+    item["margin"] = hypothesis.margin ? Json(*hypothesis.margin) : Json(nullptr);
+    item["witness"] = hypothesis.witness.empty() ? Json(nullptr) : Json(hypothesis.witness);
+    findings.push_back(item);
+  }
+  const Json document = {{"hypotheses", findings},
+                         {"law",
+                          {{"promised", certificate.law.promised},
+                           {"reason", certificate.law.reason},
+                           {"theorem", certificate.theorem.empty() ? Json(nullptr) : Json(certificate.theorem)}}}};
+  return document.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace seiche

@@ -21,11 +21,19 @@ struct CertificateOptions {
   MethodOptions method_options = {};
   double t_end = 0.0;
   bool sample_solution = true;  // follow a solution of its own, where structure decides nothing
+  // One with this method, at its start: what is known of C is read off it instead of one made for that.
+  const Simulation* at_start = nullptr;
 };
 
 // Nothing here is taken from the numbers that a method computes with: operators are looked at mode by mode or by
 // factorisation, and what can only be sampled is sampled along a solution of its own, by collocation with tolerance 1e-5.
 // Throws Error where the method does not apply to the problem.
 Certificate certify(const Problem& problem, const CertificateOptions& options);
+
+// Why an option of the method gives up the energy law, or "".
+std::string law_given_up(const MethodEntry& method, const MethodOptions& options);
+
+// {"hypotheses": […], "law": {…}}, as `seiche check --json` and summary.json have it.
+std::string certificate_json(const Certificate& certificate);
 
 }  // namespace seiche

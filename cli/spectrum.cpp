@@ -1,0 +1,63 @@
+// seiche spectrum: the damping and the frequency that a method gives each mode, against those of the equation.
+#include "command_line.hpp"
+#include "load_case.hpp"
+
+#include <seiche/core/error.hpp>
+#include <seiche/figure/spectrum_panels.hpp>
+#include <seiche/output/atomic_file.hpp>
+#include <seiche/study/spectrum.hpp>
+
+#include <memory>
+
+namespace seiche::cli {
+namespace {
+
+struct SpectrumArguments {
+  CaseArgument case_argument;
+  std::string directory;
+  bool directory_given = false;
+  int threads = 1;
+  bool json = false;
+};
+
+ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
+  const RunSpec spec = load_case(arguments.case_argument);
+  if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
+  if (spec.h == 0)
+    throw Error("{} has a tolerance and no h, and spectrum looks at one step: give --set method.h=1/64", spec.source);
+  const Problem problem = make_problem(spec);
+  SimulationOptions options = simulation_options(spec);
+  options.backend_options.threads = arguments.threads;
+  const std::string remarks = notes(spec, problem);
+  if (!remarks.empty()) print_note(remarks);
+  const Spectrum result = spectrum(problem, options, spec.h);
+  if (arguments.directory_given) {
+    const std::filesystem::path directory = arguments.directory;
+    make_directory(directory);
+    write_file(directory / "spectrum.csv", spectrum_csv(result));
+    draw_spectrum(result, directory);
+  }
+  print_data(arguments.json ? spectrum_json(result) : spectrum_table(result));
+  return success;
+}
+
+}  // namespace
+
+void add_spectrum(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<SpectrumArguments>();
+  CLI::App* command =
+      app.add_subcommand("spectrum", "Is the damping physical? Decay and frequency of each mode, numerical and exact");
+  add_case(*command, arguments->case_argument);
+  CLI::Option* out =
+      command->add_option("--out", arguments->directory, "Where spectrum.csv and the figures go")->type_name("DIR");
+  command->add_option("--threads", arguments->threads, "Threads, over a large grid; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65536));
+  command->add_flag("--json", arguments->json, "Print one JSON document on stdout");
+  command->callback([arguments, out, &action] {
+    arguments->directory_given = out->count() > 0;
+    action = [arguments] { return spectrum_of_case(*arguments); };
+  });
+}
+
+}  // namespace seiche::cli
