@@ -6,14 +6,8 @@
 namespace seiche::cli {
 
 LawPromise promise(const Simulation& simulation, const RunSpec& spec) {
-  if (spec.method_options.auxiliary == AuxiliaryMode::refresh) {
-    return {false, "auxiliary = \"refresh\" resets r after the damping, and the modified energy may rise there"};
-  }
-  const bool lm = simulation.method().closure == ClosureKind::lm;
-  const bool frozen = spec.method_options.auxiliary == AuxiliaryMode::frozen;
-  if (spec.method_options.scalar_solver == ScalarSolver::newton || (lm && frozen)) {
-    return {false, "plain Newton accepts steps whose scalar equation it did not solve"};
-  }
+  const std::string objection = spec.method_options.objection(simulation.method());
+  if (!objection.empty()) return {false, objection};
   return promise_energy_law(simulation.problem(), spec.t_end);
 }
 
