@@ -7,8 +7,8 @@
 namespace seiche::cli {
 
 LawPromise promise(const Simulation& simulation, const RunSpec& spec) {
-  if (const std::string reason = law_given_up(simulation.method(), spec.method_options); !reason.empty())
-    return {false, reason};
+  const std::string objection = spec.method_options.objection(simulation.method());
+  if (!objection.empty()) return {false, objection};
   return promise_energy_law(simulation.problem(), spec.t_end);
 }
 

@@ -26,6 +26,7 @@ Json methods_json() {
                     {"composition", to_string(method.composition)},
                     {"order", method.order},
                     {"law", method.law},
+                    {"projection", method.projects() ? Json(to_string(method.projection)) : Json(nullptr)},
                     {"reference", method.reference}});
   }
   return list;
@@ -56,12 +57,13 @@ Json backends_json() {
 }
 
 std::string methods_text() {
-  std::string text = fmt::format("{:<8} {:<8} {:<12} {:<12} {:>5}  {:<11} {}\n", "name", "closure", "propagator",
-                                 "composition", "order", "law", "reference");
+  constexpr auto row = "{:<13} {:<8} {:<12} {:<12} {:>5}  {:<11} {:<11} {}\n";
+  std::string text =
+      fmt::format(row, "name", "closure", "propagator", "composition", "order", "law", "projection", "reference");
   for (const MethodEntry& method : methods()) {
-    text += fmt::format("{:<8} {:<8} {:<12} {:<12} {:>5}  {:<11} {}\n", method.name, to_string(method.closure),
-                        to_string(method.propagator), to_string(method.composition), method.order, method.law,
-                        method.reference);
+    text += fmt::format(row, method.name, to_string(method.closure), to_string(method.propagator),
+                        to_string(method.composition), method.order, method.law,
+                        method.projects() ? to_string(method.projection) : "", method.reference);
   }
   return text;
 }

@@ -135,6 +135,7 @@ TEST(CaseFile, WhatIsWrittenIsReadBackAsTheSameCase) {
       {"problem.initial={ u = \"sin(pi*x/length)\", v = \"0\" }"},
       {"output.directory=a \"quoted\" \\ name", "output.snapshot_every=0"},
       {"method.name=ssav", "method.auxiliary=refresh", "problem.kappa=1/3"},
+      {"method.name=egc6", "method.law=none"},
       {"backend.name=modal", "backend.plan=measure"},
   };
   for (const Overrides& overrides : variations) {
@@ -150,6 +151,8 @@ TEST(CaseFile, WhatIsWrittenIsReadBackAsTheSameCase) {
     EXPECT_EQ(again.method_options.C, spec.method_options.C);
     EXPECT_EQ(again.method_options.auxiliary, spec.method_options.auxiliary);
     EXPECT_EQ(again.method_options.scalar_solver, spec.method_options.scalar_solver);
+    const MethodEntry& method = find_method(spec.method);
+    EXPECT_EQ(again.method_options.law_of(method), spec.method_options.law_of(method));
     EXPECT_EQ(again.backend, spec.backend);
     EXPECT_EQ(again.measure_plans, spec.measure_plans);
     EXPECT_EQ(again.t_end, spec.t_end);
@@ -189,7 +192,7 @@ TEST(CaseFile, UnknownSectionsAndKeysAreRefusedWithTheNearestName) {
                     HasSubstr("problem, method, backend, time, output")));
   EXPECT_THAT(complaint(minimal + "[method]\nC = 1\nauxilary = \"frozen\"\n"),
               AllOf(StartsWith("x.toml:5:1: "), HasSubstr("'auxilary'; did you mean 'auxiliary'?"),
-                    HasSubstr("Allowed: name, h, tolerance, h_max, C, auxiliary, scalar_solver")));
+                    HasSubstr("Allowed: name, h, tolerance, h_max, C, auxiliary, scalar_solver, law")));
   EXPECT_THAT(complaint(minimal + "kapa = 1\n"), AllOf(StartsWith("x.toml:3:1: "), HasSubstr("did you mean 'kappa'?")));
   EXPECT_THAT(complaint("h = 1\n" + minimal), HasSubstr("x.toml:1:1: the key 'h' stands outside every section; it "
                                                         "belongs into [method]"));
@@ -331,6 +334,8 @@ TEST(CaseFile, MethodOptionsWithoutMeaningAreRefusedAtTheirKey) {
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"seavf\"\nh = 0.1\nauxiliary = \"frozen\"\n"),
               AllOf(StartsWith("x.toml:6:13: "), HasSubstr("seavf")));
   EXPECT_THAT(complaint(minimal + "[method]\nscalar_solver = \"newton\"\n"), HasSubstr("belongs to the lm family"));
+  EXPECT_THAT(complaint(minimal + "[method]\nlaw = \"guard\"\n"), HasSubstr("end with a projection"));
+  EXPECT_THAT(complaint(minimal + "[method]\nname = \"egc4\"\nlaw = \"gard\"\n"), HasSubstr("did you mean 'guard'"));
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"seilm\"\nC = 1\n"), HasSubstr("C belongs to the sav family"));
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"refresh\"\n"), HasSubstr("refresh"));
   EXPECT_EQ(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"frozen\"\n"), "");

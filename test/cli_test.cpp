@@ -337,6 +337,19 @@ TEST_F(Cli, CheckShowsHypothesesWithGradesAndTheLawTheyPromise) {
   EXPECT_THAT(newton.out, HasSubstr("No energy law is promised for seilm: plain Newton"));
 }
 
+TEST_F(Cli, ALawThatIsSwitchedOffIsPromisedNowhere) {
+  write_case();
+  const std::string off = " --set method.name=egc4 method.law=none output.ledger=on";
+  EXPECT_THAT(seiche("check case.toml" + off).out, HasSubstr("No energy law is promised for egc4: law = \"none\""));
+  ASSERT_EQ(seiche("run case.toml --out out" + off).exit, 0);
+  const json summary = json::parse(text("out/summary.json"));
+  EXPECT_EQ(summary["energy"]["law"], "not promised");
+  EXPECT_THAT(summary.dump(), HasSubstr("switches off the projection"));
+  const Result audit = seiche("audit out");
+  EXPECT_EQ(audit.exit, 0) << audit.out;
+  EXPECT_THAT(audit.out, HasSubstr("not promised: law = \"none\""));
+}
+
 TEST_F(Cli, AnAuditConfirmsARunFromItsFilesAndSeesWhatWasChanged) {
   write_case();
   ASSERT_EQ(seiche("run case.toml --out out --set output.ledger=on").exit, 0);
@@ -392,7 +405,7 @@ TEST_F(Cli, ListsNameEverythingThereIs) {
   std::vector<std::string> names;
   for (const json& method : methods) {
     names.push_back(method["name"]);
-    for (const char* key : {"closure", "propagator", "composition", "order", "law", "reference"}) {
+    for (const char* key : {"closure", "propagator", "composition", "order", "law", "projection", "reference"}) {
       EXPECT_TRUE(method.contains(key)) << key;
     }
   }

@@ -22,7 +22,8 @@ constexpr std::size_t at_the_end = std::numeric_limits<std::size_t>::max();
 std::vector<std::string> section_names() { return {"problem", "method", "backend", "time", "output", "ensemble"}; }
 
 std::vector<std::string> keys_of(const std::string& section, const ProblemEntry* problem) {
-  if (section == "method") return {"name", "h", "tolerance", "h_max", "C", "auxiliary", "scalar_solver"};
+  if (section == "method")
+    return {"name", "h", "tolerance", "h_max", "C", "auxiliary", "scalar_solver", "law"};
   if (section == "backend") return {"name", "plan", "exponential", "pade_degree", "lanczos_dimension"};
   if (section == "time") return {"end"};
   if (section == "output") return {"directory", "energy_every", "ledger", "snapshot_every", "snapshot_interval"};
@@ -189,6 +190,10 @@ class Reader {
     read_option("scalar_solver", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
       const bool newton = read_name(key, value, {"robust", "newton"}) == "newton";
       options.scalar_solver = newton ? ScalarSolver::newton : ScalarSolver::robust;
+    });
+    read_option("law", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
+      const std::string name = read_name(key, value, energy_law_names());
+      options.law = name == "interval" ? EnergyLaw::interval : name == "guard" ? EnergyLaw::guard : EnergyLaw::none;
     });
   }
 

@@ -56,6 +56,13 @@ std::string parameter_literal(const Parameter& parameter, const std::string& tex
   return is_text ? toml_string(text) : number_or_string(text);
 }
 
+std::vector<std::string_view> projecting_methods() {
+  std::vector<std::string_view> names;
+  for (const MethodEntry& method : methods())
+    if (method.projects()) names.push_back(method.name);
+  return names;
+}
+
 // "key = value" with the comment in one column.
 std::string line(const std::string& key, const std::string& value, const std::string& comment) {
   return fmt::format("{:<34}# {}\n", fmt::format("{} = {}", key, value), comment);
@@ -82,6 +89,8 @@ std::string write_case(const RunSpec& spec) {
   text += fmt::format("auxiliary = \"{}\"\n", to_text(options.auxiliary));
   text += fmt::format("scalar_solver = \"{}\"\n", options.scalar_solver == ScalarSolver::newton ? "newton" : "robust");
 
+  const MethodEntry& method = find_method(spec.method);
+  if (method.projects()) text += fmt::format("law = \"{}\"\n", to_string(options.law_of(method)));
   text += fmt::format("\n[backend]\nname = {}\nplan = \"{}\"\n", toml_string(spec.backend),
                       spec.measure_plans ? "measure" : "estimate");
   text += fmt::format("exponential = \"{}\"\npade_degree = {}\nlanczos_dimension = {}\n",
@@ -123,7 +132,9 @@ std::string example_case(const std::string& problem) {
   text +=
       line("auxiliary", "\"transport\"", "transport | frozen | refresh: what the damping does to r (sav, lm family)");
   text += line("scalar_solver", "\"robust\"", "lm family: robust | newton (the paper's)");
-
+  text += line("# law", "\"interval\"",
+               fmt::format("methods that end with a projection ({}): {}; the strongest they can have if not given",
+                           fmt::join(projecting_methods(), ", "), fmt::join(energy_law_names(), " | ")));
   text += "\n[backend]\n";
   text += line("name", "\"auto\"", fmt::format("auto | {}", fmt::join(backend_names(), " | ")));
   text += line("plan", "\"estimate\"", "FFTW: estimate (repeatable to the bit) | measure (fastest)");

@@ -1,12 +1,10 @@
-#include <seiche/core/error.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/collocation_weights.hpp>
 #include <seiche/method/continuous_extension.hpp>
 #include <seiche/method/egc.hpp>
-#include <seiche/method/energy_interval.hpp>
-#include <seiche/method/energy_projection.hpp>
 #include <seiche/method/gauss.hpp>
 #include <seiche/method/nonlinear_force.hpp>
+#include <seiche/method/projected.hpp>
 #include <seiche/method/step_dissipation.hpp>
 
 #include <algorithm>
@@ -16,12 +14,11 @@
 namespace seiche {
 namespace {
 
-constexpr int max_halvings = 8;
 constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| + h|F|, with F as predicted, is no solution
 
-class Collocation final : public AdaptiveStepper {
+class Collocation final : public AdaptiveStepper, private BaseStep {
  public:
-  Collocation(const System& system, int stages)
+  Collocation(const System& system, int stages, EnergyLaw law)
       : system_(system),
         phi_(system.make_phi()),
         force_(system),
@@ -31,55 +28,25 @@ class Collocation final : public AdaptiveStepper {
                 .kind = force_.kind(),
                 .weights = [C = interpolation(rule_.nodes)](double theta) { return collocation_weights(C, theta); }},
         dissipation_(system, *phi_, output_, rule_, GaussRule(stages + 2)),
-        projection_(system, *phi_),
+        projected_(system, *phi_, *this, law),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
         cache_(cached_step_sizes(system.space->size())),
         forces_(static_cast<std::size_t>(stages)) {
     const Index size = system.space->size();
     for (Vector& f : forces_) f.setZero(size);
-    result_.assign(1, Vector::Zero(size));
     missing_.setZero(size);
     physical_.setZero(system.space->physical_size());
   }
 
   void begin(State& s) override {
-    s.energy = system_.energy(s.z);
-    if (!std::isfinite(s.energy))
-      throw Error("the energy of the initial state is not a finite number (H = {})", s.energy);
+    projected_.begin(s);
     s.history.assign(forces_.size(), Vector::Zero(s.z.size()));
     s.history_h = 0;
   }
 
-  StepReport step(State& s, double h) override {
-    StepReport report;
-    const double t = s.t;
-    const std::int64_t n = s.n;
-    if (take(s, t, h, false, report) != Taken::whole) {
-      saved_ = s;
-      if (!take_halves(s, t, h, 1, report)) {
-        s = saved_;
-        fail(report, s, h, Taken::inadmissible, max_halvings);
-        return report;
-      }
-    }
-    s.n = n + 1;
-    s.t = t + h;
-    return report;
-  }
-
+  StepReport step(State& s, double h) override { return projected_.step(s, h); }
   int order() const override { return 2 * stages(); }
-
-  StepReport attempt(State& s, double h) override {
-    StepReport report;
-    const Taken taken = take(s, s.t, h, true, report);
-    if (taken != Taken::whole) {
-      fail(report, s, h, taken, 0);
-      return report;
-    }
-    ++s.n;
-    s.t += h;
-    return report;
-  }
+  StepReport attempt(State& s, double h) override { return projected_.attempt(s, h); }
 
   std::optional<double> error(const State& s) override {
     if (last_.history_h == 0) return std::nullopt;
@@ -88,83 +55,52 @@ class Collocation final : public AdaptiveStepper {
     const double of_forces = physical_.lpNorm<Eigen::Infinity>();
     // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is not,
     // the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
-    if (last_displacement_ <= of_forces) return of_forces;
+    const double displacement = projected_.last().displacement;
+    if (displacement <= of_forces) return of_forces;
     system_.space->to_physical(s.z, physical_);
     const double share = physical_.lpNorm<Eigen::Infinity>() / physical_.norm();
-    return std::max(of_forces, last_displacement_ * (std::isfinite(share) ? share : 1.0));
+    return std::max(of_forces, displacement * (std::isfinite(share) ? share : 1.0));
   }
 
   void undo(State& s) override {
-    s.z.swap(result_[0]);
     s.history.swap(forces_);
     s.history_h = last_.history_h;
-    s.energy = last_energy_;
-    s.t = last_t_;
-    --s.n;
+    projected_.undo(s);
   }
 
   // The extension is moved by θ^p times what it misses at the end, so that the solution is continuous from step to step.
   void interpolate(const State& s, double t, Vector& z) override {
     const auto extended = [&](double theta, Vector& out) {
-      extension_.evaluate(last_, theta, result_[0], forces_, s.history, out);
+      extension_.evaluate(last_, theta, projected_.before(), forces_, s.history, out);
     };
     if (!missing_is_known_) {
       extended(1.0, missing_);
       missing_ = s.z - missing_;
       missing_is_known_ = true;
     }
-    const double theta = (t - last_t_) / last_.h;
+    const double theta = (t - projected_.last().t) / last_.h;
     extended(theta, z);
     z += std::pow(theta, order()) * missing_;
-    if (last_dissipated_negative_) return;  // H may rise between: no law to keep
-    const double low = std::min(s.energy, last_energy_);
-    projection_.project(z, [&](double computed) {
-      return EnergyTarget{std::clamp(computed, low, last_energy_), last_energy_};
-    });
+    projected_.keep_between(s, z);
   }
 
   void forget(State& s) override { s.history_h = 0; }
 
   void restart(State& s) override {
-    s.energy = system_.energy(s.z);
+    projected_.restart(s);
     s.history_h = 0;
   }
 
-  EnergyReading energy(const State& s) const override {
-    EnergyReading reading;
-    const EnergyTerms terms = system_.energy_terms(s.z);
-    reading.H = reading.modified = terms.sum();
-    reading.round_off = reading.modified_round_off = terms.round_off();
-    return reading;
-  }
+  EnergyReading energy(const State& s) const override { return projected_.energy(s); }
   bool has_modified_energy() const override { return false; }
-  void keep_ledger() override {}  // every step knows
+  void keep_ledger() override { projected_.keep_ledger(); }
 
  private:
   int stages() const { return static_cast<int>(forces_.size()); }
 
-  enum class Taken {
-    whole,         // the step was taken
-    unresolved,    // not: `strict`, and ẑ is no solution
-    inadmissible,  // not: no point near ẑ has an energy that the law allows
-  };
-
-  void fail(StepReport& report, const State& s, double h, Taken taken, int halvings) const {
-    report.status = StepReport::Status::failed;
-    if (taken == Taken::unresolved)
-      report.message =
-          fmt::format("the collocation equations were not solved in the step from t = {:.6g} with h = {:.6g}", s.t, h);
-    else
-      report.message = fmt::format(
-          "no point near the solution has an energy H ≤ {:.9g} in the step from t = {:.6g} with h = {:.6g}{}: H(0) = {:.6g}",
-          s.energy, s.t, h, halvings > 0 ? fmt::format(", nor after {} halvings of it", halvings) : "",
-          projection_.energy_of_rest());
-  }
-
   struct Tables {
     std::unique_ptr<PhiMap> nodes;  // forces → Z_i
     std::unique_ptr<PhiMap> end;    // forces → ẑ
-    std::unique_ptr<PhiMap> free;   // e^{hL}z
   };
 
   Tables& tables(double h) {
@@ -173,7 +109,6 @@ class Collocation final : public AdaptiveStepper {
       const bool all = evaluates_states();
       made->nodes = phi_->map(output_.at(rule_.nodes, all ? PhiRows::Outputs::all : PhiRows::Outputs::support), h);
       made->end = phi_->map(output_.at(Eigen::VectorXd::Ones(1), PhiRows::Outputs::all), h);
-      made->free = phi_->map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h);
       return made;
     });
   }
@@ -209,15 +144,14 @@ class Collocation final : public AdaptiveStepper {
     return stages();
   }
 
-  // One step; s stays as it was where it is not taken. t and n are the caller's.
-  Taken take(State& s, double t, double h, bool strict, StepReport& report) {
+  bool compute(const State& s, double t, double h, Vector& z) override {
     const Tables& of_h = tables(h);
     const int sweeps = predict(s, t, h);
     const bool general = dissipation_.kind() == StepDissipation::Kind::general;
     double largest_force = 0;
     for (const Vector& f : forces_) largest_force = std::max(largest_force, f.norm());
     const double size = s.z.norm() + h * largest_force;
-    StepDissipation::Sum coarse;
+    coarse_ = {};
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       of_h.nodes->apply(s.z, forces_, forces_);
       for (Index i = 0; i < stages(); ++i) {
@@ -225,59 +159,30 @@ class Collocation final : public AdaptiveStepper {
         Vector& force = forces_[static_cast<std::size_t>(i)];
         if (general && sweep == sweeps)
           force_.evaluate(at, force, [&](const Vector& node, const Vector& gradient) {
-            dissipation_.add(at, node, gradient, h * rule_.weights[i], coarse);
+            dissipation_.add(at, node, gradient, h * rule_.weights[i], coarse_);
           });
         else
           force_.evaluate(at, force);
       }
     }
-    of_h.end->apply(s.z, forces_, result_);
-    Vector& z = result_[0];
-
-    const bool resolved = z.norm() <= gross_growth * size;  // false for NaN
-    StepDissipation::Amount amount;
-    if (resolved) {
-      amount = dissipation_.measure(t, h, s.z, forces_, general ? &coarse : nullptr);
-    } else {
-      if (strict) return Taken::unresolved;
-      of_h.free->apply(s.z, {}, result_);
-      ++report.fallbacks;
-    }
-    const EnergyProjection::Outcome outcome = projection_.project(z, [&](double computed) {
-      if (!resolved) return EnergyTarget{s.energy, s.energy};
-      return energy_target(s.energy, computed, projection_.energy_of_rest(), amount, dissipation_.kind());
-    });
-    report.scalar_iterations += outcome.iterations;
-    report.fallbacks += outcome.by_bisection ? 1 : 0;
-    if (!outcome.admissible || !z.allFinite()) return Taken::inadmissible;
-    last_ = {h, s.history_h};
-    last_displacement_ = outcome.displacement;
-    last_energy_ = s.energy;
-    last_t_ = t;
-    last_dissipated_negative_ = amount.negative;
-    missing_is_known_ = false;
-    s.energy = outcome.H;
-    report.ledger += {.work = amount.work,
-                      .damping_left = -(amount.fine + amount.work),
-                      .substep = outcome.computed - last_energy_ + amount.fine,
-                      .projection = outcome.H - outcome.computed};
-    s.z.swap(z);
-    s.history.swap(forces_);
-    s.history_h = resolved ? h : 0;
-    return Taken::whole;
+    of_h.end->apply(s.z, forces_, {&z, 1});
+    return z.norm() <= gross_growth * size;  // false for NaN
   }
 
-  // The same time in two steps, or more where that does not help either.
-  bool take_halves(State& s, double t, double h, int depth, StepReport& report) {
-    if (depth > max_halvings) return false;
-    ++report.fallbacks;
-    for (const double begin : {t, t + h / 2}) {
-      s.history_h = 0;
-      if (take(s, begin, h / 2, false, report) != Taken::whole && !take_halves(s, begin, h / 2, depth + 1, report))
-        return false;
-    }
-    s.history_h = 0;
-    return true;
+  std::string_view failure() const override { return "the collocation equations were not solved"; }
+  StepDissipation::Kind dissipation_kind() const override { return dissipation_.kind(); }
+
+  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector&) override {
+    return dissipation_.measure(t, h, s.z, forces_,
+                                dissipation_.kind() == StepDissipation::Kind::general ? &coarse_ : nullptr);
+  }
+
+  // The forces before the step are left in forces_.
+  void accept(State& s, double h, bool resolved) override {
+    last_ = {h, s.history_h};
+    missing_is_known_ = false;
+    s.history.swap(forces_);
+    s.history_h = resolved ? h : 0;
   }
 
   const System& system_;
@@ -286,25 +191,22 @@ class Collocation final : public AdaptiveStepper {
   GaussRule rule_;
   DenseOutput output_;
   StepDissipation dissipation_;
-  EnergyProjection projection_;
+  Projected projected_;
   ContinuousExtension extension_;
   StepCache<Tables> cache_;
   StepCache<Eigen::MatrixXd> extrapolations_{16};  // by the ratio of two step sizes
-  std::vector<Vector> forces_, result_;
+  std::vector<Vector> forces_;
+  StepDissipation::Sum coarse_;  // general: at the nodes of the last sweep
   Vector physical_;
-  State saved_;
-  // The last step: zⁿ and the forces before it are left in result_ and forces_.
-  ContinuousExtension::Step last_;
-  double last_displacement_ = 0, last_energy_ = 0, last_t_ = 0;
-  bool last_dissipated_negative_ = false;
-  Vector missing_;  // what the extension misses at the end of it, once it was asked for
+  ContinuousExtension::Step last_;  // the step taken last; the forces of the one before it are left in forces_
+  Vector missing_;                  // what the extension misses at the end of it, once it was asked for
   bool missing_is_known_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<AdaptiveStepper> make_egc(const System& system, int stages) {
-  return std::make_unique<Collocation>(system, stages);
+std::unique_ptr<AdaptiveStepper> make_egc(const System& system, int stages, EnergyLaw law) {
+  return std::make_unique<Collocation>(system, stages, law);
 }
 
 }  // namespace seiche

@@ -3,6 +3,7 @@
 
 #include <seiche/core/stepper.hpp>
 #include <seiche/core/system.hpp>
+#include <seiche/method/energy_law.hpp>
 
 #include <memory>
 
@@ -13,6 +14,6 @@ namespace seiche {
 //   z(θ) = φ₀(θhL)zⁿ + Σ_k h k! θ^{k+1} φ_{k+1}(θhL) a_k     (exact for ż = Lz + Σ a_k (t/h)ᵏ),
 // a step extrapolates the forces of the last one, sweeps Z_i = z(c_i), F_i = N(Z_i) s times, and projects ẑ = z(1) to the
 // energy of energy_target. Nothing about ẑ enters the law, so it holds for every h. `system` outlives the stepper.
-std::unique_ptr<AdaptiveStepper> make_egc(const System& system, int stages);
+std::unique_ptr<AdaptiveStepper> make_egc(const System& system, int stages, EnergyLaw law);
 
 }  // namespace seiche

@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seiche {
 
-EnergyTarget energy_target(double before, double computed, double rest, const StepDissipation::Amount& dissipated,
-                           StepDissipation::Kind kind) {
+EnergyTarget energy_target(EnergyLaw law, double before, double computed, double rest,
+                           const StepDissipation::Amount& dissipated, StepDissipation::Kind kind) {
+  if (law == EnergyLaw::none) return {computed, std::numeric_limits<double>::infinity()};
   if (kind == StepDissipation::Kind::none) return {before, before};
+  if (law == EnergyLaw::guard) {
+    if (dissipated.negative) return {computed, std::max(before, computed)};
+    return {std::min(computed, before), before};
+  }
   const double u = std::abs(dissipated.fine - dissipated.coarse);
   const double lower = before - dissipated.fine - u;
   const double upper = before - dissipated.fine + u;

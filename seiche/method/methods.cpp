@@ -18,6 +18,8 @@ using enum ClosureKind;
 using enum PropagatorKind;
 using enum Composition;
 
+constexpr EnergyLaw interval = EnergyLaw::interval;
+
 constexpr std::string_view paper = "Li, Li, Shang, Xu: energy-stable splitting exponential integrators";
 constexpr std::string_view here = "Seiche: the paper's closure, exponential, without splitting";
 
@@ -38,10 +40,10 @@ constexpr std::array list = {
     MethodEntry{"seisav", sav, exponential, strang, 2, "H_modified", paper},
     MethodEntry{"seilm",  lm,  exponential, strang, 2, "H",          paper},
     MethodEntry{"seidm",  dm,  exponential, strang, 2, "H",          "Seiche: directed multiplier, docs/design.md"},
-    MethodEntry{"egc2",   none, exponential, collocation, 2, "H",    collocated},
-    MethodEntry{"egc4",   none, exponential, collocation, 4, "H",    collocated},
-    MethodEntry{"egc6",   none, exponential, collocation, 6, "H",    collocated},
-    MethodEntry{"egc8",   none, exponential, collocation, 8, "H",    collocated},
+    MethodEntry{"egc2",   none, exponential, collocation, 2, "H",    collocated, interval},
+    MethodEntry{"egc4",   none, exponential, collocation, 4, "H",    collocated, interval},
+    MethodEntry{"egc6",   none, exponential, collocation, 6, "H",    collocated, interval},
+    MethodEntry{"egc8",   none, exponential, collocation, 8, "H",    collocated, interval},
 };
 // clang-format on
 
@@ -73,6 +75,13 @@ const MethodEntry& find_method(std::string_view name) {
 }
 
 void MethodOptions::validate(const MethodEntry& method) const {
+  if (law && !method.projects())
+    throw Error("law belongs to the methods that end with a projection; {} keeps the law of its own scheme",
+                method.name);
+  if (law && *law < method.projection)
+    throw Error(
+        "law = \"{}\" is more than {} can have, which knows no values inside a step to integrate the dissipation by; use \"{}\" or \"none\"",
+        to_string(*law), method.name, to_string(method.projection));
   if (C) {
     if (method.closure != sav) throw Error("C belongs to the sav family; {} has no auxiliary variable", method.name);
     if (!std::isfinite(*C)) throw Error("C = {} must be a finite number or \"auto\"", *C);
@@ -94,9 +103,20 @@ void MethodOptions::validate(const MethodEntry& method) const {
   }
 }
 
+std::string MethodOptions::objection(const MethodEntry& method) const {
+  if (auxiliary == AuxiliaryMode::refresh)
+    return "auxiliary = \"refresh\" resets r after the damping, and the modified energy may rise there";
+  const bool frozen = auxiliary == AuxiliaryMode::frozen;
+  if (scalar_solver == ScalarSolver::newton || (method.closure == lm && frozen))
+    return "plain Newton accepts steps whose scalar equation it did not solve";
+  if (method.projects() && law_of(method) == EnergyLaw::none)
+    return "law = \"none\" switches off the projection that keeps it";
+  return "";
+}
+
 std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system, const MethodOptions& options) {
   options.validate(method);
-  if (method.composition == collocation) return make_egc(system, method.order / 2);
+  if (method.composition == collocation) return make_egc(system, method.order / 2, options.law_of(method));
   if (system.structure)
     throw Error("{} needs one structure matrix S; where S changes with z use egc2, egc4, egc6 or egc8", method.name);
   if (method.composition == whole) {
@@ -109,7 +129,7 @@ std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& s
 std::unique_ptr<AdaptiveStepper> make_adaptive_stepper(const MethodEntry& method, const System& system,
                                                        const MethodOptions& options) {
   options.validate(method);
-  if (method.composition == collocation) return make_egc(system, method.order / 2);
+  if (method.composition == collocation) return make_egc(system, method.order / 2, options.law_of(method));
   return with_error_estimate(system, make_stepper(method, system, options));
 }
 

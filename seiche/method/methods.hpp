@@ -1,8 +1,10 @@
-// The list of methods: closure × propagator × composition, and collocation. One row is one method.
+// The list of methods: closure × propagator × composition, and those that end their steps with a projection. One row is one
+// method.
 #pragma once
 
 #include <seiche/core/stepper.hpp>
 #include <seiche/core/system.hpp>
+#include <seiche/method/energy_law.hpp>
 
 #include <memory>
 #include <optional>
@@ -26,6 +28,10 @@ struct MethodEntry {
   int order;
   std::string_view law;        // the energy that never grows: "H" or "H_modified"
   std::string_view reference;  // where the scheme comes from
+  EnergyLaw projection =
+      EnergyLaw::none;  // the strongest law that a projection can give it; none: it keeps one of its own
+
+  bool projects() const { return projection != EnergyLaw::none; }
 };
 
 std::span<const MethodEntry> methods();
@@ -36,7 +42,12 @@ struct MethodOptions {
   std::optional<double> C;                             // sav: the shift; automatic if not given
   AuxiliaryMode auxiliary = AuxiliaryMode::transport;  // frozen, in the lm family, always solves by plain Newton
   ScalarSolver scalar_solver = ScalarSolver::robust;
+  std::optional<EnergyLaw> law = {};  // of methods that project; the strongest they can have if not given
 
+
+  EnergyLaw law_of(const MethodEntry& method) const { return law.value_or(method.projection); }
+  // Why no energy law is promised with these options, or "".
+  std::string objection(const MethodEntry& method) const;
   // Throws Error where an option other than its default has no meaning for the method, with the reason.
   void validate(const MethodEntry& method) const;
 };

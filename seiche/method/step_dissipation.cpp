@@ -10,6 +10,13 @@ PhiRows DenseOutput::at(const Eigen::VectorXd& thetas, PhiRows::Outputs outputs)
   return rows;
 }
 
+StepDissipation::Kind StepDissipation::kind_of(const System& system, const PhiEvaluator& phi) {
+  if (!system.damping->is_frozen() || system.force) return Kind::general;
+  const PhiEvaluator::Dissipation d = phi.dissipation();
+  if (d.is_zero) return Kind::none;
+  return d.is_quadratic && d.is_nonnegative ? Kind::quadratic : Kind::general;
+}
+
 StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output,
                                  const GaussRule& coarse, const GaussRule& fine)
     : system_(system),
@@ -17,15 +24,10 @@ StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, 
       output_(std::move(output)),
       coarse_(coarse),
       fine_(fine),
+      kind_(kind_of(system, phi)),
+      needs_gradient_(!phi.dissipation().is_quadratic || system.damping->touches_potential() ||
+                      (system.force && system.force->touches_potential())),
       cache_(cached_step_sizes(system.space->size())) {
-  const PhiEvaluator::Dissipation d = phi.dissipation();
-  const bool frozen = system.damping->is_frozen();
-  kind_ = !frozen || system.force              ? Kind::general
-          : d.is_zero                          ? Kind::none
-          : d.is_quadratic && d.is_nonnegative ? Kind::quadratic
-                                               : Kind::general;
-  needs_gradient_ =
-      !d.is_quadratic || system.damping->touches_potential() || (system.force && system.force->touches_potential());
   if (kind_ != Kind::general) return;
   const Index size = system.space->size();
   node_.assign(1, Vector::Zero(size));

@@ -33,6 +33,7 @@ class StepDissipation {
     quadratic,  // Q ⪰ 0 is a form of z: both quadratures together cost one pass over the modes, and no gradient
     general,    // Q is evaluated node by node
   };
+  static Kind kind_of(const System& system, const PhiEvaluator& phi);
   Kind kind() const { return kind_; }
 
   struct Sum {

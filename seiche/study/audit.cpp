@@ -136,7 +136,9 @@ class Auditor {
     const bool modified = energy_.has("H_modified");
     const std::string verdict = summary_["energy"]["law"];
     const std::string claim = fmt::format("the law of {} {}", modified ? "the modified energy" : "H", verdict);
-    const LawPromise promise = promise_energy_law(problem_, spec_.t_end);
+    const std::string objection = spec_.method_options.objection(find_method(spec_.method));
+    const LawPromise promise =
+        objection.empty() ? promise_energy_law(problem_, spec_.t_end) : LawPromise{false, objection};
     const double increase = largest_increase(modified ? energy_.column("H_modified") : H_);
     const double allowed = 2 * round_off_ * static_cast<double>(std::max<std::int64_t>(1, spec_.energy_every));
     const std::string evidence =

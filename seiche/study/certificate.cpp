@@ -173,7 +173,7 @@ std::string theorem(const Problem& problem, const MethodEntry& method) {
   const std::string energy =
       method.law == "H" ? "H(zⁿ⁺¹) ≤ H(zⁿ)" : "the modified energy of step n + 1 ≤ that of step n";
   const std::string any = energy + " for every h: ";
-  if (method.composition == Composition::collocation)
+  if (method.projects())
     return any + "the step ends with a projection on an energy of at most H(zⁿ) (docs/design.md, Order four to eight)";
   const std::string substep = "F + Fᵀ + FᵀMF ⪯ 0 for sym(S) ⪯ 0, and the closure keeps its energy exactly";
   if (method.composition == Composition::whole || !problem.has_damping()) return any + substep;
@@ -182,15 +182,6 @@ std::string theorem(const Problem& problem, const MethodEntry& method) {
 }
 
 }  // namespace
-
-std::string law_given_up(const MethodEntry& method, const MethodOptions& options) {
-  if (options.auxiliary == AuxiliaryMode::refresh)
-    return "auxiliary = \"refresh\" resets r after the damping, and the modified energy may rise there";
-  const bool frozen = options.auxiliary == AuxiliaryMode::frozen;
-  if (options.scalar_solver == ScalarSolver::newton || (method.closure == ClosureKind::lm && frozen))
-    return "plain Newton accepts steps whose scalar equation it did not solve";
-  return "";
-}
 
 Certificate certify(const Problem& problem, const CertificateOptions& options) {
   const MethodEntry& method = find_method(options.method);
@@ -214,7 +205,7 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   if (problem.has_forces()) list.push_back(hypothesis_of_forces(problem));
   if (problem.structure) list.push_back(hypothesis_of_structure(problem, options));
   if (method.closure == ClosureKind::sav) list.push_back(hypothesis_of_margin(problem, options));
-  const std::string given_up = law_given_up(method, options.method_options);
+  const std::string given_up = options.method_options.objection(method);
   certificate.law = given_up.empty() ? law : LawPromise{false, given_up};
   if (certificate.law.promised) certificate.theorem = theorem(problem, method);
   return certificate;

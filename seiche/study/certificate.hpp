@@ -30,9 +30,6 @@ struct CertificateOptions {
 // Throws Error where the method does not apply to the problem.
 Certificate certify(const Problem& problem, const CertificateOptions& options);
 
-// Why an option of the method gives up the energy law, or "".
-std::string law_given_up(const MethodEntry& method, const MethodOptions& options);
-
 // {"hypotheses": […], "law": {…}}, as `seiche check --json` and summary.json have it.
 std::string certificate_json(const Certificate& certificate);
 

@@ -1,0 +1,28 @@
+// A step without a law, for Projected to end with one.
+#pragma once
+
+#include <seiche/core/state.hpp>
+#include <seiche/method/step_dissipation.hpp>
+
+#include <string_view>
+
+namespace seiche {
+
+class BaseStep {
+ public:
+  virtual ~BaseStep() = default;
+
+  // z ← ẑ, the solution at t + h from s.z at t. False, with z anything, where ẑ is no solution.
+  virtual bool compute(const State& s, double t, double h, Vector& z) = 0;
+  virtual std::string_view failure() const = 0;  // what has happened then
+
+  virtual StepDissipation::Kind dissipation_kind() const = 0;
+  // Of the step just computed, where the kind is not `none`.
+  virtual StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z) = 0;
+
+  // The step just computed will be taken: s is still as before it but for what this changes, and never z, t and n.
+  // Not resolved: e^{hL}z was taken instead of ẑ.
+  virtual void accept(State& /*s*/, double /*h*/, bool /*resolved*/) {}
+};
+
+}  // namespace seiche

@@ -1,0 +1,167 @@
+#include <seiche/core/error.hpp>
+#include <seiche/method/energy_interval.hpp>
+#include <seiche/method/projected.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+constexpr int max_halvings = 8;
+
+}  // namespace
+
+Projected::Projected(const System& system, const PhiEvaluator& phi, BaseStep& base, EnergyLaw law)
+    : system_(system),
+      phi_(phi),
+      base_(base),
+      law_(law),
+      projection_(system, phi),
+      free_(cached_step_sizes(system.space->size())),
+      z_(Vector::Zero(system.space->size())) {}
+
+void Projected::begin(State& s) {
+  s.energy = system_.energy(s.z);
+  if (!std::isfinite(s.energy))
+    throw Error("the energy of the initial state is not a finite number (H = {})", s.energy);
+}
+
+EnergyReading Projected::energy(const State& s) const {
+  EnergyReading reading;
+  const EnergyTerms terms = system_.energy_terms(s.z);
+  reading.H = reading.modified = terms.sum();
+  reading.round_off = reading.modified_round_off = terms.round_off();
+  return reading;
+}
+
+StepReport Projected::step(State& s, double h) {
+  StepReport report;
+  const double t = s.t;
+  const std::int64_t n = s.n;
+  const Taken taken = take(s, t, h, law_ == EnergyLaw::none, report);
+  if (taken == Taken::unresolved) {
+    fail(report, s, h, taken, 0);
+    return report;
+  }
+  if (taken == Taken::inadmissible) {
+    saved_ = s;
+    if (!take_halves(s, t, h, 1, report)) {
+      s = saved_;
+      fail(report, s, h, Taken::inadmissible, max_halvings);
+      return report;
+    }
+  }
+  s.n = n + 1;
+  s.t = t + h;
+  return report;
+}
+
+StepReport Projected::attempt(State& s, double h) {
+  StepReport report;
+  const Taken taken = take(s, s.t, h, true, report);
+  if (taken != Taken::whole) {
+    fail(report, s, h, taken, 0);
+    return report;
+  }
+  ++s.n;
+  s.t += h;
+  return report;
+}
+
+void Projected::undo(State& s) {
+  s.z.swap(z_);
+  s.energy = last_.energy;
+  s.t = last_.t;
+  --s.n;
+}
+
+void Projected::keep_between(const State& s, Vector& z) {
+  if (law_ == EnergyLaw::none || last_.gained) return;  // H may rise between: no law to keep
+  const double low = std::min(s.energy, last_.energy);
+  projection_.project(z, [&](double computed) {
+    return EnergyTarget{std::clamp(computed, low, last_.energy), last_.energy};
+  });
+}
+
+void Projected::fail(StepReport& report, const State& s, double h, Taken taken, int halvings) const {
+  report.status = StepReport::Status::failed;
+  if (taken == Taken::unresolved)
+    report.message = fmt::format("{} in the step from t = {:.6g} with h = {:.6g}", base_.failure(), s.t, h);
+  else
+    report.message = fmt::format(
+        "no point near the solution has an energy H ≤ {:.9g} in the step from t = {:.6g} with h = {:.6g}{}: H(0) = {:.6g}",
+        s.energy, s.t, h, halvings > 0 ? fmt::format(", nor after {} halvings of it", halvings) : "",
+        projection_.energy_of_rest());
+}
+
+// One step; s stays as it was where it is not taken. t and n are the caller's.
+Projected::Taken Projected::take(State& s, double t, double h, bool strict, StepReport& report) {
+  if (law_ == EnergyLaw::none) return take_without_law(s, t, h, report);
+  const PhiMap& free = free_.at(h, [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); });
+  const StepDissipation::Kind kind = base_.dissipation_kind();
+  bool resolved = base_.compute(s, t, h, z_);
+  StepDissipation::Amount amount;
+  // The guard asks whether H may rise, and a nonnegative form says no.
+  const bool asked = law_ == EnergyLaw::interval || kind == StepDissipation::Kind::general || keeps_ledger_;
+  if (resolved && asked && kind != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_);
+  EnergyProjection::Outcome outcome;
+  if (resolved) {
+    outcome = projection_.project(z_, [&](double computed) {
+      return energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount, kind);
+    });
+    resolved = std::isfinite(outcome.computed);  // ẑ may be finite where its energy is none
+  }
+  if (!resolved) {
+    if (strict) return Taken::unresolved;
+    amount = {};
+    free.apply(s.z, {}, {&z_, 1});
+    ++report.fallbacks;
+    outcome = projection_.project(z_, [&](double) { return EnergyTarget{s.energy, s.energy}; });
+  }
+  report.scalar_iterations += outcome.iterations;
+  report.fallbacks += outcome.by_bisection ? 1 : 0;
+  if (!outcome.admissible || !z_.allFinite()) return Taken::inadmissible;
+  finish(s, t, h, resolved, amount, outcome, report);
+  return Taken::whole;
+}
+
+Projected::Taken Projected::take_without_law(State& s, double t, double h, StepReport& report) {
+  if (!base_.compute(s, t, h, z_) || !z_.allFinite()) return Taken::unresolved;
+  StepDissipation::Amount amount;
+  EnergyProjection::Outcome outcome;
+  if (keeps_ledger_) {
+    s.energy = system_.energy(s.z);
+    if (base_.dissipation_kind() != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_);
+    outcome.H = outcome.computed = system_.energy(z_);
+  }
+  finish(s, t, h, true, amount, outcome, report);
+  return Taken::whole;
+}
+
+void Projected::finish(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
+                       const EnergyProjection::Outcome& outcome, StepReport& report) {
+  base_.accept(s, h, resolved);
+  last_ = {.t = t, .energy = s.energy, .displacement = outcome.displacement, .gained = amount.negative};
+  s.energy = outcome.H;
+  report.ledger += {.work = amount.work,
+                    .damping_left = -(amount.fine + amount.work),
+                    .substep = outcome.computed - last_.energy + amount.fine,
+                    .projection = outcome.H - outcome.computed};
+  s.z.swap(z_);
+}
+
+// The same time in two steps, or more where that does not help either.
+bool Projected::take_halves(State& s, double t, double h, int depth, StepReport& report) {
+  if (depth > max_halvings) return false;
+  ++report.fallbacks;
+  for (const double begin : {t, t + h / 2}) {
+    s.history_h = 0;
+    if (take(s, begin, h / 2, false, report) != Taken::whole && !take_halves(s, begin, h / 2, depth + 1, report))
+      return false;
+  }
+  s.history_h = 0;
+  return true;
+}
+
+}  // namespace seiche
