@@ -16,9 +16,15 @@ void add_case(CLI::App& command, CaseArgument& argument) {
 }
 
 RunSpec load_case(const CaseArgument& argument) {
-  if (argument.file != "-") return read_case(argument.file, argument.overrides);
-  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-  return parse_case(text, "standard input", argument.overrides);
+  RunSpec spec;
+  if (argument.file != "-") {
+    spec = read_case(argument.file, argument.overrides);
+  } else {
+    const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+    spec = parse_case(text, "standard input", argument.overrides);
+  }
+  settle_method(spec);
+  return spec;
 }
 
 std::string notes(const RunSpec& spec, const Problem& problem) {

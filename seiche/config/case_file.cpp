@@ -170,8 +170,10 @@ class Reader {
     const MethodEntry* method = &find_method(spec_.method);
     on("method", "name", [&](const std::string&, const CaseValue& value) {
       method = nullptr;
-      spec_.method = read_name("method", value, method_names());
-      method = &find_method(spec_.method);
+      std::vector<std::string> names = method_names();
+      names.emplace_back("auto");
+      spec_.method = read_name("method", value, names);
+      method = spec_.method == "auto" ? nullptr : &find_method(spec_.method);
     });
     read_tolerance();
     read_step_size();

@@ -89,8 +89,9 @@ std::string write_case(const RunSpec& spec) {
   text += fmt::format("auxiliary = \"{}\"\n", to_text(options.auxiliary));
   text += fmt::format("scalar_solver = \"{}\"\n", options.scalar_solver == ScalarSolver::newton ? "newton" : "robust");
 
-  const MethodEntry& method = find_method(spec.method);
-  if (method.projects()) text += fmt::format("law = \"{}\"\n", to_string(options.law_of(method)));
+  const MethodEntry* method = spec.method == "auto" ? nullptr : &find_method(spec.method);
+  if (method != nullptr && method->projects())
+    text += fmt::format("law = \"{}\"\n", to_string(options.law_of(*method)));
   text += fmt::format("\n[backend]\nname = {}\nplan = \"{}\"\n", toml_string(spec.backend),
                       spec.measure_plans ? "measure" : "estimate");
   text += fmt::format("exponential = \"{}\"\npade_degree = {}\nlanczos_dimension = {}\n",
@@ -121,7 +122,7 @@ std::string example_case(const std::string& problem) {
   text += example_drives();
 
   text += "\n[method]\n";
-  text += line("name", toml_string(entry.default_method), fmt::format("{}", fmt::join(method_names(), " | ")));
+  text += line("name", toml_string(entry.default_method), fmt::format("auto | {}", fmt::join(method_names(), " | ")));
   text += line("h", number_or_string(entry.default_h), "step size, time; a number, or a fraction in quotes");
   text += line("# tolerance", "1e-8",
                "steps of variable size, with this error at the end (max norm); h is then the first step tried");

@@ -116,7 +116,16 @@ SimulationOptions simulation_options(const RunSpec& spec) {
           .backend = spec.backend,
           .method_options = spec.method_options,
           .backend_options = {.measure_plans = spec.measure_plans, .sparse = spec.sparse},
-          .variable_steps = spec.tolerance.has_value()};
+          .variable_steps = spec.tolerance.has_value(),
+          .tolerance = spec.tolerance.value_or(0.0)};
+}
+
+void settle_method(RunSpec& spec) {
+  if (spec.method != "auto") return;
+  const Simulation chosen(make_problem(spec), simulation_options(spec));
+  spec.method = chosen.method().name;
+  spec.method_options = chosen.method_options();
+  spec.notes.push_back(fmt::format("method = \"auto\": {}", chosen.reason()));
 }
 
 }  // namespace seiche

@@ -40,7 +40,7 @@ struct RunSpec {
   InitialData initial;
   DriveSpec drives;
 
-  std::string method = "seisav";
+  std::string method = "seisav";    // or "auto"
   double h = 0.0;                   // the step size; beside a tolerance the first one, or 0
   std::optional<double> tolerance;  // steps of variable size
   double h_max = 0.0;               // and none longer than this; 0: no bound
@@ -69,5 +69,8 @@ std::vector<std::string> initial_variables(const std::string& problem);
 Problem make_problem(const RunSpec& spec);
 
 SimulationOptions simulation_options(const RunSpec& spec);
+
+// Where the method is "auto": what Simulation chooses for the case takes its place, with the reason among the notes.
+void settle_method(RunSpec& spec);
 
 }  // namespace seiche

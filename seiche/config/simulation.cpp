@@ -1,3 +1,4 @@
+#include <seiche/config/auto_method.hpp>
 #include <seiche/config/run_memory.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
@@ -15,6 +16,8 @@ Problem as_integrated(const MethodEntry& method, const Problem& problem) {
   }
 }
 
+bool is_automatic(const SimulationOptions& options) { return options.method == "auto"; }
+
 const BackendEntry& choose_backend(const std::string& name, const Problem& problem) {
   return name == "auto" ? automatic_backend(problem) : find_backend(name);
 }
@@ -30,17 +33,26 @@ void require_memory(const MethodEntry& method, const Problem& problem, bool vari
 }  // namespace
 
 Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
-    : method_(find_method(options.method)), problem_(as_integrated(method_, problem)) {
+    : method_(is_automatic(options) ? nullptr : &find_method(options.method)),
+      problem_(method_ != nullptr ? as_integrated(*method_, problem) : problem),
+      method_options_(options.method_options) {
   const BackendEntry& backend = choose_backend(options.backend, problem_);
   backend_name_ = backend.name;
-  require_memory(method_, problem_, options.variable_steps);
+  if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps);
   system_ = backend.system(problem_, options.backend_options);
+  if (method_ == nullptr) {
+    MethodChoice choice = choose_method(problem_, system_, options.tolerance, options.method_options);
+    method_ = &find_method(choice.method);
+    method_options_ = choice.options;
+    reason_ = std::move(choice.reason);
+    require_memory(*method_, problem_, options.variable_steps);
+  }
   if (options.variable_steps) {
-    auto stepper = make_adaptive_stepper(method_, system_, options.method_options);
+    auto stepper = make_adaptive_stepper(*method_, system_, method_options_);
     adaptive_ = stepper.get();
     stepper_ = std::move(stepper);
   } else {
-    stepper_ = make_stepper(method_, system_, options.method_options);
+    stepper_ = make_stepper(*method_, system_, method_options_);
   }
   restart();
 }

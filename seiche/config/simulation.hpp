@@ -10,11 +10,12 @@
 namespace seiche {
 
 struct SimulationOptions {
-  std::string method = "seisav";
+  std::string method = "seisav";  // or "auto": choose_method decides
   std::string backend = "auto";
   MethodOptions method_options = {};
   BackendOptions backend_options = {};
   bool variable_steps = false;  // a stepper that tells its errors, for integrate_adaptive
+  double tolerance = 0.0;       // for method "auto": of values at the end; 0: not known
 };
 
 // Throws Error where the method does not apply to the problem, with the reason.
@@ -37,14 +38,18 @@ class Simulation {
   const System& system() const { return system_; }
   Stepper& stepper() { return *stepper_; }
   AdaptiveStepper& adaptive_stepper();  // throws Error unless made with variable_steps
-  const MethodEntry& method() const { return method_; }
+  const MethodEntry& method() const { return *method_; }
+  const MethodOptions& method_options() const { return method_options_; }
+  const std::string& reason() const { return reason_; }  // why "auto" took this method; else ""
   const std::string& backend() const { return backend_name_; }
 
  private:
-  const MethodEntry& method_;
+  const MethodEntry* method_;
   Problem problem_;
   std::string backend_name_;
   System system_;
+  MethodOptions method_options_;
+  std::string reason_;
   std::unique_ptr<Stepper> stepper_;
   AdaptiveStepper* adaptive_ = nullptr;  // the same, where it is one
   State state_;

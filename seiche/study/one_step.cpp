@@ -37,6 +37,9 @@ class FrozenFieldRate final : public FieldRate {
 Problem linear_part_of(const Problem& problem) {
   Problem linear = problem;
   linear.potential = nullptr;
+  linear.friction = nullptr;
+  linear.forces.clear();
+  linear.structure = nullptr;
   linear.initial.setZero();
   LinearDamping& damping = linear.damping;
   if (damping.rate && !damping.rate->is_constant()) damping.rate = constant_rate(damping.rate->value(0));

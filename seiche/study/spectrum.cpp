@@ -287,6 +287,7 @@ Spectrum spectrum(const Problem& problem, const SimulationOptions& options, doub
   result.h = h;
   result.rates_frozen = varies(problem.damping);
   result.has_potential = problem.potential != nullptr;
+  result.has_drives = problem.friction || problem.has_forces() || problem.structure;
   const Linearity seen = linearity_of(step, random_state(problem.size(), 1), random_state(problem.size(), 2));
   result.is_homogeneous = seen.is_homogeneous;
   result.is_linear = seen.is_linear;

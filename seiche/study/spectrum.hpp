@@ -31,6 +31,7 @@ struct Spectrum {
   double h = 0.0;
   bool rates_frozen = false;      // γ varies in time, and was taken at t = 0
   bool has_potential = false;     // V was left out
+  bool has_drives = false;        // and so were friction beyond linear, forces, or what of S changes with z
   bool is_homogeneous = true;     // R(2z) = 2Rz
   bool is_linear = true;          // and R(y + z) = Ry + Rz: else each mode was stepped alone
   std::vector<SpectrumRow> rows;  // in the order of the modes

@@ -28,6 +28,7 @@ Json mode_json(const SpectrumRow* row) {
 std::string premise(const Spectrum& s) {
   std::string text = fmt::format("The linear part of {}", s.problem);
   if (s.has_potential) text += ", without V";
+  if (s.has_drives) text += ", without friction, forces and what of S changes with z";
   if (s.rates_frozen) text += ", with γ as it is at t = 0";
   text += fmt::format(": one step of {} with h = {:g} (backend {})", s.method, s.h, s.backend);
   if (!s.is_homogeneous) {

@@ -1,0 +1,79 @@
+// method = "auto": what it sees, and what it takes.
+#include "support/paper_cases.hpp"
+
+#include <seiche/config/auto_method.hpp>
+#include <seiche/config/case_file.hpp>
+#include <seiche/config/simulation.hpp>
+#include <seiche/damping/frictions.hpp>
+#include <seiche/damping/rates.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/run/adaptive.hpp>
+#include <seiche/study/reference.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace seiche::test {
+namespace {
+
+TEST(AutoMethod, RatesAreThoseOfTheLinearPartAndOfTheSolution) {
+  const Problem wave = klein_gordon({.grid = {.points = {64}, .length = {6.4}}, .kappa = 1.0, .omega_squared = 4.0});
+  for (const char* backend : {"dense", "modal", "sparse"}) {
+    Problem p = wave;
+    p.potential = nullptr;
+    for (Index j = 0; j < 64; ++j) p.initial[j] = 1;  // the mean alone: it turns with ω = 2
+    p.initial.tail(64).setZero();
+    const ProblemRates rates = rates_of(find_backend(backend).system(p, {}));
+    EXPECT_NEAR(rates.linear, std::sqrt(4 + 4 / 0.01), 0.1 * std::sqrt(404)) << backend;
+    EXPECT_NEAR(rates.solution, 2, 1e-4) << backend;
+  }
+}
+
+TEST(AutoMethod, EveryProblemRunsAndReachesItsTolerance) {
+  for (const auto& [name, problem] : all_cases()) {
+    const double tolerance = 1e-6;
+    Simulation simulation(problem, {.method = "auto", .variable_steps = true, .tolerance = tolerance});
+    EXPECT_NE(simulation.reason(), "") << name;
+    const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                                {.tolerance = tolerance, .t_end = 2.0});
+    ASSERT_EQ(report.status, RunReport::Status::success) << name << ": " << report.message;
+    const Reference reference = make_reference(problem, std::vector{0.0, 2.0});
+    const Vector z = simulation.physical();
+    double error = 0;
+    for (Index i = 0; i < z.size(); ++i)
+      error = std::max(error, std::abs(z[i] - reference.state(1)[static_cast<std::size_t>(i)]));
+    EXPECT_LE(error, 20 * tolerance) << name << " by " << simulation.method().name;
+  }
+}
+
+TEST(AutoMethod, TakesExactFlowsWhereFrictionIsSharp) {
+  Problem p = klein_gordon_case(0.0, 1.0);
+  p.friction = dry_friction(0.1);
+  const Simulation simulation(p, {.method = "auto"});
+  EXPECT_EQ(simulation.method().name, "seisav");
+  EXPECT_NE(simulation.reason().find("sgn"), std::string::npos) << simulation.reason();
+}
+
+TEST(AutoMethod, TakesHigherOrdersForSmallerTolerances) {
+  int last = 0;
+  for (const double tolerance : {1e-2, 1e-6, 1e-10}) {
+    const Simulation simulation(gkdv_case(), {.method = "auto", .tolerance = tolerance});
+    EXPECT_GE(simulation.method().order, last);
+    last = simulation.method().order;
+  }
+  EXPECT_EQ(last, 8);
+}
+
+TEST(AutoMethod, ACaseSaysWhatWasChosenAndWhy) {
+  RunSpec spec = parse_case("[problem]\nname = \"klein_gordon\"\n[method]\nname = \"auto\"\ntolerance = 1e-7\n", "x.toml");
+  EXPECT_EQ(spec.method, "auto");
+  settle_method(spec);
+  EXPECT_NE(spec.method, "auto");
+  ASSERT_EQ(spec.notes.size(), 1U);
+  EXPECT_NE(spec.notes[0].find(spec.method), std::string::npos) << spec.notes[0];
+  EXPECT_EQ(parse_case(write_case(spec), "y.toml").method, spec.method);
+}
+
+}  // namespace
+}  // namespace seiche::test
