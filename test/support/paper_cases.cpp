@@ -190,9 +190,14 @@ std::vector<NamedProblem> all_cases() {
 }
 
 bool applies(std::string_view method, const Problem& problem) {
-  if (find_method(method).composition != Composition::whole) return true;
+  const MethodEntry& entry = find_method(method);
+  const bool needs_momenta = entry.composition == Composition::nystrom || entry.composition == Composition::chin;
+  if (entry.composition != Composition::whole && !needs_momenta) return true;
   try {
-    with_damping_merged(problem);
+    if (needs_momenta)
+      make_stepper(entry, find_backend("dense").system(problem, {}));
+    else
+      with_damping_merged(problem);
     return true;
   } catch (const Error&) {
     return false;
