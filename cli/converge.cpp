@@ -45,9 +45,12 @@ double step_size(const std::string& text) {
 }
 
 // A law that does not hold where it was promised outweighs nothing but a run that failed.
-ExitCode exit_code(const Convergence& study, const LawPromise& law) {
+ExitCode exit_code(const Convergence& study, const RunSpec& spec, const LawPromise& law) {
   const auto failed = [](const StudyRow& row) { return !row.failure.empty(); };
-  const auto unlawful = [](const StudyRow& row) { return !row.energy_law_held && row.unresolved == 0; };
+  const auto unlawful = [&](const StudyRow& row) {
+    const MethodOptions options = options_for(row.method, spec.method_options);
+    return !row.energy_law_held && row.unresolved == 0 && options.objection(find_method(row.method)).empty();
+  };
   if (std::any_of(study.rows.begin(), study.rows.end(), failed)) return computation_failed;
   return law.promised && std::any_of(study.rows.begin(), study.rows.end(), unlawful) ? law_violated : success;
 }
@@ -96,7 +99,7 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
     return stop ? interrupted : computation_failed;
   }
   print_data(arguments.json ? converge_json(study) : converge_table(study));
-  return stop ? interrupted : exit_code(study, promise_energy_law(problem, spec.t_end));
+  return stop ? interrupted : exit_code(study, spec, promise_energy_law(problem, spec.t_end));
 }
 
 }  // namespace

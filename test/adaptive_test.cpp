@@ -119,6 +119,21 @@ TEST(Adaptive, TheToleranceOfMethodsOfOrderTwoIsTheError) {
   }
 }
 
+TEST(Adaptive, TheToleranceOfOneStepMethodsOfHighOrderIsTheError) {
+  for (const auto& [name, problem] : four_problems()) {
+    const Reference reference = make_reference(problem, every_unit(20));
+    for (const MethodEntry& method : methods()) {
+      if (method.order <= 2 || method.composition == Composition::collocation || !applies(method.name, problem))
+        continue;
+      for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
+        const Outcome outcome = run(problem, std::string(method.name), reference, tolerance);
+        EXPECT_LE(outcome.error, 10 * tolerance) << name << " " << method.name << " " << tolerance;
+        EXPECT_GE(outcome.error, tolerance / 1000) << name << " " << method.name << " " << tolerance;
+      }
+    }
+  }
+}
+
 TEST(Adaptive, ElsewhereTheErrorIsWithinTwentyTolerances) {
   Problem well = oscillator({.omega_squared = -1.0, .gamma = nullptr});
   well.initial[0] = 0.3;
@@ -262,7 +277,7 @@ TEST(Adaptive, TimesNeverGoBackAndAnEventThatDoesNothingBreaksNoLaw) {
 
 TEST(Adaptive, TheSolutionBetweenStepsEndsWhereTheStepDoes) {
   const Problem p = klein_gordon_case();
-  for (const std::string method : {"egc2", "egc6", "seisav"}) {
+  for (const std::string method : {"egc2", "egc6", "seisav", "etdrk4", "crkn6"}) {
     Simulation simulation(p, {.method = method, .variable_steps = true});
     AdaptiveStepper& stepper = simulation.adaptive_stepper();
     for (int n = 0; n < 5; ++n) ASSERT_TRUE(stepper.attempt(simulation.state(), 0.25).solved());

@@ -135,6 +135,7 @@ TEST(CaseFile, WhatIsWrittenIsReadBackAsTheSameCase) {
       {"problem.initial={ u = \"sin(pi*x/length)\", v = \"0\" }"},
       {"output.directory=a \"quoted\" \\ name", "output.snapshot_every=0"},
       {"method.name=ssav", "method.auxiliary=refresh", "problem.kappa=1/3"},
+      {"method.name=crkn4", "method.law=guard", "method.linear=explicit"},
       {"method.name=egc6", "method.law=none"},
       {"backend.name=modal", "backend.plan=measure"},
   };
@@ -153,6 +154,7 @@ TEST(CaseFile, WhatIsWrittenIsReadBackAsTheSameCase) {
     EXPECT_EQ(again.method_options.scalar_solver, spec.method_options.scalar_solver);
     const MethodEntry& method = find_method(spec.method);
     EXPECT_EQ(again.method_options.law_of(method), spec.method_options.law_of(method));
+    EXPECT_EQ(again.method_options.linear, spec.method_options.linear);
     EXPECT_EQ(again.backend, spec.backend);
     EXPECT_EQ(again.measure_plans, spec.measure_plans);
     EXPECT_EQ(again.t_end, spec.t_end);
@@ -192,7 +194,7 @@ TEST(CaseFile, UnknownSectionsAndKeysAreRefusedWithTheNearestName) {
                     HasSubstr("problem, method, backend, time, output")));
   EXPECT_THAT(complaint(minimal + "[method]\nC = 1\nauxilary = \"frozen\"\n"),
               AllOf(StartsWith("x.toml:5:1: "), HasSubstr("'auxilary'; did you mean 'auxiliary'?"),
-                    HasSubstr("Allowed: name, h, tolerance, h_max, C, auxiliary, scalar_solver, law")));
+                    HasSubstr("Allowed: name, h, tolerance, h_max, C, auxiliary, scalar_solver, law, linear")));
   EXPECT_THAT(complaint(minimal + "kapa = 1\n"), AllOf(StartsWith("x.toml:3:1: "), HasSubstr("did you mean 'kappa'?")));
   EXPECT_THAT(complaint("h = 1\n" + minimal), HasSubstr("x.toml:1:1: the key 'h' stands outside every section; it "
                                                         "belongs into [method]"));
@@ -336,6 +338,10 @@ TEST(CaseFile, MethodOptionsWithoutMeaningAreRefusedAtTheirKey) {
   EXPECT_THAT(complaint(minimal + "[method]\nscalar_solver = \"newton\"\n"), HasSubstr("belongs to the lm family"));
   EXPECT_THAT(complaint(minimal + "[method]\nlaw = \"guard\"\n"), HasSubstr("end with a projection"));
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"egc4\"\nlaw = \"gard\"\n"), HasSubstr("did you mean 'guard'"));
+  EXPECT_THAT(complaint(minimal + "[method]\nname = \"strang_exact\"\nlaw = \"interval\"\n"),
+              HasSubstr("use \"guard\""));
+  EXPECT_THAT(complaint(minimal + "[method]\nname = \"egc4\"\nlinear = \"explicit\"\n"), HasSubstr("crkn4"));
+  EXPECT_EQ(complaint(minimal + "[method]\nname = \"crkn6\"\nlaw = \"none\"\nlinear = \"explicit\"\n"), "accepted");
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"seilm\"\nC = 1\n"), HasSubstr("C belongs to the sav family"));
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"refresh\"\n"), HasSubstr("refresh"));
   EXPECT_EQ(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"frozen\"\n"), "");

@@ -348,6 +348,7 @@ TEST_F(Cli, ALawThatIsSwitchedOffIsPromisedNowhere) {
   const Result audit = seiche("audit out");
   EXPECT_EQ(audit.exit, 0) << audit.out;
   EXPECT_THAT(audit.out, HasSubstr("not promised: law = \"none\""));
+  EXPECT_EQ(seiche("converge case.toml --h 1/8,1/16 --set method.name=egc2 method.law=none problem.gamma=0").exit, 0);
 }
 
 TEST_F(Cli, AnAuditConfirmsARunFromItsFilesAndSeesWhatWasChanged) {

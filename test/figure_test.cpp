@@ -359,12 +359,18 @@ TEST(MethodStyle, EveryMethodLooksLikeNoOther) {
     ASSERT_NE(style, nullptr) << method.name;
     EXPECT_TRUE(colours.insert(style->line.colour).second) << method.name;
     const bool collocation = method.composition == Composition::collocation;
+    const bool one_step = method.projects() && !collocation;
     const std::string marker = gnuplot_marker({.marker = style->line.marker, .filled = style->line.filled});
-    EXPECT_TRUE(shapes.insert(collocation ? "long dashes, " + marker : marker).second) << method.name;
+    EXPECT_TRUE(shapes.insert(collocation ? "long dashes, " + marker
+                              : one_step  ? "dots, " + marker
+                                          : marker)
+                    .second)
+        << method.name;
     const bool exponential = method.propagator == PropagatorKind::exponential;
     EXPECT_EQ(style->line.filled, exponential) << method.name;
-    EXPECT_EQ(style->line.dash == Dash::solid, exponential && !collocation) << method.name;
+    EXPECT_EQ(style->line.dash == Dash::solid, exponential && !method.projects()) << method.name;
     EXPECT_EQ(style->line.dash == Dash::long_dashed, collocation) << method.name;
+    EXPECT_EQ(exponential && style->line.dash == Dash::dotted, one_step) << method.name;
     EXPECT_EQ(style->proposed, method.name == "seisav" || method.name == "seilm");
   }
   EXPECT_EQ(method_label("seisav"), "SEISAV");

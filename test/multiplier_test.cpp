@@ -84,7 +84,8 @@ TEST(Multiplier, MethodsWorkAndKeepTheirLawForAPotentialThatIsNoPolynomial) {
       EXPECT_NEAR(fitted_order(h, errors), 2.0, method.closure == ClosureKind::lm ? 0.3 : 0.1)
           << method.name << table(h, errors);
     } else {
-      EXPECT_LE(errors[1], std::max(1e-13, errors[0] * std::pow(2.0, 0.5 - method.order)))
+      const double round_off = method.composition == Composition::nystrom ? 1e-12 : 1e-13;  // up to eleven flows a step
+      EXPECT_LE(errors[1], std::max(round_off, errors[0] * std::pow(2.0, 0.5 - method.order)))
           << method.name << table(h, errors);
     }
     Simulation simulation(sine_gordon, {.method = std::string(method.name)});

@@ -58,12 +58,13 @@ TEST(Order, OfEveryMethodOfHighOrderIsTheOneItDeclares) {
     for (double h = 0.5; h > 1.0 / 70; h /= 2) ladder.insert(ladder.end(), {h, 5 * h / 7});
     const Reference reference = make_reference(problem, sample_times(ladder, 10.0));
     for (const MethodEntry& method : methods()) {
-      if (method.order <= 2) continue;
+      if (method.order <= 2 || !applies(method.name, problem)) continue;
+      const double round_off = method.composition == Composition::nystrom ? 3e-12 : 1e-12;  // up to eleven flows a step
       std::vector<double> h;
       std::vector<double> errors;
       for (const double step : ladder) {
         const double error = errors_of(reference, problem, {.method = std::string(method.name)}, {step}).front();
-        if (error < 1e-12) break;
+        if (error < round_off) break;
         h.push_back(step);
         errors.push_back(error);
       }

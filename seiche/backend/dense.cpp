@@ -162,6 +162,7 @@ System dense_system(const Problem& problem, const BackendOptions&) {
   const Matrix D0 =
       problem.matrices ? Matrix(frozen_damping_matrix(problem)) : frozen_damping(problem).matrix(problem.grid);
   system.make_phi = [S, M, D0, support] { return dense_phi(S, M, D0, support); };
+  system.make_undamped_phi = [S, M, support] { return dense_phi(S, M, Matrix::Zero(S.rows(), S.cols()), support); };
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;

@@ -252,6 +252,10 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
                                  .count = problem.potential ? problem.potential->fields() : 0,
                                  .threads = options.threads};
   system.make_phi = [operators] { return modal_phi(operators); };
+  system.make_undamped_phi = [undamped = operators]() mutable {
+    undamped.D0 = BlockStencil(undamped.S.fields());
+    return modal_phi(undamped);
+  };
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;

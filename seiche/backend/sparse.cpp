@@ -42,7 +42,11 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
 
   const auto D0 = std::make_shared<const SparseMatrix>(
       problem.matrices ? frozen_damping_matrix(problem) : frozen_damping(problem).sparse_matrix(problem.grid));
-  system.make_phi = [shared, D0, support = system.potential->support()] { return sparse_phi(shared, D0, support); };
+  const Potential::Support support = system.potential->support();
+  system.make_phi = [shared, D0, support] { return sparse_phi(shared, D0, support); };
+  system.make_undamped_phi = [shared, support] {
+    return sparse_phi(shared, std::make_shared<const SparseMatrix>(shared->S.rows(), shared->S.cols()), support);
+  };
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;

@@ -23,7 +23,7 @@ std::vector<std::string> section_names() { return {"problem", "method", "backend
 
 std::vector<std::string> keys_of(const std::string& section, const ProblemEntry* problem) {
   if (section == "method")
-    return {"name", "h", "tolerance", "h_max", "C", "auxiliary", "scalar_solver", "law"};
+    return {"name", "h", "tolerance", "h_max", "C", "auxiliary", "scalar_solver", "law", "linear"};
   if (section == "backend") return {"name", "plan", "exponential", "pade_degree", "lanczos_dimension"};
   if (section == "time") return {"end"};
   if (section == "output") return {"directory", "energy_every", "ledger", "snapshot_every", "snapshot_interval"};
@@ -192,6 +192,10 @@ class Reader {
     read_option("scalar_solver", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
       const bool newton = read_name(key, value, {"robust", "newton"}) == "newton";
       options.scalar_solver = newton ? ScalarSolver::newton : ScalarSolver::robust;
+    });
+    read_option("linear", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
+      const bool kicks = read_name(key, value, {"exact", "explicit"}) == "explicit";
+      options.linear = kicks ? LinearTreatment::explicit_kicks : LinearTreatment::exact;
     });
     read_option("law", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
       const std::string name = read_name(key, value, energy_law_names());

@@ -92,6 +92,9 @@ std::string write_case(const RunSpec& spec) {
   const MethodEntry* method = spec.method == "auto" ? nullptr : &find_method(spec.method);
   if (method != nullptr && method->projects())
     text += fmt::format("law = \"{}\"\n", to_string(options.law_of(*method)));
+  if (method != nullptr && method->composition == Composition::nystrom)
+    text += fmt::format("linear = \"{}\"\n", options.linear == LinearTreatment::exact ? "exact" : "explicit");
+
   text += fmt::format("\n[backend]\nname = {}\nplan = \"{}\"\n", toml_string(spec.backend),
                       spec.measure_plans ? "measure" : "estimate");
   text += fmt::format("exponential = \"{}\"\npade_degree = {}\nlanczos_dimension = {}\n",
@@ -136,6 +139,9 @@ std::string example_case(const std::string& problem) {
   text += line("# law", "\"interval\"",
                fmt::format("methods that end with a projection ({}): {}; the strongest they can have if not given",
                            fmt::join(projecting_methods(), ", "), fmt::join(energy_law_names(), " | ")));
+  text += line("# linear", "\"exact\"",
+               "crkn4, crkn6: exact | explicit (all forces as kicks: fastest where nothing is stiff)");
+
   text += "\n[backend]\n";
   text += line("name", "\"auto\"", fmt::format("auto | {}", fmt::join(backend_names(), " | ")));
   text += line("plan", "\"estimate\"", "FFTW: estimate (repeatable to the bit) | measure (fastest)");

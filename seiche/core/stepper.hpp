@@ -12,9 +12,9 @@ namespace seiche {
 // Where the change of H comes from. The parts of a step add up to H after − H before, but for round-off.
 struct StepLedger {
   double work = 0.0;          // of external forces
-  double damping_left = 0.0;  // the first damping half-flow; for collocation all of −∫Q dt, by quadrature
+  double damping_left = 0.0;  // the first damping half-flow; where a step ends with a projection, all of −∫Q dt
   double substep = 0.0;  // what the Hamiltonian substep changes of the energy it is to keep: the dissipation of S, the
-                         // residual of a scalar equation; for collocation what ẑ misses of the dissipation
+                         // residual of a scalar equation; before a projection what ẑ misses of the dissipation
   double auxiliary = 0.0;      // change of H − modified energy in the substep: V drifts from r² − C
   double projection = 0.0;     // onto the energy of the law
   double damping_right = 0.0;  // the second damping half-flow

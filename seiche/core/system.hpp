@@ -28,12 +28,13 @@ struct System {
   std::unique_ptr<Space> space;
   std::unique_ptr<LinearPart> linear;
   std::unique_ptr<Potential> potential;
-  std::unique_ptr<Damping> damping;                         // D and R
-  std::unique_ptr<ExternalForce> force;                     // f; null: none
-  std::unique_ptr<Structure> structure;                     // S(z) − S; null: S is all
-  std::function<std::unique_ptr<PhiEvaluator>()> make_phi;  // of L = SM − D₀; methods that split have no use for it
-  Vector initial;                                           // z₀
-  Index fields = 1;                                         // of equal size, one after the other in State::z
+  std::unique_ptr<Damping> damping;                                  // D and R
+  std::unique_ptr<ExternalForce> force;                              // f; null: none
+  std::unique_ptr<Structure> structure;                              // S(z) − S; null: S is all
+  std::function<std::unique_ptr<PhiEvaluator>()> make_phi;           // of L = SM − D₀; closures have no use for it
+  std::function<std::unique_ptr<PhiEvaluator>()> make_undamped_phi;  // of L = SM
+  Vector initial;                                                    // z₀
+  Index fields = 1;                                                  // of equal size, one after the other in State::z
 
   double energy(const Vector& z) const { return linear->quadratic_energy(z) + potential->value(z); }
   EnergyTerms energy_terms(const Vector& z) const;

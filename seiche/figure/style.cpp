@@ -36,6 +36,12 @@ const std::vector<MethodStyle>& table() {
       {"egc4",   "EGC4",   {"#5E8C61", square,        true,  long_dashed, thin,  1.00}, false},
       {"egc6",   "EGC6",   {"#2F5D50", circle,        true,  long_dashed, thin,  1.00}, false},
       {"egc8",   "EGC8",   {"#0B3B2E", pentagon,      true,  long_dashed, thin,  1.00}, false},
+      {"seimp",  "SEIMP",  {"#D9A5B3", diamond,       true,  dotted,      thin,  1.00}, false},
+      {"etdrk4", "ETDRK4", {"#B5446E", square,        true,  dotted,      thin,  1.00}, false},
+      {"crkn4",  "CRKN4",  {"#7A5C8E", triangle,      true,  dotted,      thin,  1.00}, false},
+      {"crkn6",  "CRKN6",  {"#4B2E63", triangle_down, true,  dotted,      thin,  1.00}, false},
+      {"strang_exact", "Strang, exact", {"#C9B458", circle, true, dotted, thin,  1.00}, false},
+      {"chin4",  "Chin4",  {"#8C6D1F", pentagon,      true,  dotted,      thin,  1.00}, false},
       {"seisav", "SEISAV", {"#D55E00", square,        true,  solid,       heavy, 1.35}, true},
       {"seilm",  "SEILM",  {"#0072B2", triangle,      true,  solid,       heavy_on_top, 0.75}, true},
   };

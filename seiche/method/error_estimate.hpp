@@ -1,8 +1,9 @@
-// Errors of one-step methods of order two, for variable steps.
+// Errors of one-step methods, for variable steps.
 #pragma once
 
 #include <seiche/core/stepper.hpp>
 #include <seiche/core/system.hpp>
+#include <seiche/method/projected.hpp>
 
 #include <memory>
 
@@ -13,5 +14,10 @@ namespace seiche {
 // φ_k of hL with the whole linear part, ẑ the exponential midpoint: the difference contains the error of the splitting. Two
 // gradients a step. Between steps, a shorter step of the same method from the left end. `system` outlives the stepper.
 std::unique_ptr<AdaptiveStepper> with_error_estimate(const System& system, std::unique_ptr<Stepper> stepper);
+
+// For a method of order p: a step of two halves, beside one of the whole length that is thrown away; the difference over 2ᵖ − 1
+// is the error of the two. Between steps, a shorter step of the same method from the left end of either half.
+std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<ProjectedStepper> stepper,
+                                                    int order);
 
 }  // namespace seiche

@@ -1,12 +1,17 @@
 #include <seiche/core/error.hpp>
 #include <seiche/method/avf.hpp>
+#include <seiche/method/chin.hpp>
 #include <seiche/method/compositions.hpp>
+#include <seiche/method/crkn.hpp>
 #include <seiche/method/directed_multiplier.hpp>
 #include <seiche/method/egc.hpp>
 #include <seiche/method/error_estimate.hpp>
+#include <seiche/method/exponential_runge_kutta.hpp>
 #include <seiche/method/lm.hpp>
 #include <seiche/method/methods.hpp>
+#include <seiche/method/projected.hpp>
 #include <seiche/method/sav.hpp>
+#include <seiche/method/strang_exact.hpp>
 
 #include <array>
 #include <cmath>
@@ -19,6 +24,7 @@ using enum PropagatorKind;
 using enum Composition;
 
 constexpr EnergyLaw interval = EnergyLaw::interval;
+constexpr EnergyLaw guard = EnergyLaw::guard;
 
 constexpr std::string_view paper = "Li, Li, Shang, Xu: energy-stable splitting exponential integrators";
 constexpr std::string_view here = "Seiche: the paper's closure, exponential, without splitting";
@@ -44,6 +50,12 @@ constexpr std::array list = {
     MethodEntry{"egc4",   none, exponential, collocation, 4, "H",    collocated, interval},
     MethodEntry{"egc6",   none, exponential, collocation, 6, "H",    collocated, interval},
     MethodEntry{"egc8",   none, exponential, collocation, 8, "H",    collocated, interval},
+    MethodEntry{"seimp",  none, exponential, runge_kutta, 2, "H",    "Seiche: exponential midpoint and projection", interval},
+    MethodEntry{"etdrk4", none, exponential, runge_kutta, 4, "H",    "Krogstad (2005), J. Comput. Phys. 203; with projection", interval},
+    MethodEntry{"crkn4",  none, exponential, nystrom, 4, "H",        "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
+    MethodEntry{"crkn6",  none, exponential, nystrom, 6, "H",        "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
+    MethodEntry{"strang_exact", none, exponential, kick, 2, "H",     "Strang splitting of the linear flow; with projection", guard},
+    MethodEntry{"chin4",  none, exponential, chin, 4, "H",           "Seiche: positive splitting with absorbed commutator, docs/design.md", guard},
 };
 // clang-format on
 
@@ -56,6 +68,37 @@ std::unique_ptr<Closure> make_closure(const MethodEntry& method, const System& s
     case none: break;
   }
   throw Error("method {} has no closure", method.name);
+}
+
+std::unique_ptr<BaseStep> make_base(const MethodEntry& method, const System& system, const PhiEvaluator& phi,
+                                    const MethodOptions& options) {
+  switch (method.composition) {
+    case runge_kutta:
+      return exponential_runge_kutta(system, phi, method.order == 2 ? exponential_midpoint() : krogstad());
+    case nystrom:
+      return options.linear == LinearTreatment::exact ? conformal_nystrom(system, phi, method.order)
+                                                      : explicit_nystrom(system, phi, method.order);
+    case kick: return strang_exact(system, phi);
+    case chin: return chin_splitting(system, phi);
+    case whole:
+    case strang:
+    case collocation: break;
+  }
+  throw Error("method {} is no base step with a projection", method.name);
+}
+
+std::unique_ptr<ProjectedStepper> make_projected(const MethodEntry& method, const System& system,
+                                                 const MethodOptions& options) {
+  if (system.force && (method.composition == nystrom || method.composition == chin))
+    throw Error("{} has no place for an external force; egc2 … egc8, etdrk4, seimp and strang_exact take it", method.name);
+  std::unique_ptr<PhiEvaluator> phi = system.make_phi();
+  std::unique_ptr<BaseStep> base;
+  try {
+    base = make_base(method, system, *phi, options);
+  } catch (const Error& error) {
+    throw Error("{} does not apply: {}", method.name, error.what());
+  }
+  return std::make_unique<ProjectedStepper>(system, std::move(phi), std::move(base), options.law_of(method));
 }
 
 }  // namespace
@@ -89,6 +132,8 @@ void MethodOptions::validate(const MethodEntry& method) const {
   if (scalar_solver == ScalarSolver::newton && method.closure != lm) {
     throw Error("scalar_solver = \"newton\" belongs to the lm family; {} solves no equation for η", method.name);
   }
+  if (linear == LinearTreatment::explicit_kicks && method.composition != nystrom)
+    throw Error("linear = \"explicit\" belongs to crkn4 and crkn6; {} takes the linear part in one piece", method.name);
   if (auxiliary == AuxiliaryMode::transport) return;
   if (method.closure == avf || method.closure == dm || method.closure == none) {
     throw Error("auxiliary belongs to the sav and lm families; {} carries no auxiliary through the damping",
@@ -117,8 +162,9 @@ std::string MethodOptions::objection(const MethodEntry& method) const {
 std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system, const MethodOptions& options) {
   options.validate(method);
   if (method.composition == collocation) return make_egc(system, method.order / 2, options.law_of(method));
-  if (system.structure)
-    throw Error("{} needs one structure matrix S; where S changes with z use egc2, egc4, egc6 or egc8", method.name);
+  if (system.structure && method.composition != runge_kutta)
+    throw Error("{} needs one structure matrix S; where S changes with z use egc2 … egc8, seimp or etdrk4", method.name);
+  if (method.projects()) return make_projected(method, system, options);
   if (method.composition == whole) {
     if (!system.damping->is_zero()) throw Error("{} needs its damping merged into S first", method.name);
     return make_whole(system, method.propagator, make_closure(method, system, options));
@@ -130,6 +176,9 @@ std::unique_ptr<AdaptiveStepper> make_adaptive_stepper(const MethodEntry& method
                                                        const MethodOptions& options) {
   options.validate(method);
   if (method.composition == collocation) return make_egc(system, method.order / 2, options.law_of(method));
+  // The weights of with_error_estimate stand on the same midpoint as those of the midpoint rule, and share its errors.
+  if (method.order > 2 || method.composition == runge_kutta)
+    return with_step_doubling(system, make_projected(method, system, options), method.order);
   return with_error_estimate(system, make_stepper(method, system, options));
 }
 
@@ -141,7 +190,7 @@ std::string to_string(ClosureKind closure) {
 std::string to_string(PropagatorKind propagator) { return propagator == exponential ? "exponential" : "cayley"; }
 
 std::string to_string(Composition composition) {
-  constexpr std::array names = {"whole", "strang", "collocation"};
+  constexpr std::array names = {"whole", "strang", "collocation", "runge_kutta", "nystrom", "kick", "chin"};
   return names[static_cast<std::size_t>(composition)];
 }
 

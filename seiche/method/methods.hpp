@@ -16,9 +16,10 @@
 namespace seiche {
 
 enum class ClosureKind { avf, sav, lm, dm, none };
-enum class Composition { whole, strang, collocation };
+enum class Composition { whole, strang, collocation, runge_kutta, nystrom, kick, chin };
 enum class AuxiliaryMode { transport, frozen, refresh };
 enum class ScalarSolver { robust, newton };
+enum class LinearTreatment { exact, explicit_kicks };  // e^{hL}, or kicks by all forces between drifts
 
 struct MethodEntry {
   std::string_view name;
@@ -44,6 +45,7 @@ struct MethodOptions {
   ScalarSolver scalar_solver = ScalarSolver::robust;
   std::optional<EnergyLaw> law = {};  // of methods that project; the strongest they can have if not given
 
+  LinearTreatment linear = LinearTreatment::exact;  // nystrom
 
   EnergyLaw law_of(const MethodEntry& method) const { return law.value_or(method.projection); }
   // Why no energy law is promised with these options, or "".

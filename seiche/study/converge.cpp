@@ -84,6 +84,7 @@ MethodOptions options_for(std::string_view method, const MethodOptions& options)
   if (closure == ClosureKind::sav) own.C = options.C;
   if (closure == ClosureKind::sav || closure == ClosureKind::lm) own.auxiliary = options.auxiliary;
   if (closure == ClosureKind::lm) own.scalar_solver = options.scalar_solver;
+  if (find_method(method).composition == Composition::nystrom) own.linear = options.linear;
   const EnergyLaw strongest = find_method(method).projection;
   if (options.law && strongest != EnergyLaw::none) own.law = std::max(*options.law, strongest);
   return own;

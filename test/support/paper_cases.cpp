@@ -232,11 +232,16 @@ std::vector<NamedProblem> all_cases() {
 }
 
 bool applies(std::string_view method, const Problem& problem) {
-  const Composition composition = find_method(method).composition;
-  if (problem.structure) return composition == Composition::collocation;
-  if (composition != Composition::whole) return true;
+  const MethodEntry& entry = find_method(method);
+  const Composition composition = entry.composition;
+  if (problem.structure) return composition == Composition::collocation || composition == Composition::runge_kutta;
+  const bool needs_momenta = composition == Composition::nystrom || composition == Composition::chin;
+  if (composition != Composition::whole && !needs_momenta) return true;
   try {
-    with_damping_merged(problem);
+    if (needs_momenta)
+      make_stepper(entry, find_backend("dense").system(problem, {}));
+    else
+      with_damping_merged(problem);
     return true;
   } catch (const Error&) {
     return false;

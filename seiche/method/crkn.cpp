@@ -1,0 +1,189 @@
+#include <seiche/core/error.hpp>
+#include <seiche/core/step_cache.hpp>
+#include <seiche/method/crkn.hpp>
+#include <seiche/method/momentum_form.hpp>
+#include <seiche/method/nystrom_scheme.hpp>
+
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| + h|S∇V(uⁿ)| is no solution
+
+class Nystrom : public BaseStep {
+ public:
+  Nystrom(const System& system, const PhiEvaluator& phi, int order)
+      : system_(system),
+        form_(momentum_form(system)),
+        scheme_(nystrom_scheme(order)),
+        kind_(StepDissipation::kind_of(system, phi)) {
+    if (!form_.kicks)
+      throw Error("it kicks momenta by ∇V of the positions, and here S∇V moves what V depends on; use etdrk4 or egc4");
+    if (!system.damping->is_frozen())
+      throw Error("its linear flow needs a damping that is the same at all times and points; use etdrk4 or egc4");
+    if (!phi.dissipation().is_quadratic)
+      throw Error("its damping must act on momenta alone, and here it moves what V depends on; use etdrk4 or egc4");
+    for (Vector* v : {&gradient_, &kick_}) v->setZero(system.space->size());
+  }
+
+  bool compute(const State& s, double, double h, Vector& z) override {
+    z = s.z;
+    taken_ = 0;
+    prepare(h);
+    double size = kick(scheme_.b[0] * h, z) / std::abs(scheme_.b[0]);
+    size += s.z.norm();
+    for (std::size_t i = 0; i < scheme_.flows(); ++i) {
+      taken_ += flow(i, z);
+      kick(scheme_.b[i + 1] * h, z);
+    }
+    return z.norm() <= gross_growth * size;  // false for NaN
+  }
+
+  std::string_view failure() const override { return "the Runge–Kutta–Nyström splitting left the numbers"; }
+  StepDissipation::Kind dissipation_kind() const override { return kind_; }
+  StepDissipation::Amount dissipated(const State&, double, double, const Vector&) override {
+    return {.fine = taken_, .coarse = taken_, .negative = kind_ == StepDissipation::Kind::general};
+  }
+
+ protected:
+  virtual void prepare(double h) = 0;
+  // The i-th A-flow of a step; returns what the damping takes from H in it, where it takes any.
+  virtual double flow(std::size_t i, Vector& z) = 0;
+  virtual double kick(double h, Vector& z) = 0;  // returns the length of the kick
+
+  const System& system() const { return system_; }
+  const MomentumForm& form() const { return form_; }
+  const NystromScheme& scheme() const { return scheme_; }
+  bool dissipates() const { return kind_ != StepDissipation::Kind::none; }
+
+  // z += h S g with g in gradient_, zero outside the positions; returns the length of it.
+  double kick_by_gradient(double h, Vector& z) {
+    const auto g = gradient_.segment(form_.positions.begin, form_.positions.size);
+    if (form_.canonical) {
+      z.tail(form_.positions.size) -= h * g;
+      return std::abs(h) * g.norm();
+    }
+    system_.linear->apply_S(gradient_, kick_);
+    z += h * kick_;
+    return std::abs(h) * kick_.norm();
+  }
+
+  Vector gradient_, kick_;
+
+ private:
+  const System& system_;
+  MomentumForm form_;
+  const NystromScheme& scheme_;
+  StepDissipation::Kind kind_;
+  double taken_ = 0;
+};
+
+class ExactFlows final : public Nystrom {
+ public:
+  ExactFlows(const System& system, const PhiEvaluator& phi, int order)
+      : Nystrom(system, phi, order),
+        phi_(phi),
+        cache_(cached_step_sizes(system.space->size())),
+        work_(Vector::Zero(system.space->size())) {}
+
+ private:
+  using Flows = std::vector<std::unique_ptr<PhiMap>>;
+
+  void prepare(double h) override {
+    flows_ = &cache_.at(h, [&] {
+      auto flows = std::make_unique<Flows>();
+      for (std::size_t i = 0; i < scheme().distinct_flows(); ++i)
+        flows->push_back(phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, scheme().a[i] * h));
+      return flows;
+    });
+  }
+
+  double flow(std::size_t i, Vector& z) override {
+    const double before = dissipates() ? system().linear->quadratic_energy(z) : 0;
+    (*flows_)[scheme().which(i)]->apply(z, {}, {&work_, 1});
+    z.swap(work_);
+    return dissipates() ? before - system().linear->quadratic_energy(z) : 0;
+  }
+
+  double kick(double h, Vector& z) override {
+    system().potential->gradient(z, gradient_);
+    return kick_by_gradient(h, z);
+  }
+
+  const PhiEvaluator& phi_;
+  StepCache<Flows> cache_;
+  const Flows* flows_ = nullptr;
+  Vector work_;
+};
+
+class Drifts final : public Nystrom {
+ public:
+  Drifts(const System& system, const PhiEvaluator& phi, int order) : Nystrom(system, phi, order) {
+    if (!form().separable)
+      throw Error(
+          "linear = \"explicit\" needs H = T(v) + U(u), with S that couples u and v alone; use linear = \"exact\"");
+    if (!form().rate)
+      throw Error("linear = \"explicit\" needs a damping that is one number on all momenta; use linear = \"exact\"");
+    for (Vector* v : {&Mz_, &momenta_}) v->setZero(system.space->size());
+  }
+
+ private:
+  struct Drift {
+    double length, decay;  // u += length · ∇T(v), v *= decay
+  };
+
+  void prepare(double h) override {
+    if (h == h_) return;
+    h_ = h;
+    drifts_.clear();
+    for (const double a : scheme().a) {
+      const double gamma = *form().rate;
+      const double t = a * h;
+      drifts_.push_back({gamma == 0 ? t : -std::expm1(-gamma * t) / gamma, std::exp(-gamma * t)});
+    }
+  }
+
+  double flow(std::size_t i, Vector& z) override {
+    const auto [length, decay] = drifts_[i];
+    const Potential::Support u = form().positions;
+    if (form().canonical) {
+      const double twice_T = dissipates() ? z.tail(u.size).squaredNorm() : 0;
+      z.head(u.size) += length * z.tail(u.size);
+      z.tail(u.size) *= decay;
+      return twice_T * (1 - decay * decay) / 2;
+    }
+    momenta_ = z;
+    momenta_.segment(u.begin, u.size).setZero();
+    system().linear->apply_M(momenta_, Mz_);
+    const double twice_T = momenta_.dot(Mz_);
+    system().linear->apply_S(Mz_, kick_);
+    z += (decay - 1) * momenta_ + length * kick_;
+    return twice_T * (1 - decay * decay) / 2;
+  }
+
+  double kick(double h, Vector& z) override {
+    const Potential::Support u = form().positions;
+    gradient_.segment(u.begin, u.size).setZero();  // where there is no V, its gradient is never written
+    system().potential->gradient(z, gradient_);
+    system().linear->apply_M(z, Mz_);
+    gradient_.segment(u.begin, u.size) += Mz_.segment(u.begin, u.size);
+    return kick_by_gradient(h, z);
+  }
+
+  double h_ = 0;
+  std::vector<Drift> drifts_;
+  Vector Mz_, momenta_;
+};
+
+}  // namespace
+
+std::unique_ptr<BaseStep> conformal_nystrom(const System& system, const PhiEvaluator& phi, int order) {
+  return std::make_unique<ExactFlows>(system, phi, order);
+}
+
+std::unique_ptr<BaseStep> explicit_nystrom(const System& system, const PhiEvaluator& phi, int order) {
+  return std::make_unique<Drifts>(system, phi, order);
+}
+
+}  // namespace seiche

@@ -1,0 +1,113 @@
+#include <seiche/core/step_cache.hpp>
+#include <seiche/method/collocation_weights.hpp>
+#include <seiche/method/exponential_runge_kutta.hpp>
+#include <seiche/method/nonlinear_force.hpp>
+
+namespace seiche {
+namespace {
+
+constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| + h|N_1| is no solution
+
+class ExponentialRungeKutta final : public BaseStep {
+ public:
+  ExponentialRungeKutta(const System& system, const PhiEvaluator& phi, const ExponentialTableau& tableau)
+      : tableau_(tableau),
+        phi_(phi),
+        force_(system),
+        output_{.forces = tableau.C.cols(),
+                .order = tableau.C.rows(),
+                .kind = force_.kind(),
+                .weights = [&tableau](double theta) { return collocation_weights(tableau.C, theta); }},
+        dissipation_(system, phi, output_, GaussRule(tableau.coarse), GaussRule(tableau.fine)),
+        cache_(cached_step_sizes(system.space->size())),
+        forces_(tableau.stages.size() + 1, Vector::Zero(system.space->size())) {}
+
+  bool compute(const State& s, double t, double h, Vector& z) override {
+    const Tables& of_h = cache_.at(h, [&] { return std::make_unique<Tables>(make_tables(h)); });
+    forces_[0] = s.z;
+    force_.evaluate(t, forces_[0]);
+    const double size = s.z.norm() + h * forces_[0].norm();
+    for (std::size_t i = 1; i < forces_.size(); ++i) {
+      of_h.stages[i - 1]->apply(s.z, {forces_.data(), i}, {&forces_[i], 1});
+      force_.evaluate(t + tableau_.stages[i - 1].c * h, forces_[i]);
+    }
+    of_h.end->apply(s.z, used(), {&z, 1});
+    return z.norm() <= gross_growth * size;  // false for NaN
+  }
+
+  std::string_view failure() const override { return "the exponential Runge–Kutta scheme left the numbers"; }
+  StepDissipation::Kind dissipation_kind() const override { return dissipation_.kind(); }
+  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector&) override {
+    return dissipation_.measure(t, h, s.z, used());
+  }
+
+ private:
+  struct Tables {
+    std::vector<std::unique_ptr<PhiMap>> stages;
+    std::unique_ptr<PhiMap> end;
+  };
+
+  Tables make_tables(double h) const {
+    const bool states = output_.kind == PhiRows::Forces::states;  // then all of U_i is looked at
+    Tables made;
+    for (const ExponentialTableau::Stage& stage : tableau_.stages)
+      made.stages.push_back(phi_.map({.rows = {{stage.c, stage.weights}},
+                                      .forces = static_cast<Index>(made.stages.size()) + 1,
+                                      .order = stage.order,
+                                      .kind = output_.kind,
+                                      .outputs = states ? PhiRows::Outputs::all : PhiRows::Outputs::support},
+                                     h));
+    made.end = phi_.map(output_.at(Eigen::VectorXd::Ones(1), PhiRows::Outputs::all), h);
+    return made;
+  }
+
+  std::span<const Vector> used() const {
+    return std::span<const Vector>(forces_).subspan(static_cast<std::size_t>(tableau_.first_used));
+  }
+
+  const ExponentialTableau& tableau_;
+  const PhiEvaluator& phi_;
+  NonlinearForce force_;
+  DenseOutput output_;
+  StepDissipation dissipation_;
+  StepCache<Tables> cache_;
+  std::vector<Vector> forces_;
+};
+
+}  // namespace
+
+// U₂ = φ₀zⁿ + (h/2)φ₁N₁,  ẑ = φ₀zⁿ + hφ₁N₂.
+const ExponentialTableau& exponential_midpoint() {
+  static const ExponentialTableau tableau{.stages = {{.c = 0.5, .order = 1, .weights = {0.5}}},
+                                          .first_used = 1,
+                                          .C = Eigen::MatrixXd::Ones(1, 1),
+                                          .coarse = 1,
+                                          .fine = 3};
+  return tableau;
+}
+
+// U₂ = φ₀zⁿ + (h/2)φ₁N₁,  U₃ = φ₀zⁿ + h[(φ₁/2 − φ₂)N₁ + φ₂N₂],  U₄ = φ₀zⁿ + h[(φ₁ − 2φ₂)N₁ + 2φ₂N₃],
+// a₀ = N₁,  a₁ = −3N₁ + 2N₂ + 2N₃ − N₄,  a₂ = 2(N₁ − N₂ − N₃ + N₄).
+const ExponentialTableau& krogstad() {
+  static const ExponentialTableau tableau = [] {
+    Eigen::MatrixXd C(3, 4);
+    C << 1, 0, 0, 0,   //
+        -3, 2, 2, -1,  //
+        2, -2, -2, 2;
+    return ExponentialTableau{.stages = {{.c = 0.5, .order = 1, .weights = {0.5}},
+                                         {.c = 0.5, .order = 2, .weights = {0.5, -1, 0, 1}},
+                                         {.c = 1.0, .order = 2, .weights = {1, -2, 0, 0, 0, 2}}},
+                              .first_used = 0,
+                              .C = C,
+                              .coarse = 3,
+                              .fine = 4};
+  }();
+  return tableau;
+}
+
+std::unique_ptr<BaseStep> exponential_runge_kutta(const System& system, const PhiEvaluator& phi,
+                                                  const ExponentialTableau& tableau) {
+  return std::make_unique<ExponentialRungeKutta>(system, phi, tableau);
+}
+
+}  // namespace seiche

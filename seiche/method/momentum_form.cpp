@@ -1,0 +1,95 @@
+#include <seiche/method/momentum_form.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace seiche {
+namespace {
+
+constexpr double none = 1e-13;  // relative to the vector: what is left of it by round-off
+
+class Probe {
+ public:
+  explicit Probe(const System& system) : system_(system), support_(system.potential->support()) {
+    const Index size = system.space->size();
+    if (support_.size == 0) support_ = {0, size / 2};
+    all_.resize(size);
+    std::uint64_t bits = 1;
+    for (double& x : all_) {  // a linear congruential generator
+      bits = bits * 6364136223846793005U + 1442695040888963407U;
+      x = 1 + static_cast<double>(bits >> 40U) / static_cast<double>(1U << 24U);
+    }
+    // Slots of transforms that always hold zero are to hold it here too.
+    Vector physical = system.space->physical(all_);
+    system.space->from_physical(physical, all_);
+  }
+
+  Potential::Support positions() const { return support_; }
+  Index size() const { return all_.size(); }
+
+  Vector with_positions() const {
+    Vector z = Vector::Zero(size());
+    z.segment(support_.begin, support_.size) = all_.segment(support_.begin, support_.size);
+    return z;
+  }
+  Vector with_momenta() const { return all_ - with_positions(); }
+
+  Vector S(const Vector& z) const { return applied(&LinearPart::apply_S, z); }
+  Vector M(const Vector& z) const { return applied(&LinearPart::apply_M, z); }
+  Vector D(const Vector& z) const {
+    Vector out = Vector::Zero(size());
+    system_.damping->apply(0, z, out);
+    return out;
+  }
+
+  bool in_momenta(const Vector& z) const { return part_in_positions(z) <= none * z.norm(); }
+  bool in_positions(const Vector& z) const { return part_in_momenta(z) <= none * z.norm(); }
+
+ private:
+  Vector applied(void (LinearPart::*apply)(const Vector&, Vector&) const, const Vector& z) const {
+    Vector out = Vector::Zero(size());
+    ((*system_.linear).*apply)(z, out);
+    return out;
+  }
+  double part_in_positions(const Vector& z) const { return z.segment(support_.begin, support_.size).norm(); }
+  double part_in_momenta(const Vector& z) const {
+    return std::hypot(z.head(support_.begin).norm(), z.tail(size() - support_.begin - support_.size).norm());
+  }
+
+  const System& system_;
+  Potential::Support support_;
+  Vector all_;
+};
+
+std::optional<double> rate_of(const System& system, const Probe& probe) {
+  if (system.damping->is_zero()) return 0.0;
+  if (!system.damping->is_frozen()) return std::nullopt;
+  const Vector v = probe.with_momenta();
+  if (probe.D(probe.with_positions()).norm() > 0) return std::nullopt;
+  const Vector Dv = probe.D(v);
+  const double rate = Dv.dot(v) / v.squaredNorm();
+  if (!((Dv - rate * v).norm() <= none * Dv.norm())) return std::nullopt;
+  return rate;
+}
+
+}  // namespace
+
+MomentumForm momentum_form(const System& system) {
+  const Probe probe(system);
+  const Vector u = probe.with_positions();
+  const Vector v = probe.with_momenta();
+  const Index begin = probe.positions().begin;
+  const Index size = probe.positions().size;
+  MomentumForm form{.positions = probe.positions()};
+  const Vector Su = probe.S(u);
+  const Vector Sv = probe.S(v);
+  const Vector Mv = probe.M(v);
+  form.kicks = probe.in_momenta(Su);
+  form.separable = form.kicks && probe.in_positions(Sv) && probe.in_momenta(Mv) && probe.in_positions(probe.M(u));
+  form.canonical = form.separable && begin == 0 && 2 * size == probe.size() && (Mv - v).norm() == 0 &&
+                   (Su.tail(size) + u.head(size)).norm() == 0 && (Sv.head(size) - v.tail(size)).norm() == 0;
+  form.rate = rate_of(system, probe);
+  return form;
+}
+
+}  // namespace seiche

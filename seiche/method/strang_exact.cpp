@@ -1,0 +1,81 @@
+#include <seiche/core/step_cache.hpp>
+#include <seiche/method/momentum_form.hpp>
+#include <seiche/method/strang_exact.hpp>
+
+namespace seiche {
+namespace {
+
+constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| + h|N| is no solution
+
+class StrangExact final : public BaseStep {
+ public:
+  StrangExact(const System& system, const PhiEvaluator& phi)
+      : system_(system),
+        phi_(phi),
+        kind_(StepDissipation::kind_of(system, phi)),
+        is_kick_(system.damping->is_frozen() && momentum_form(system).kicks),
+        halves_(cached_step_sizes(system.space->size())) {
+    for (Vector* v : {&gradient_, &rate_, &rest_, &middle_, &scratch_}) v->setZero(system.space->size());
+  }
+
+  bool compute(const State& s, double t, double h, Vector& z) override {
+    const PhiMap& half =
+        halves_.at(h, [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h / 2); });
+    half.apply(s.z, {}, {&z, 1});
+    evaluate(t + h / 2, z);
+    const double size = s.z.norm() + h * rate_.norm();
+    if (!is_kick_) {
+      middle_ = z + h / 2 * rate_;
+      evaluate(t + h / 2, middle_);
+    }
+    middle_ = z + h * rate_;
+    half.apply(middle_, {}, {&z, 1});
+    return z.norm() <= gross_growth * size;  // false for NaN
+  }
+
+  std::string_view failure() const override { return "the splitting left the numbers"; }
+  StepDissipation::Kind dissipation_kind() const override { return kind_; }
+
+  // By the values of Q at both ends, which is all that is known.
+  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z) override {
+    StepDissipation::Amount amount;
+    add_end(t, s.z, h / 2, amount);
+    add_end(t + h, z, h / 2, amount);
+    amount.coarse = amount.fine;
+    return amount;
+  }
+
+ private:
+  // rate_ ← N(z) at time t
+  void evaluate(double t, const Vector& z) {
+    system_.potential->gradient(z, gradient_);
+    system_.linear->apply_S(gradient_, rate_);
+    if (system_.force) system_.force->add(t, 1, rate_);
+    if (system_.damping->is_frozen()) return;
+    system_.damping->apply_rest(t, z, rest_);
+    rate_ -= rest_;
+  }
+
+  void add_end(double t, const Vector& z, double weight, StepDissipation::Amount& amount) {
+    system_.potential->gradient(z, gradient_);
+    const System::Dissipation q = system_.dissipation(t, z, gradient_, scratch_, rest_);
+    amount.fine += weight * q.rate;
+    amount.work += weight * q.work;
+    amount.negative = amount.negative || q.rate < -q.round_off;
+  }
+
+  const System& system_;
+  const PhiEvaluator& phi_;
+  StepDissipation::Kind kind_;
+  bool is_kick_;
+  StepCache<PhiMap> halves_;  // e^{hL/2}
+  Vector gradient_, rate_, rest_, middle_, scratch_;
+};
+
+}  // namespace
+
+std::unique_ptr<BaseStep> strang_exact(const System& system, const PhiEvaluator& phi) {
+  return std::make_unique<StrangExact>(system, phi);
+}
+
+}  // namespace seiche
