@@ -5,6 +5,7 @@ namespace seiche {
 StepLedger& StepLedger::operator+=(const StepLedger& other) {
   damping_left += other.damping_left;
   substep += other.substep;
+  scalar += other.scalar;
   auxiliary += other.auxiliary;
   projection += other.projection;
   damping_right += other.damping_right;

@@ -12,13 +12,17 @@ namespace seiche {
 // Where the change of H comes from. The parts of a step add up to H after − H before, but for round-off.
 struct StepLedger {
   double damping_left = 0.0;  // the first damping half-flow; for collocation all of −∫Q dt, by quadrature
-  double substep = 0.0;  // what the Hamiltonian substep changes of the energy it is to keep: the dissipation of S, the
-                         // residual of a scalar equation; for collocation what ẑ misses of the dissipation
+  double substep =
+      0.0;  // what the Hamiltonian substep takes from the energy it is to keep: the dissipation of S, −½wᵀGw with
+            // G = −(F + Fᵀ + FᵀMF), w = Mz + f; for collocation what ẑ misses of the dissipation
+  double scalar =
+      0.0;  // what the substep changes of that energy beside it, because the equation of a closure (avf, lm, dm)
+            // was solved to a tolerance; sav solves its own in closed form, collocation ends on its energy
   double auxiliary = 0.0;      // change of H − modified energy in the substep: V drifts from r² − C
   double projection = 0.0;     // onto the energy of the law
   double damping_right = 0.0;  // the second damping half-flow
 
-  double sum() const { return damping_left + substep + auxiliary + projection + damping_right; }
+  double sum() const { return damping_left + substep + scalar + auxiliary + projection + damping_right; }
   StepLedger& operator+=(const StepLedger& other);
 };
 

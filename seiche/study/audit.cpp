@@ -153,7 +153,8 @@ class Auditor {
     if (!energy_.has("damping_left"))
       return add(claim, Verdict::not_checked, "the run kept none; output.ledger = \"on\" does");
     std::vector<std::vector<double>> columns;
-    for (const char* name : {"damping_left", "substep", "auxiliary", "projection", "damping_right", "round_off"})
+    for (const char* name :
+         {"damping_left", "substep", "scalar", "auxiliary", "projection", "damping_right", "round_off"})
       columns.push_back(energy_.column(name));
     double worst = 0;
     double unexplained = 0;
