@@ -6,6 +6,7 @@ StepLedger& StepLedger::operator+=(const StepLedger& other) {
   work += other.work;
   damping_left += other.damping_left;
   substep += other.substep;
+  scalar += other.scalar;
   auxiliary += other.auxiliary;
   projection += other.projection;
   damping_right += other.damping_right;

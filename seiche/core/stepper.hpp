@@ -13,13 +13,17 @@ namespace seiche {
 struct StepLedger {
   double work = 0.0;          // of external forces
   double damping_left = 0.0;  // the first damping half-flow; where a step ends with a projection, all of −∫Q dt
-  double substep = 0.0;  // what the Hamiltonian substep changes of the energy it is to keep: the dissipation of S, the
-                         // residual of a scalar equation; before a projection what ẑ misses of the dissipation
+  // What the Hamiltonian substep takes from the energy it is to keep: the dissipation of S, −½wᵀGw with
+  // G = −(F + Fᵀ + FᵀMF), w = Mz + f; before a projection what ẑ misses of the dissipation.
+  double substep = 0.0;
+  // What the substep changes of that energy beside it, because the equation of a closure (avf, lm, dm) was solved to a
+  // tolerance; sav solves its own in closed form, and a projection ends on its energy.
+  double scalar = 0.0;
   double auxiliary = 0.0;      // change of H − modified energy in the substep: V drifts from r² − C
   double projection = 0.0;     // onto the energy of the law
   double damping_right = 0.0;  // the second damping half-flow
 
-  double sum() const { return work + damping_left + substep + auxiliary + projection + damping_right; }
+  double sum() const { return work + damping_left + substep + scalar + auxiliary + projection + damping_right; }
   StepLedger& operator+=(const StepLedger& other);
 };
 

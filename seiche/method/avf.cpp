@@ -29,6 +29,8 @@ class AvfClosure final : public Closure {
   // next = z + FMz + Fḡ(z, z⁺); returns the size of the update in units of 4ε(|z⁺| + |Fḡ|).
   double sweep(const Vector& z, const Vector& z_plus, const Propagator& propagator, Vector& next);
 
+  double residual(const Vector& z, const Propagator& propagator);
+
   ExplicitStep start_;
   Vector mean_, q_, next_;
 };
@@ -52,6 +54,15 @@ bool AvfClosure::sweep_to_fixed_point(const Vector& z, const Propagator& propaga
     previous = update;
   }
   return false;
+}
+
+// With f = ḡ(z, z⁺) the energy of z' = Ez + Ff changes by the dissipation of S, and that of z⁺ by the work of ∇H on z⁺ − z'
+// beside it:  (½M(z⁺ + z') + f)ᵀ(z⁺ − z').
+double AvfClosure::residual(const Vector& z, const Propagator& propagator) {
+  sweep(z, start_.z_plus, propagator, next_);
+  q_ = 0.5 * (start_.z_plus + next_);
+  system().linear->apply_M(q_, start_.q);
+  return (start_.q + mean_).dot(start_.z_plus - next_);
 }
 
 //   z⁺ = Ez + F ∫₀¹ ∇V(z + s(z⁺ − z)) ds
@@ -79,6 +90,7 @@ StepReport AvfClosure::advance(State& s, Propagators& propagators, double t, dou
       return report;
     }
   }
+  if (keeps_ledger()) report.ledger.scalar = residual(s.z, propagator);
   s.z = start_.z_plus;
   return report;
 }

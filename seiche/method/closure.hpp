@@ -30,8 +30,11 @@ class Closure {
   virtual StepReport advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows);
   EnergyReading energy(const State& s) const;
   virtual bool has_modified_energy() const { return false; }
+  // From now on `advance` fills `scalar` of the ledger in its report: what its energy changes beside the dissipation of S.
+  virtual void keep_ledger() { keeps_ledger_ = true; }
 
  protected:
+  bool keeps_ledger() const { return keeps_ledger_; }
   // Replaces H, which stands there, by the modified energy and its round-off.
   virtual void read_modified(const State&, double /*quadratic_energy*/, EnergyReading&) const {}
   const System& system() const { return system_; }
@@ -39,6 +42,7 @@ class Closure {
 
  private:
   const System& system_;
+  bool keeps_ledger_ = false;
 };
 
 // The explicit step z₁ = Ez + F∇V(ẑ) that every closure starts from, and its parts.

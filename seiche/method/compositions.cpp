@@ -28,7 +28,10 @@ class Composed : public Stepper {
 
   EnergyReading energy(const State& s) const override { return closure_->energy(s); }
   bool has_modified_energy() const override { return closure_->has_modified_energy(); }
-  void keep_ledger() override { keeps_ledger_ = true; }
+  void keep_ledger() override {
+    keeps_ledger_ = true;
+    closure_->keep_ledger();
+  }
 
  protected:
   bool keeps_ledger() const { return keeps_ledger_; }
@@ -50,7 +53,7 @@ class Composed : public Stepper {
     const EnergyReading before = closure_->energy(s);
     StepReport report = closure_->advance(s, propagators_, t, h);
     const EnergyReading after = closure_->energy(s);
-    report.ledger.substep = after.modified - before.modified;
+    report.ledger.substep = (after.modified - before.modified) - report.ledger.scalar;
     report.ledger.auxiliary = (after.H - after.modified) - (before.H - before.modified);
     return report;
   }

@@ -33,6 +33,7 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
   const bool near =
       correction <= 4 * equation_.gradient_gap() && equation_.gradient_gap() <= equation_.mean_gradient_norm();
   if (root.converged && (near || equation_.at(0).is_negligible())) {
+    if (keeps_ledger_) report.ledger.scalar = equation_.at(root.x).F;
     z = start.z_plus + root.x * q_;
     return report;
   }
@@ -57,6 +58,7 @@ class DmClosure final : public Closure {
   StepReport advance(State& s, Propagators& propagators, double /*t*/, double h) override {
     return multiplier_.advance(s.z, propagators, h);
   }
+  void keep_ledger() override { multiplier_.keep_ledger(); }
 
  private:
   DirectedMultiplier multiplier_;

@@ -18,6 +18,8 @@ class DirectedMultiplier {
   // The same, with `start` already prepared from z for h.
   StepReport finish(Vector& z, const ExplicitStep& start, Propagators& propagators, double h, int depth = max_depth);
 
+  void keep_ledger() { keeps_ledger_ = true; }  // as of a Closure
+
   static constexpr int max_depth = 8;
 
  private:
@@ -25,6 +27,7 @@ class DirectedMultiplier {
   ExplicitStep start_;
   MultiplierEquation equation_;
   Vector q_;
+  bool keeps_ledger_ = false;
 };
 
 std::unique_ptr<Closure> make_dm_closure(const System& system);

@@ -28,8 +28,13 @@ class LmClosure final : public Closure {
     Closure::damp(s, t, h);
   }
   StepReport advance(State& s, Propagators& propagators, double t, double h) override;
+  void keep_ledger() override {
+    Closure::keep_ledger();
+    directed_.keep_ledger();
+  }
 
  private:
+  double residual(const Vector& z, double x);
   void set_equation(const Vector& z, double t, double h);
   StepReport solve_robustly(Vector& z, Propagators& propagators, double h);
   StepReport solve_by_newton(Vector& z, double t);
@@ -65,6 +70,14 @@ void LmClosure::set_equation(const Vector& z, double t, double h) {
   equation_.set(line, &measured_at);
 }
 
+// V(z⁺) − V(z) − ηĝᵀ(z⁺ − z), which the frozen scheme measures elsewhere.
+double LmClosure::residual(const Vector& z, double x) {
+  if (frozen_)
+    equation_.set(
+        {.z = z, .z_plus = start_.z_plus, .delta = start_.delta, .q = start_.q, .g = start_.g, .e = start_.g});
+  return equation_.at(x).F;
+}
+
 StepReport LmClosure::solve_robustly(Vector& z, Propagators& propagators, double h) {
   constexpr int max_iterations = 8;
   StepReport report;
@@ -76,6 +89,7 @@ StepReport LmClosure::solve_robustly(Vector& z, Propagators& propagators, double
     accepted = root.converged && std::abs(root.x) <= 0.5;
   }
   if (accepted) {
+    if (keeps_ledger()) report.ledger.scalar = residual(z, root.x);
     z = start_.z_plus + root.x * start_.q;
     return report;
   }
@@ -98,6 +112,7 @@ StepReport LmClosure::solve_by_newton(Vector& z, double t) {
         t);
     return report;
   }
+  if (keeps_ledger()) report.ledger.scalar = residual(z, root.x);
   z = start_.z_plus + root.x * start_.q;
   return report;
 }

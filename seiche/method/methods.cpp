@@ -87,10 +87,16 @@ std::unique_ptr<BaseStep> make_base(const MethodEntry& method, const System& sys
   throw Error("method {} is no base step with a projection", method.name);
 }
 
+void require_fit(const MethodEntry& method, const System& system) {
+  if (system.structure && method.composition != collocation && method.composition != runge_kutta)
+    throw Error("{} needs one structure matrix S; where S changes with z use egc2 … egc8, seimp or etdrk4", method.name);
+  if (system.force && (method.composition == nystrom || method.composition == chin))
+    throw Error("{} has no place for an external force; egc2 … egc8, etdrk4, seimp and strang_exact take it",
+                method.name);
+}
+
 std::unique_ptr<ProjectedStepper> make_projected(const MethodEntry& method, const System& system,
                                                  const MethodOptions& options) {
-  if (system.force && (method.composition == nystrom || method.composition == chin))
-    throw Error("{} has no place for an external force; egc2 … egc8, etdrk4, seimp and strang_exact take it", method.name);
   std::unique_ptr<PhiEvaluator> phi = system.make_phi();
   std::unique_ptr<BaseStep> base;
   try {
@@ -161,9 +167,8 @@ std::string MethodOptions::objection(const MethodEntry& method) const {
 
 std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system, const MethodOptions& options) {
   options.validate(method);
+  require_fit(method, system);
   if (method.composition == collocation) return make_egc(system, method.order / 2, options.law_of(method));
-  if (system.structure && method.composition != runge_kutta)
-    throw Error("{} needs one structure matrix S; where S changes with z use egc2 … egc8, seimp or etdrk4", method.name);
   if (method.projects()) return make_projected(method, system, options);
   if (method.composition == whole) {
     if (!system.damping->is_zero()) throw Error("{} needs its damping merged into S first", method.name);
@@ -175,6 +180,7 @@ std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& s
 std::unique_ptr<AdaptiveStepper> make_adaptive_stepper(const MethodEntry& method, const System& system,
                                                        const MethodOptions& options) {
   options.validate(method);
+  require_fit(method, system);
   if (method.composition == collocation) return make_egc(system, method.order / 2, options.law_of(method));
   // The weights of with_error_estimate stand on the same midpoint as those of the midpoint rule, and share its errors.
   if (method.order > 2 || method.composition == runge_kutta)

@@ -156,7 +156,7 @@ class Auditor {
       return add(claim, Verdict::not_checked, "the run kept none; output.ledger = \"on\" does");
     std::vector<std::vector<double>> columns;
     for (const char* name :
-         {"work", "damping_left", "substep", "auxiliary", "projection", "damping_right", "round_off"})
+         {"work", "damping_left", "substep", "scalar", "auxiliary", "projection", "damping_right", "round_off"})
       columns.push_back(energy_.column(name));
     double worst = 0;
     double unexplained = 0;
