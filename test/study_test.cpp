@@ -112,6 +112,16 @@ TEST(Converge, FindsTheOrdersOfKnownMethods) {
   EXPECT_LE(study.reference_error, 0.01 * smallest);
 }
 
+TEST(Converge, GivesNoOrderWhereErrorsAreThoseOfTheReference) {
+  const Convergence study =
+      converge(test::duffing_case(), {"egc8"}, {0.5, 0.25, 0.125, 1.0 / 32, 1.0 / 64}, {.t_end = 1, .timed = false});
+  ASSERT_EQ(study.rows.size(), 5U);
+  ASSERT_TRUE(study.rows[2].order) << "from errors far above round-off";
+  EXPECT_GT(*study.rows[2].order, 6);
+  EXPECT_FALSE(study.rows.back().order) << "error " << study.rows.back().error;
+  EXPECT_NE(converge_table(study).find("–"), std::string::npos);
+}
+
 TEST(Converge, WritesTheDocumentOfTheInterface) {
   const Convergence study = converge(klein_gordon_case(), {"seilm"}, {0.125, 0.0625}, {.t_end = 1, .timed = false});
   const nlohmann::json document = nlohmann::json::parse(converge_json(study));
