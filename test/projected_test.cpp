@@ -153,6 +153,25 @@ TEST(Nystrom, TheCoefficientsMeetTheConditionsOfTheirOrder) {
     ASSERT_EQ(scheme.b.size(), scheme.flows() + 1);
     for (std::size_t i = 0; i < scheme.flows(); ++i) EXPECT_EQ(scheme.a[i], scheme.a[scheme.flows() - 1 - i]);
     for (std::size_t i = 0; i <= scheme.flows(); ++i) EXPECT_EQ(scheme.b[i], scheme.b[scheme.flows() - i]);
+    // With c_i the time of a kick: Σ b_i c_iᵏ = 1/(k + 1), as for any quadrature of that order. With d_i the sum of the kicks
+    // before a flow: Σ a_i d_i² = 1/3.
+    for (int k = 0; k < order; ++k) {
+      double sum = 0;
+      double c = 0;
+      for (std::size_t i = 0; i <= scheme.flows(); ++i) {
+        sum += scheme.b[i] * std::pow(c, k);
+        if (i < scheme.flows()) c += scheme.a[i];
+      }
+      EXPECT_NEAR(sum, 1.0 / (k + 1), 2e-14) << order << " " << k;
+    }
+    double squares = 0;
+    double d = 0;
+    for (std::size_t i = 0; i < scheme.flows(); ++i) {
+      d += scheme.b[i];
+      squares += scheme.a[i] * d * d;
+    }
+    EXPECT_NEAR(squares, 1.0 / 3, 2e-14) << order;
+
     std::vector<double> h, errors;
     for (double step = order == 4 ? 0.1 : 0.3; h.size() < 4; step /= 1.5) {
       Matrix product = exponential_by_extended_series(scheme.b[0] * step * B);
