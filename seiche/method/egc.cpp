@@ -1,13 +1,16 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/step_cache.hpp>
+#include <seiche/core/tabulated_phi.hpp>
 #include <seiche/method/collocation_weights.hpp>
 #include <seiche/method/continuous_extension.hpp>
 #include <seiche/method/egc.hpp>
 #include <seiche/method/energy_interval.hpp>
 #include <seiche/method/energy_projection.hpp>
+#include <seiche/method/force_sums.hpp>
 #include <seiche/method/gauss.hpp>
 #include <seiche/method/nonlinear_force.hpp>
 #include <seiche/method/step_dissipation.hpp>
+#include <seiche/method/sweep_control.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +27,7 @@ class Collocation final : public AdaptiveStepper {
   Collocation(const System& system, int stages)
       : system_(system),
         phi_(system.make_phi()),
+        may_save_sweeps_(stages > 2 && dynamic_cast<const TabulatedPhi*>(phi_.get()) != nullptr),
         force_(system),
         rule_(stages),
         output_{.forces = stages,
@@ -34,8 +38,13 @@ class Collocation final : public AdaptiveStepper {
         projection_(system, *phi_),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
         cache_(cached_step_sizes(system.space->size())),
-        forces_(static_cast<std::size_t>(stages)) {
+        forces_(static_cast<std::size_t>(stages)),
+        of_forces_(force_.kind() == PhiRows::Forces::gradients ? system.potential->support()
+                                                               : Potential::Support{0, system.space->size()}),
+        components_before_(of_forces_.size) {
     const Index size = system.space->size();
+    if (dissipation_.kind() == StepDissipation::Kind::general)
+      seen_.assign(forces_.size(), {Vector::Zero(size), Vector::Zero(size)});
     for (Vector& f : forces_) f.setZero(size);
     result_.assign(1, Vector::Zero(size));
     missing_.setZero(size);
@@ -164,16 +173,17 @@ class Collocation final : public AdaptiveStepper {
   struct Tables {
     std::unique_ptr<PhiMap> nodes;  // forces → Z_i
     std::unique_ptr<PhiMap> end;    // forces → ẑ
-    std::unique_ptr<PhiMap> free;   // e^{hL}z
+    std::unique_ptr<PhiMap> free;   // e^{hL}z, once it was needed
   };
 
-  Tables& tables(double h) {
+  // Steps of one length find all they need after the first of them.
+  Tables& tables(double h, bool is_one_of_many) {
     return cache_.at(h, [&] {
+      if (is_one_of_many && may_save_sweeps_) extension_.prepare(h);
       auto made = std::make_unique<Tables>();
       const bool all = evaluates_states();
       made->nodes = phi_->map(output_.at(rule_.nodes, all ? PhiRows::Outputs::all : PhiRows::Outputs::support), h);
       made->end = phi_->map(output_.at(Eigen::VectorXd::Ones(1), PhiRows::Outputs::all), h);
-      made->free = phi_->map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h);
       return made;
     });
   }
@@ -183,53 +193,56 @@ class Collocation final : public AdaptiveStepper {
     return output_.kind == PhiRows::Forces::states || dissipation_.kind() == StepDissipation::Kind::general;
   }
 
-  // First guess of the forces: those of the last step, extrapolated; or N(zⁿ) throughout. Returns how many sweeps it needs.
-  int predict(const State& s, double t, double h) {
+  // First guess of the forces: those of the last step, extrapolated; or N(zⁿ) throughout. Returns the largest of their norms.
+  double predict(const State& s, double t, double h) {
     if (s.history_h == 0) {
       forces_[0] = s.z;
       force_.evaluate(t, forces_[0]);
       for (std::size_t i = 1; i < forces_.size(); ++i) forces_[i] = forces_[0];
-      return 2 * stages();
+      return forces_[0].segment(of_forces_.begin, of_forces_.size).norm();
     }
     const double ratio = h / s.history_h;
     const Eigen::MatrixXd& extrapolation = extrapolations_.at(ratio, [&] {
       return std::make_unique<Eigen::MatrixXd>(
           evaluation(rule_.nodes, Eigen::VectorXd::Ones(stages()) + ratio * rule_.nodes));
     });
-    constexpr Index chunk = 1024;  // stays in the first-level cache for all forces
-    for (Index begin = 0; begin < s.z.size(); begin += chunk) {
-      const Index size = std::min(chunk, s.z.size() - begin);
+    return combine(extrapolation, s.history, of_forces_.begin, of_forces_.size, forces_);
+  }
+
+  // The collocation equations F_i = N(Z_i), by sweeps. The force at the last node, which follows from all the others, stands for
+  // what a sweep changes.
+  void sweep(const State& s, double t, double h, const PhiMap& nodes) {
+    SweepControl control(stages(), s.history_h != 0, may_save_sweeps_);
+    double change = 0;
+    const auto error = [&] { return extension_.defect({h, s.history_h}, s.history, forces_).norm(); };
+    do {
+      components_before_ = forces_.back().segment(of_forces_.begin, of_forces_.size);
+      nodes.apply(s.z, forces_, forces_);
       for (Index i = 0; i < stages(); ++i) {
-        auto out = forces_[static_cast<std::size_t>(i)].segment(begin, size);
-        out = extrapolation(i, 0) * s.history[0].segment(begin, size);
-        for (Index j = 1; j < stages(); ++j)
-          out += extrapolation(i, j) * s.history[static_cast<std::size_t>(j)].segment(begin, size);
+        const double at = t + rule_.nodes[i] * h;
+        const auto which = static_cast<std::size_t>(i);
+        if (!seen_.empty() && control.may_be_last())
+          force_.evaluate(at, forces_[which], [&](const Vector& node, const Vector& gradient) {
+            seen_[which].node = node;
+            seen_[which].gradient = gradient;
+          });
+        else
+          force_.evaluate(at, forces_[which]);
       }
-    }
-    return stages();
+      change = h * distance(forces_.back(), of_forces_.begin, components_before_);
+    } while (control.wants_another(change, error));
   }
 
   // One step; s stays as it was where it is not taken. t and n are the caller's.
   Taken take(State& s, double t, double h, bool strict, StepReport& report) {
-    const Tables& of_h = tables(h);
-    const int sweeps = predict(s, t, h);
+    Tables& of_h = tables(h, !strict);
+    const double size = s.z.norm() + h * predict(s, t, h);
     const bool general = dissipation_.kind() == StepDissipation::Kind::general;
-    double largest_force = 0;
-    for (const Vector& f : forces_) largest_force = std::max(largest_force, f.norm());
-    const double size = s.z.norm() + h * largest_force;
+    sweep(s, t, h, *of_h.nodes);
     StepDissipation::Amount coarse;
-    for (int sweep = 1; sweep <= sweeps; ++sweep) {
-      of_h.nodes->apply(s.z, forces_, forces_);
-      for (Index i = 0; i < stages(); ++i) {
-        const double at = t + rule_.nodes[i] * h;
-        Vector& force = forces_[static_cast<std::size_t>(i)];
-        if (general && sweep == sweeps)
-          force_.evaluate(at, force, [&](const Vector& node, const Vector& gradient) {
-            dissipation_.add(at, node, gradient, h * rule_.weights[i], coarse.coarse, coarse.negative);
-          });
-        else
-          force_.evaluate(at, force);
-      }
+    for (Index i = 0; general && i < stages(); ++i) {
+      const auto& [node, gradient] = seen_[static_cast<std::size_t>(i)];
+      dissipation_.add(t + rule_.nodes[i] * h, node, gradient, h * rule_.weights[i], coarse.coarse, coarse.negative);
     }
     of_h.end->apply(s.z, forces_, result_);
     Vector& z = result_[0];
@@ -240,6 +253,7 @@ class Collocation final : public AdaptiveStepper {
       amount = dissipation_.measure(t, h, s.z, forces_, general ? &coarse : nullptr);
     } else {
       if (strict) return Taken::unresolved;
+      if (!of_h.free) of_h.free = phi_->map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h);
       of_h.free->apply(s.z, {}, result_);
       ++report.fallbacks;
     }
@@ -281,6 +295,7 @@ class Collocation final : public AdaptiveStepper {
 
   const System& system_;
   std::unique_ptr<PhiEvaluator> phi_;
+  bool may_save_sweeps_;  // by a map that is worth less than a sweep
   NonlinearForce force_;
   GaussRule rule_;
   DenseOutput output_;
@@ -290,6 +305,12 @@ class Collocation final : public AdaptiveStepper {
   StepCache<Tables> cache_;
   StepCache<Eigen::MatrixXd> extrapolations_{16};  // by the ratio of two step sizes
   std::vector<Vector> forces_, result_;
+  Potential::Support of_forces_;  // the components that may differ from zero
+  Vector components_before_;      // of the last force, a sweep ago
+  struct Seen {
+    Vector node, gradient;  // Z_i and ∇V(Z_i)
+  };
+  std::vector<Seen> seen_;  // where dissipation is evaluated node by node
   Vector physical_;
   State saved_;
   // The last step: zⁿ and the forces before it are left in result_ and forces_.
