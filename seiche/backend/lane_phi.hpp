@@ -18,9 +18,9 @@ typedef std::int64_t LaneIntegers __attribute__((vector_size(64)));
 
 // How often each A is to be halved for a size ‖A‖ < ½, and 2^{−that}. The exponents are read from the bits of the numbers.
 struct Halvings {
-  LaneIntegers count;
-  Lanes factor;
-  std::int64_t most;
+  LaneIntegers count{};
+  Lanes factor{};
+  std::int64_t most = 0;
 
   [[gnu::always_inline]] inline explicit Halvings(const Lanes& size) {
     constexpr std::int64_t bias = 1023, mantissa_bits = 52;
@@ -32,7 +32,6 @@ struct Halvings {
     count = ((bits >> mantissa_bits) & 0x7ff) - (bias - 1);
     count = count > 0 ? count : LaneIntegers{};
     count = count < most_halvings ? count : LaneIntegers{} + most_halvings;
-    most = 0;
     for (int i = 0; i < lane_count; ++i) most = std::max<std::int64_t>(most, count[i]);
     const LaneIntegers power = (bias - count) << mantissa_bits;
     std::memcpy(&factor, &power, sizeof factor);

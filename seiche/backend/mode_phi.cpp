@@ -80,7 +80,7 @@ SEICHE_MULTIVERSION void fill_sums_of(const Arrays& arrays, const PhiRows& rows,
 template <class Scalar, int m>
 SEICHE_MULTIVERSION void fill_forms_of(const Arrays& arrays, std::span<const PhiEvaluator::Form> forms, double h,
                                        std::span<const PhiColumn> columns, ModeForms& table) {
-  std::array<Scalar, max_lane_columns*(max_lane_columns + 1) / 2> gram;
+  std::array<Scalar, max_lane_columns*(max_lane_columns + 1) / 2> gram{};
   for (Index first = 0; first < arrays.padded_modes(); first += lane_count) {
     RowOfBlocks<Scalar, m> row(arrays, h, first);
     const LaneBlock<Scalar, m> Q = load_block<Scalar, m>(arrays, Arrays::Q, first);
@@ -95,9 +95,8 @@ SEICHE_MULTIVERSION void fill_forms_of(const Arrays& arrays, std::span<const Phi
         for (std::size_t a = 0; a < columns.size(); ++a) {
           // c bᴴ Q of column a
           const LaneBlock<Scalar, m>& of_a = row.blocks[columns[a].block];
-          std::array<Scalar, m> left;
+          std::array<Scalar, m> left{};
           for (int k = 0; k < m; ++k) {
-            left[k] = Scalar{};
             for (int f = 0; f < m; ++f)
               left[k] = left[k] + conjugate(of_a(f, static_cast<int>(columns[a].field))) * Q(f, k);
             left[k] = weight * left[k];
