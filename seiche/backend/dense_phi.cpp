@@ -1,6 +1,7 @@
 #include <seiche/backend/dense_phi.hpp>
 #include <seiche/backend/lane_matrix.hpp>
 #include <seiche/backend/phi_functions.hpp>
+#include <seiche/core/tabulated_phi.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -108,7 +109,7 @@ class DensePhiForms final : public PhiForms {
   mutable Vector image_;
 };
 
-class DensePhi final : public PhiEvaluator {
+class DensePhi final : public TabulatedPhi {
  public:
   DensePhi(Matrix S, const Matrix& M, const Matrix& D0, Potential::Support support)
       : S_(std::move(S)), L_(S_ * M - D0), Q_(dissipation_matrix<Matrix>(S_, M, D0)), support_(support) {

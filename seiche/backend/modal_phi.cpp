@@ -1,7 +1,9 @@
 #include <seiche/backend/modal_phi.hpp>
 #include <seiche/backend/modal_propagator.hpp>
+#include <seiche/backend/mode_phi.hpp>
 #include <seiche/backend/mode_table.hpp>
 #include <seiche/backend/phi_functions.hpp>
+#include <seiche/core/tabulated_phi.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
@@ -67,12 +69,9 @@ class Columns {
     pointers_.resize(columns_.size());
   }
 
-  struct Column {
-    Index block;  // of PhiRowBlocks: 0 for z, 1 for the first force, …
-    Index field;
-  };
   Index size() const { return static_cast<Index>(columns_.size()); }
-  const Column& operator[](Index j) const { return columns_[static_cast<std::size_t>(j)]; }
+  std::span<const PhiColumn> all() const { return columns_; }
+  const PhiColumn& operator[](Index j) const { return columns_[static_cast<std::size_t>(j)]; }
 
   std::span<const double* const> of(const Vector& z, std::span<const Vector> forces) const {
     for (std::size_t j = 0; j < columns_.size(); ++j) {
@@ -85,7 +84,7 @@ class Columns {
 
  private:
   Index slots_;
-  std::vector<Column> columns_;
+  std::vector<PhiColumn> columns_;
   mutable std::vector<const double*> pointers_;
 };
 
@@ -99,6 +98,10 @@ class ModalPhiMap final : public PhiMap {
         threads_(extent.threads),
         table_(extent.layout, extent.modes, static_cast<Index>(rows.rows.size()) * count_, columns_.size()) {
     out_.resize(rows.rows.size() * static_cast<std::size_t>(count_));
+  }
+
+  void fill(const PhiRows& rows, const ModeBlockArrays& blocks, double h) {
+    fill_sums(blocks, rows, h, columns_.all(), first_, count_, table_);
   }
 
   template <class Matrix>
@@ -137,6 +140,10 @@ class ModalPhiForms final : public PhiForms {
       : columns_(forms.front().rows, extent),
         threads_(extent.threads),
         forms_(extent.layout, extent.modes, static_cast<Index>(forms.size()), columns_.size()) {}
+
+  void fill(std::span<const PhiEvaluator::Form> forms, const ModeBlockArrays& blocks, double h) {
+    fill_forms(blocks, forms, h, columns_.all(), forms_);
+  }
 
   template <class Matrix>
   void fill(std::span<const PhiEvaluator::Form> forms, const Symbols& symbols, double h) {
@@ -182,7 +189,7 @@ auto with_block_type(const Symbols& symbols, const Body& body) {
   return symbols.are_real() ? sized.template operator()<double>() : sized.template operator()<std::complex<double>>();
 }
 
-class ModalPhi final : public PhiEvaluator {
+class ModalPhi final : public TabulatedPhi {
  public:
   explicit ModalPhi(const ModalOperators& o)
       : symbols_{Modes(o.grid), o.S, o.M, o.D0},
@@ -192,11 +199,17 @@ class ModalPhi final : public PhiEvaluator {
                 .first = o.first,
                 .count = o.count,
                 .threads = o.threads} {
+    with_block_type(symbols_, [&]<class Matrix>() { fill_blocks<Matrix>(); });
     judge_dissipation();
     find_casimirs();
   }
 
   std::unique_ptr<PhiMap> map(const PhiRows& rows, double h) const override {
+    if (fits_lanes(blocks_, rows)) {
+      auto map = std::make_unique<ModalPhiMap>(rows, extent_);
+      map->fill(rows, blocks_, h);
+      return map;
+    }
     return with_block_type(symbols_, [&]<class Matrix>() {
       auto map = std::make_unique<ModalPhiMap>(rows, extent_);
       map->fill<Matrix>(rows, symbols_, h);
@@ -205,6 +218,11 @@ class ModalPhi final : public PhiEvaluator {
   }
 
   std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const override {
+    if (fits_lanes(blocks_, forms.front().rows)) {
+      auto made = std::make_unique<ModalPhiForms>(forms, extent_);
+      made->fill(forms, blocks_, h);
+      return made;
+    }
     return with_block_type(symbols_, [&]<class Matrix>() {
       auto made = std::make_unique<ModalPhiForms>(forms, extent_);
       made->fill<Matrix>(forms, symbols_, h);
@@ -238,6 +256,21 @@ class ModalPhi final : public PhiEvaluator {
   ModeLayout layout() const {
     if (!symbols_.modes.are_pairs()) return ModeLayout::singles;
     return symbols_.are_real() ? ModeLayout::real_pairs : ModeLayout::complex_pairs;
+  }
+
+  template <class Matrix>
+  void fill_blocks() {
+    for (Index k = 0; k < extent_.modes; ++k) {
+      const ModeBlocks<Matrix> mode = symbols_.blocks<Matrix>(k);
+      for (Index i = 0; i < extent_.fields; ++i) {
+        for (Index j = 0; j < extent_.fields; ++j) {
+          blocks_.set(k, ModeBlockArrays::S, i, j, mode.S(i, j));
+          blocks_.set(k, ModeBlockArrays::L, i, j, mode.L(i, j));
+          blocks_.set(k, ModeBlockArrays::Q, i, j, mode.Q(i, j));
+        }
+      }
+      blocks_.set_size(k, scaled_norm(mode.L));
+    }
   }
 
   // Damping and sym(S) must leave alone what V depends on for Q to be quadratic. Q ⪰ 0 is judged mode by mode: damping may
@@ -283,6 +316,7 @@ class ModalPhi final : public PhiEvaluator {
   };
   Symbols symbols_;
   ModalExtent extent_;
+  ModeBlockArrays blocks_{extent_.modes, extent_.fields, symbols_.are_real()};
   Dissipation dissipation_;
   std::vector<Casimir> casimirs_;
 };

@@ -14,62 +14,98 @@ using mode_kernels::times;
 
 constexpr Index chunks_per_block = 1024;  // of one thread's share; part of what fixes the order of sums
 constexpr Index max_columns = 40;         // the inputs of eight slots wait in the first-level cache
+constexpr int unrolled_columns = 8;
+constexpr std::size_t max_forms = 4;
 
-using Inputs = std::array<Lanes, max_columns>;
-
-// Eight slots, or what is left of them at the end of a field, filled up with zeros.
-[[gnu::always_inline]] inline void load_inputs(std::span<const double* const> in, Index chunk, Index slots, Inputs& x) {
-  const Index begin = chunk * lane_count;
-  if (begin + lane_count <= slots) {
-    for (std::size_t j = 0; j < in.size(); ++j) x[j] = load<Lanes>(in[j] + begin);
-    return;
-  }
-  for (std::size_t j = 0; j < in.size(); ++j) {
-    x[j] = Lanes{};
-    std::memcpy(&x[j], in[j] + begin, static_cast<std::size_t>(slots - begin) * sizeof(double));
+// The first `count` lanes from memory, 0 < count < lane_count, and zeros. Copies of a size known to the compiler are no calls.
+template <int count = lane_count - 1>
+[[gnu::always_inline]] inline void load_some(const double* from, Index wanted, Lanes& x) {
+  if (wanted == count) {
+    x = Lanes{};
+    std::memcpy(&x, from, count * sizeof(double));
+  } else if constexpr (count > 1) {
+    load_some<count - 1>(from, wanted, x);
   }
 }
 
-template <ModeLayout layout>
+template <int count = lane_count - 1>
+[[gnu::always_inline]] inline void store_some(double* to, Index wanted, const Lanes& x) {
+  if (wanted == count)
+    std::memcpy(to, &x, count * sizeof(double));
+  else if constexpr (count > 1)
+    store_some<count - 1>(to, wanted, x);
+}
+
+// The inputs of eight slots. `known` of them, or, for 0, any number up to max_columns.
+template <int known>
+struct Inputs {
+  std::array<Lanes, known == 0 ? max_columns : known> x;
+  int count;
+
+  [[gnu::always_inline]] inline explicit Inputs(std::span<const double* const> in)
+      : count(known == 0 ? static_cast<int>(in.size()) : known) {}
+
+  // `left`: slots from `begin` to the end of a field
+  [[gnu::always_inline]] inline void load_from(const double* const* in, Index begin, Index left) {
+    if (left >= lane_count) {
+      for (int j = 0; j < size(); ++j) x[j] = load<Lanes>(in[j] + begin);
+    } else {
+      for (int j = 0; j < size(); ++j) load_some(in[j] + begin, left, x[j]);
+    }
+  }
+  [[gnu::always_inline]] inline int size() const { return known == 0 ? count : known; }
+};
+
+template <ModeLayout layout, int known>
 SEICHE_MULTIVERSION void sum_rows(const ModeFactors& factors, std::span<const double* const> in,
                                   std::span<double* const> out, Index first, Index last) {
-  const Index stride = factors.stride();
+  constexpr Index stride = lane_count / slots_per_mode(layout) * factors_per_mode(layout);
   const Index slots = factors.slots();
   const double* factor = factors.of_chunk(first);
-  Inputs x;
+  const double* const* const inputs = in.data();
+  double* const* const rows = out.data();
+  const std::size_t row_count = out.size();
+  Inputs<known> x(in);
   for (Index chunk = first; chunk < last; ++chunk) {
     const Index begin = chunk * lane_count;
-    load_inputs(in, chunk, slots, x);
-    for (double* row : out) {
-      Lanes sum{};
-      for (std::size_t j = 0; j < in.size(); ++j, factor += stride) sum += times<layout, Lanes>(factor, 0, x[j]);
-      if (begin + lane_count <= slots)
-        store<Lanes>(row + begin, sum);
+    const Index left = slots - begin;
+    x.load_from(inputs, begin, left);
+    for (std::size_t i = 0; i < row_count; ++i) {
+      Lanes sum = times<layout, Lanes>(factor, 0, x.x[0]);
+      for (int j = 1; j < x.size(); ++j) sum += times<layout, Lanes>(factor + j * stride, 0, x.x[j]);
+      factor += x.size() * stride;
+      if (left >= lane_count)
+        store<Lanes>(rows[i] + begin, sum);
       else
-        std::memcpy(row + begin, &sum, static_cast<std::size_t>(slots - begin) * sizeof(double));
+        store_some(rows[i] + begin, left, sum);
     }
   }
 }
 
-template <ModeLayout layout>
+template <ModeLayout layout, int known>
 SEICHE_MULTIVERSION void sum_forms(const ModeFactors& factors, std::span<const double* const> in, Index first,
                                    Index last, std::span<double> values) {
-  const Index stride = factors.stride();
-  const auto triangle = static_cast<Index>(in.size() * (in.size() + 1) / 2);
-  Inputs x;
-  for (std::size_t l = 0; l < values.size(); ++l) {
-    Lanes total{};
-    for (Index chunk = first; chunk < last; ++chunk) {
-      load_inputs(in, chunk, factors.slots(), x);
-      const double* factor = factors.of_chunk(chunk) + static_cast<Index>(l) * triangle * stride;
-      for (std::size_t i = 0; i < in.size(); ++i) {
-        Lanes row{};
-        for (std::size_t j = i; j < in.size(); ++j, factor += stride) row += times<layout, Lanes>(factor, 0, x[j]);
-        total += x[i] * row;
+  constexpr Index stride = lane_count / slots_per_mode(layout) * factors_per_mode(layout);
+  const Index slots = factors.slots();
+  const double* factor = factors.of_chunk(first);
+  const double* const* const inputs = in.data();
+  const std::size_t forms = values.size();
+  Inputs<known> x(in);
+  std::array<Lanes, max_forms> totals{};
+  for (Index chunk = first; chunk < last; ++chunk) {
+    x.load_from(inputs, chunk * lane_count, slots - chunk * lane_count);
+    for (std::size_t l = 0; l < forms; ++l) {
+      Lanes total = totals[l];
+      for (int i = 0; i < x.size(); ++i) {
+        Lanes row = times<layout, Lanes>(factor, 0, x.x[i]);
+        factor += stride;
+        for (int j = i + 1; j < x.size(); ++j, factor += stride) row += times<layout, Lanes>(factor, 0, x.x[j]);
+        total += x.x[i] * row;
       }
+      totals[l] = total;
     }
-    values[l] = sum(total);
   }
+  for (std::size_t l = 0; l < forms; ++l) values[l] = sum(totals[l]);
 }
 
 template <class Body>
@@ -83,7 +119,18 @@ void with_layout(ModeLayout layout, const Body& body) {
 
 Index blocks_of(const ModeFactors& factors) { return (factors.chunks() + chunks_per_block - 1) / chunks_per_block; }
 
-// body(layout, block, first chunk, last chunk)
+// body<known>() with the number of columns, where its loops are unrolled: one or two fields of state and those of up to four
+// forces, or of eight forces alone.
+template <int known = unrolled_columns, class Body>
+void with_columns(Index columns, const Body& body) {
+  if (columns == known) return body.template operator()<known>();
+  if constexpr (known > 1)
+    with_columns<known - 1>(columns, body);
+  else
+    body.template operator()<0>();
+}
+
+// body<layout>(block, first chunk, last chunk)
 template <class Body>
 void over_blocks(const ModeFactors& factors, int threads, const Body& body) {
   for_blocks(blocks_of(factors), threads, [&](Index block) {
@@ -121,24 +168,26 @@ ModeTable::ModeTable(ModeLayout layout, Index modes, Index rows, Index columns)
 
 void ModeTable::apply(std::span<const double* const> in, std::span<double* const> out, int threads) const {
   over_blocks(factors_, threads, [&]<ModeLayout layout>(Index, Index first, Index last) {
-    sum_rows<layout>(factors_, in, out, first, last);
+    with_columns(columns_, [&]<int known>() { sum_rows<layout, known>(factors_, in, out, first, last); });
   });
 }
 
 ModeForms::ModeForms(ModeLayout layout, Index modes, Index forms, Index columns)
     : columns_(checked_columns(columns)), forms_(forms), factors_(layout, modes, forms * columns * (columns + 1) / 2) {
+  if (static_cast<std::size_t>(forms) > max_forms)
+    throw Error("up to {} forms are taken at a time, and here there are {}", max_forms, forms);
   sums_.resize(static_cast<std::size_t>(blocks_of(factors_) * forms));
 }
 
 void ModeForms::set(Index mode, Index form, Index i, Index j, std::complex<double> factor) {
-  const Index entry = form * columns_ * (columns_ + 1) / 2 + i * columns_ - i * (i - 1) / 2 + (j - i);
-  factors_.set(mode, entry, i == j ? factor : 2.0 * factor);  // once for both sides
+  factors_.set(mode, entry(form, i, j), i == j ? factor : 2.0 * factor);  // once for both sides
 }
 
 void ModeForms::apply(std::span<const double* const> in, std::span<double> values, int threads) const {
   const auto forms = static_cast<std::size_t>(forms_);
   over_blocks(factors_, threads, [&]<ModeLayout layout>(Index block, Index first, Index last) {
-    sum_forms<layout>(factors_, in, first, last, {sums_.data() + static_cast<std::size_t>(block) * forms, forms});
+    const std::span<double> sums(sums_.data() + static_cast<std::size_t>(block) * forms, forms);
+    with_columns(columns_, [&]<int known>() { sum_forms<layout, known>(factors_, in, first, last, sums); });
   });
   std::fill(values.begin(), values.end(), 0.0);
   for (std::size_t i = 0; i < sums_.size(); ++i) values[i % forms] += sums_[i];

@@ -47,14 +47,19 @@ void ContinuousExtension::evaluate(const Step& step, double theta, const Vector&
   z += out_[0];
 }
 
-const Vector& ContinuousExtension::defect(const Step& step, std::span<const Vector> forces_before,
-                                          std::span<const Vector> forces) {
+const ContinuousExtension::Maps& ContinuousExtension::defect_maps(const Step& step) {
   std::vector<Maps>& of_h = defects_.at(step.h, [] { return std::make_unique<std::vector<Maps>>(); });
   auto found = std::find_if(of_h.begin(), of_h.end(), [&](const Maps& m) { return m.history_h == step.history_h; });
   if (found == of_h.end() && of_h.size() == 4) found = of_h.erase(of_h.begin(), of_h.end());
   if (found == of_h.end()) found = of_h.insert(of_h.end(), maps(step, 1.0, true));
-  found->of_this->apply(out_[0], forces, rest_);
-  found->of_before->apply(out_[0], forces_before, out_);
+  return *found;
+}
+
+const Vector& ContinuousExtension::defect(const Step& step, std::span<const Vector> forces_before,
+                                          std::span<const Vector> forces) {
+  const Maps& maps = defect_maps(step);
+  maps.of_this->apply(out_[0], forces, rest_);
+  maps.of_before->apply(out_[0], forces_before, out_);
   out_[0] += rest_[0];
   return out_[0];
 }

@@ -26,6 +26,8 @@ class ContinuousExtension {
   // z ← the solution at tₙ + θh, from zⁿ and the forces of both steps.
   void evaluate(const Step& step, double theta, const Vector& z_before, std::span<const Vector> forces_before,
                 std::span<const Vector> forces, Vector& z);
+  // Builds what `defect` needs for steps of one length, and of the same length as the one before.
+  void prepare(double h) { defect_maps({h, h}); }
   // The difference at the end, in the coordinates of the state; a reference to scratch. history_h must not be 0.
   const Vector& defect(const Step& step, std::span<const Vector> forces_before, std::span<const Vector> forces);
 
@@ -35,6 +37,7 @@ class ContinuousExtension {
     std::unique_ptr<PhiMap> of_before, of_this;
   };
   Maps maps(const Step& step, double theta, bool difference) const;
+  const Maps& defect_maps(const Step& step);
 
   const PhiEvaluator& phi_;
   GaussRule rule_;

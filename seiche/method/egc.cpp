@@ -1,11 +1,14 @@
 #include <seiche/core/step_cache.hpp>
+#include <seiche/core/tabulated_phi.hpp>
 #include <seiche/method/collocation_weights.hpp>
 #include <seiche/method/continuous_extension.hpp>
 #include <seiche/method/egc.hpp>
+#include <seiche/method/force_sums.hpp>
 #include <seiche/method/gauss.hpp>
 #include <seiche/method/nonlinear_force.hpp>
 #include <seiche/method/projected.hpp>
 #include <seiche/method/step_dissipation.hpp>
+#include <seiche/method/sweep_control.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +24,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   Collocation(const System& system, int stages, EnergyLaw law)
       : system_(system),
         phi_(system.make_phi()),
+        may_save_sweeps_(stages > 2 && dynamic_cast<const TabulatedPhi*>(phi_.get()) != nullptr),
         force_(system),
         rule_(stages),
         output_{.forces = stages,
@@ -31,8 +35,13 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
         projected_(system, *phi_, *this, law),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
         cache_(cached_step_sizes(system.space->size())),
-        forces_(static_cast<std::size_t>(stages)) {
+        forces_(static_cast<std::size_t>(stages)),
+        of_forces_(force_.kind() == PhiRows::Forces::gradients ? system.potential->support()
+                                                               : Potential::Support{0, system.space->size()}),
+        components_before_(of_forces_.size) {
     const Index size = system.space->size();
+    if (dissipation_.kind() == StepDissipation::Kind::general)
+      seen_.assign(forces_.size(), {Vector::Zero(size), Vector::Zero(size)});
     for (Vector& f : forces_) f.setZero(size);
     missing_.setZero(size);
     physical_.setZero(system.space->physical_size());
@@ -44,9 +53,15 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     s.history_h = 0;
   }
 
-  StepReport step(State& s, double h) override { return projected_.step(s, h); }
+  StepReport step(State& s, double h) override {
+    steps_are_alike_ = true;
+    return projected_.step(s, h);
+  }
   int order() const override { return 2 * stages(); }
-  StepReport attempt(State& s, double h) override { return projected_.attempt(s, h); }
+  StepReport attempt(State& s, double h) override {
+    steps_are_alike_ = false;
+    return projected_.attempt(s, h);
+  }
 
   std::optional<double> error(const State& s) override {
     if (last_.history_h == 0) return std::nullopt;
@@ -103,8 +118,10 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     std::unique_ptr<PhiMap> end;    // forces → ẑ
   };
 
-  Tables& tables(double h) {
+  // Steps of one length find all they need after the first of them.
+  Tables& tables(double h, bool is_one_of_many) {
     return cache_.at(h, [&] {
+      if (is_one_of_many && may_save_sweeps_) extension_.prepare(h);
       auto made = std::make_unique<Tables>();
       const bool all = evaluates_states();
       made->nodes = phi_->map(output_.at(rule_.nodes, all ? PhiRows::Outputs::all : PhiRows::Outputs::support), h);
@@ -118,52 +135,54 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     return output_.kind == PhiRows::Forces::states || dissipation_.kind() == StepDissipation::Kind::general;
   }
 
-  // First guess of the forces: those of the last step, extrapolated; or N(zⁿ) throughout. Returns how many sweeps it needs.
-  int predict(const State& s, double t, double h) {
+  // First guess of the forces: those of the last step, extrapolated; or N(zⁿ) throughout. Returns the largest of their norms.
+  double predict(const State& s, double t, double h) {
     if (s.history_h == 0) {
       forces_[0] = s.z;
       force_.evaluate(t, forces_[0]);
       for (std::size_t i = 1; i < forces_.size(); ++i) forces_[i] = forces_[0];
-      return 2 * stages();
+      return forces_[0].segment(of_forces_.begin, of_forces_.size).norm();
     }
     const double ratio = h / s.history_h;
     const Eigen::MatrixXd& extrapolation = extrapolations_.at(ratio, [&] {
       return std::make_unique<Eigen::MatrixXd>(
           evaluation(rule_.nodes, Eigen::VectorXd::Ones(stages()) + ratio * rule_.nodes));
     });
-    constexpr Index chunk = 1024;  // stays in the first-level cache for all forces
-    for (Index begin = 0; begin < s.z.size(); begin += chunk) {
-      const Index size = std::min(chunk, s.z.size() - begin);
+    return combine(extrapolation, s.history, of_forces_.begin, of_forces_.size, forces_);
+  }
+
+  // The collocation equations F_i = N(Z_i), by sweeps. The force at the last node, which follows from all the others, stands for
+  // what a sweep changes.
+  void sweep(const State& s, double t, double h, const PhiMap& nodes) {
+    SweepControl control(stages(), s.history_h != 0, may_save_sweeps_);
+    double change = 0;
+    const auto error = [&] { return extension_.defect({h, s.history_h}, s.history, forces_).norm(); };
+    do {
+      components_before_ = forces_.back().segment(of_forces_.begin, of_forces_.size);
+      nodes.apply(s.z, forces_, forces_);
       for (Index i = 0; i < stages(); ++i) {
-        auto out = forces_[static_cast<std::size_t>(i)].segment(begin, size);
-        out = extrapolation(i, 0) * s.history[0].segment(begin, size);
-        for (Index j = 1; j < stages(); ++j)
-          out += extrapolation(i, j) * s.history[static_cast<std::size_t>(j)].segment(begin, size);
+        const double at = t + rule_.nodes[i] * h;
+        const auto which = static_cast<std::size_t>(i);
+        if (!seen_.empty() && control.may_be_last())
+          force_.evaluate(at, forces_[which], [&](const Vector& node, const Vector& gradient) {
+            seen_[which].node = node;
+            seen_[which].gradient = gradient;
+          });
+        else
+          force_.evaluate(at, forces_[which]);
       }
-    }
-    return stages();
+      change = h * distance(forces_.back(), of_forces_.begin, components_before_);
+    } while (control.wants_another(change, error));
   }
 
   bool compute(const State& s, double t, double h, Vector& z) override {
-    const Tables& of_h = tables(h);
-    const int sweeps = predict(s, t, h);
-    const bool general = dissipation_.kind() == StepDissipation::Kind::general;
-    double largest_force = 0;
-    for (const Vector& f : forces_) largest_force = std::max(largest_force, f.norm());
-    const double size = s.z.norm() + h * largest_force;
+    const Tables& of_h = tables(h, steps_are_alike_);
+    const double size = s.z.norm() + h * predict(s, t, h);
+    sweep(s, t, h, *of_h.nodes);
     coarse_ = {};
-    for (int sweep = 1; sweep <= sweeps; ++sweep) {
-      of_h.nodes->apply(s.z, forces_, forces_);
-      for (Index i = 0; i < stages(); ++i) {
-        const double at = t + rule_.nodes[i] * h;
-        Vector& force = forces_[static_cast<std::size_t>(i)];
-        if (general && sweep == sweeps)
-          force_.evaluate(at, force, [&](const Vector& node, const Vector& gradient) {
-            dissipation_.add(at, node, gradient, h * rule_.weights[i], coarse_);
-          });
-        else
-          force_.evaluate(at, force);
-      }
+    for (std::size_t i = 0; i < seen_.size(); ++i) {
+      const auto at = static_cast<Index>(i);
+      dissipation_.add(t + rule_.nodes[at] * h, seen_[i].node, seen_[i].gradient, h * rule_.weights[at], coarse_);
     }
     of_h.end->apply(s.z, forces_, {&z, 1});
     return z.norm() <= gross_growth * size;  // false for NaN
@@ -187,6 +206,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   const System& system_;
   std::unique_ptr<PhiEvaluator> phi_;
+  bool may_save_sweeps_;  // by a map that is worth less than a sweep
   NonlinearForce force_;
   GaussRule rule_;
   DenseOutput output_;
@@ -196,7 +216,14 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   StepCache<Tables> cache_;
   StepCache<Eigen::MatrixXd> extrapolations_{16};  // by the ratio of two step sizes
   std::vector<Vector> forces_;
-  StepDissipation::Sum coarse_;  // general: at the nodes of the last sweep
+  Potential::Support of_forces_;  // the components that may differ from zero
+  Vector components_before_;      // of the last force, a sweep ago
+  struct Seen {
+    Vector node, gradient;  // Z_i and ∇V(Z_i)
+  };
+  std::vector<Seen> seen_;        // where dissipation is evaluated node by node
+  StepDissipation::Sum coarse_;   // of these
+  bool steps_are_alike_ = true;
   Vector physical_;
   ContinuousExtension::Step last_;  // the step taken last; the forces of the one before it are left in forces_
   Vector missing_;                  // what the extension misses at the end of it, once it was asked for
