@@ -98,7 +98,8 @@ void Projected::fail(StepReport& report, const State& s, double h, Taken taken, 
 // One step; s stays as it was where it is not taken. t and n are the caller's.
 Projected::Taken Projected::take(State& s, double t, double h, bool strict, StepReport& report) {
   if (law_ == EnergyLaw::none) return take_without_law(s, t, h, report);
-  const PhiMap& free = free_.at(h, [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); });
+  const auto make_free = [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); };
+  if (!strict) free_.at(h, make_free);  // now: later steps of this length are to allocate nothing
   const StepDissipation::Kind kind = base_.dissipation_kind();
   bool resolved = base_.compute(s, t, h, z_);
   StepDissipation::Amount amount;
@@ -115,7 +116,7 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   if (!resolved) {
     if (strict) return Taken::unresolved;
     amount = {};
-    free.apply(s.z, {}, {&z_, 1});
+    free_.at(h, make_free).apply(s.z, {}, {&z_, 1});
     ++report.fallbacks;
     outcome = projection_.project(z_, [&](double) { return EnergyTarget{s.energy, s.energy}; });
   }
