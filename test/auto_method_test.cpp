@@ -66,7 +66,8 @@ TEST(AutoMethod, TakesHigherOrdersForSmallerTolerances) {
 }
 
 TEST(AutoMethod, ACaseSaysWhatWasChosenAndWhy) {
-  RunSpec spec = parse_case("[problem]\nname = \"klein_gordon\"\n[method]\nname = \"auto\"\ntolerance = 1e-7\n", "x.toml");
+  RunSpec spec =
+      parse_case("[problem]\nname = \"klein_gordon\"\n[method]\nname = \"auto\"\ntolerance = 1e-7\n", "x.toml");
   EXPECT_EQ(spec.method, "auto");
   settle_method(spec);
   EXPECT_NE(spec.method, "auto");

@@ -10,10 +10,10 @@ namespace seiche {
 namespace {
 
 // Some of the numbers below are crossings of measured curves, which are flat: a factor of two in them is a few per cent of time.
-constexpr double stiff = 12;            // beyond so many times the rate of the solution explicit kicks go by stability
+constexpr double stiff = 12;  // beyond so many times the rate of the solution explicit kicks go by stability
 constexpr double rough_tolerance = 3e-5;  // above: order four
 constexpr double fine_tolerance = 3e-8;   // below: order eight
-constexpr double sharp_friction = 30;   // of slopes at small and at typical velocities: no smooth force
+constexpr double sharp_friction = 30;     // of slopes at small and at typical velocities: no smooth force
 
 Vector random_state(const System& system) {
   std::mt19937_64 random(1);
@@ -98,8 +98,8 @@ MethodChoice choose_method(const Problem& problem, const System& system, double 
   const double wanted = tolerance > 0 ? tolerance : 1e-6;
   MethodChoice choice{.method = collocation_for(wanted), .options = options, .reason = {}};
   const ProblemRates rates = rates_of(system);
-  const std::string seen =
-      fmt::format("the linear part has rates up to {:.3g} and the solution starts with {:.3g}", rates.linear, rates.solution);
+  const std::string seen = fmt::format("the linear part has rates up to {:.3g} and the solution starts with {:.3g}",
+                                       rates.linear, rates.solution);
   const std::string accuracy = tolerance > 0 ? fmt::format("tolerance {:g}", tolerance) : "steps of one size";
   if (problem.structure) {
     choice.reason = fmt::format("{}, since S changes with z ({})", choice.method, accuracy);
@@ -112,8 +112,8 @@ MethodChoice choose_method(const Problem& problem, const System& system, double 
     return choice;
   }
   const std::optional<Momenta> p = momenta(problem);
-  const bool nystrom = exists("crkn6") && p && system.damping->is_linear() && !system.force && system.damping->is_frozen() &&
-                       !system.damping->touches_potential();
+  const bool nystrom = exists("crkn6") && p && system.damping->is_linear() && !system.force &&
+                       system.damping->is_frozen() && !system.damping->touches_potential();
   if (nystrom && rates.stiffness() <= stiff) {
     choice.method = wanted > 1e-4 ? "crkn4" : "crkn6";
     choice.reason = fmt::format("{} ({}): {}, which is not stiff", choice.method, accuracy, seen);

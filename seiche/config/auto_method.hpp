@@ -10,7 +10,7 @@ namespace seiche {
 
 // Rates of a problem at its start, 1/time.
 struct ProblemRates {
-  double linear = 0.0;    // spectral radius of L = SM − D₀, from below, by power iteration
+  double linear = 0.0;  // spectral radius of L = SM − D₀, from below, by power iteration
   double solution = 0.0;  // √(‖J²ż‖ / ‖ż‖) with J the derivative of the right-hand side: how fast the solution turns
   double stiffness() const { return solution > 0 ? linear / solution : 1.0; }
 };

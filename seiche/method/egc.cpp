@@ -221,8 +221,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   struct Seen {
     Vector node, gradient;  // Z_i and ∇V(Z_i)
   };
-  std::vector<Seen> seen_;        // where dissipation is evaluated node by node
-  StepDissipation::Sum coarse_;   // of these
+  std::vector<Seen> seen_;       // where dissipation is evaluated node by node
+  StepDissipation::Sum coarse_;  // of these
   bool steps_are_alike_ = true;
   Vector physical_;
   ContinuousExtension::Step last_;  // the step taken last; the forces of the one before it are left in forces_

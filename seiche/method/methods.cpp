@@ -89,7 +89,8 @@ std::unique_ptr<BaseStep> make_base(const MethodEntry& method, const System& sys
 
 void require_fit(const MethodEntry& method, const System& system) {
   if (system.structure && method.composition != collocation && method.composition != runge_kutta)
-    throw Error("{} needs one structure matrix S; where S changes with z use egc2 … egc8, seimp or etdrk4", method.name);
+    throw Error("{} needs one structure matrix S; where S changes with z use egc2 … egc8, seimp or etdrk4",
+                method.name);
   if (system.force && (method.composition == nystrom || method.composition == chin))
     throw Error("{} has no place for an external force; egc2 … egc8, etdrk4, seimp and strang_exact take it",
                 method.name);

@@ -6,8 +6,9 @@ namespace seiche {
 
 EnergyTrace::EnergyTrace(const std::filesystem::path& path, bool has_modified_energy, Schedule schedule, bool ledger)
     : file_(path), has_modified_energy_(has_modified_energy), has_ledger_(ledger), schedule_(schedule) {
-  file_.write(fmt::format("t,H{}{}\n", has_modified_energy ? ",H_modified" : "",
-                          ledger ? ",work,damping_left,substep,scalar,auxiliary,projection,damping_right,round_off" : ""));
+  file_.write(
+      fmt::format("t,H{}{}\n", has_modified_energy ? ",H_modified" : "",
+                  ledger ? ",work,damping_left,substep,scalar,auxiliary,projection,damping_right,round_off" : ""));
 }
 
 void EnergyTrace::observe(const State& state, const EnergyReading& energy) {
@@ -31,8 +32,8 @@ void EnergyTrace::add_ledger(const EnergyReading& energy) {
                     .auxiliary = now.auxiliary - before.auxiliary,
                     .projection = now.projection - before.projection,
                     .damping_right = now.damping_right - before.damping_right};
-  for (const double part : {change.work, change.damping_left, change.substep, change.scalar, change.auxiliary, change.projection,
-                            change.damping_right, (energy.H - last_.H) - change.sum()})
+  for (const double part : {change.work, change.damping_left, change.substep, change.scalar, change.auxiliary,
+                            change.projection, change.damping_right, (energy.H - last_.H) - change.sum()})
     row_.add(part);
   last_ = energy;
 }
