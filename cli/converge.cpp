@@ -1,5 +1,6 @@
 // seiche converge: errors, orders, energies and cost of methods at several step sizes.
 #include "command_line.hpp"
+#include "law_promise.hpp"
 #include "load_case.hpp"
 #include "reference_name.hpp"
 #include "stop_signal.hpp"
@@ -99,7 +100,9 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
     return stop ? interrupted : computation_failed;
   }
   print_data(arguments.json ? converge_json(study) : converge_table(study));
-  return stop ? interrupted : exit_code(study, spec, promise_energy_law(problem, spec.t_end));
+  LawPromise law = promise_energy_law(problem, spec.t_end);
+  if (!negative_rate(problem).empty()) law.promised = false;  // the runs looked closer
+  return stop ? interrupted : exit_code(study, spec, law);
 }
 
 }  // namespace

@@ -127,7 +127,8 @@ ExitCode run(const RunArguments& arguments) {
   if (arguments.json) print_data(summary_json(identity, report));
   if (!arguments.quiet) {
     print_lines(report.full());
-    if (law.promised) print_lines(fmt::format("{:<10} {}\n", "theorem", certificate.theorem));
+    if (law.promised && report.law != LawVerdict::not_promised)
+      print_lines(fmt::format("{:<10} {}\n", "theorem", certificate.theorem));
     print_lines(fmt::format("{:<10} {}\n", "files", directory.string()));
   } else if (report.status == RunReport::Status::failed || report.law == LawVerdict::violated) {
     print_note(report.message);

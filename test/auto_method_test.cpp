@@ -26,6 +26,7 @@ TEST(AutoMethod, RatesAreThoseOfTheLinearPartAndOfTheSolution) {
     p.initial.tail(64).setZero();
     const ProblemRates rates = rates_of(find_backend(backend).system(p, {}));
     EXPECT_NEAR(rates.linear, std::sqrt(4 + 4 / 0.01), 0.1 * std::sqrt(404)) << backend;
+    EXPECT_EQ(rates.damping, 0) << backend;
     EXPECT_NEAR(rates.solution, 2, 1e-4) << backend;
   }
 }
@@ -53,6 +54,12 @@ TEST(AutoMethod, TakesExactFlowsWhereFrictionIsSharp) {
   const Simulation simulation(p, {.method = "auto"});
   EXPECT_EQ(simulation.method().name, "seisav");
   EXPECT_NE(simulation.reason().find("sgn"), std::string::npos) << simulation.reason();
+}
+
+TEST(AutoMethod, KeepsStiffDampingOutOfBackwardFlows) {
+  EXPECT_EQ(Simulation(fpu_conservative_case(0.5, 0.01), {.method = "auto", .tolerance = 1e-6}).method().name, "crkn4");
+  const Simulation stiff(fpu_conservative_case(0.5, 10.0), {.method = "auto", .tolerance = 1e-6});
+  EXPECT_EQ(stiff.method().composition, Composition::collocation) << stiff.reason();
 }
 
 TEST(AutoMethod, TakesHigherOrdersForSmallerTolerances) {

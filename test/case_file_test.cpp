@@ -341,7 +341,7 @@ TEST(CaseFile, MethodOptionsWithoutMeaningAreRefusedAtTheirKey) {
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"strang_exact\"\nlaw = \"interval\"\n"),
               HasSubstr("use \"guard\""));
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"egc4\"\nlinear = \"explicit\"\n"), HasSubstr("crkn4"));
-  EXPECT_EQ(complaint(minimal + "[method]\nname = \"crkn6\"\nlaw = \"none\"\nlinear = \"explicit\"\n"), "accepted");
+  EXPECT_EQ(complaint(minimal + "[method]\nname = \"crkn6\"\nlaw = \"none\"\nlinear = \"explicit\"\n"), "");
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"seilm\"\nC = 1\n"), HasSubstr("C belongs to the sav family"));
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"refresh\"\n"), HasSubstr("refresh"));
   EXPECT_EQ(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"frozen\"\n"), "");

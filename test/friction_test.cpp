@@ -193,6 +193,74 @@ TEST(Friction, VanDerPolsOscillatorFindsItsLimitCycle) {
   }
 }
 
+// Between the velocities that are tried before a run it feeds, and the run meets that.
+TEST(Friction, WhatTheRunMeetsIsKnownAfterIt) {
+  Problem problem = oscillator({.alpha = 0});
+  problem.initial << -1.0, 0.0;  // the velocity rises to about 0.5
+  problem.friction = formula_friction(formula("v*(1 - 2*exp(-((v-0.37)/0.005)^2))"), problem.grid);
+  EXPECT_TRUE(promise_energy_law(problem, 10).promised);
+  for (const char* method : {"seisav", "egc4"}) {
+    problem.friction = formula_friction(formula("v*(1 - 2*exp(-((v-0.37)/0.005)^2))"), problem.grid);
+    Simulation simulation(problem, {.method = method});
+    EXPECT_EQ(problem.friction->fed_at(), "");
+    for (int n = 0; n < 1280; ++n) ASSERT_TRUE(simulation.step(1.0 / 256).solved());
+    EXPECT_NE(problem.friction->fed_at(), "") << method;
+  }
+}
+
+TEST(Friction, ThatFeedsAtTimesIsFoundWhateverThePeriod) {
+  const FrictionFormula c{.formula = compile_formula("0.2 + cos(3.141592653589793*t)", {"v", "u", "t", "x", "y", "z"}),
+                          .uses_u = false,
+                          .uses_place = false};
+  EXPECT_NE(position_friction(c, one_point)->feeds_at(32), "");
+}
+
+TEST(Friction, DryFrictionKeepsTheLawOfEveryMethodAndIsRefusedATolerance) {
+  Problem problem = klein_gordon_case(0.0, 1.0);
+  problem.friction = dry_friction(0.1);
+  ASSERT_TRUE(promise_energy_law(problem, 10).promised);
+  for (const MethodEntry& method : methods()) {
+    if (!applies(method.name, problem)) continue;
+    for (const double h : {1.0 / 16, 0.5, 2.5}) {
+      Simulation simulation(problem, {.method = std::string(method.name)});
+      EnergyReading before = simulation.energy();
+      for (int n = 0; n < 40 && simulation.step(h).solved(); ++n) {
+        const EnergyReading now = simulation.energy();
+        EXPECT_LE(now.modified, before.modified + now.modified_round_off) << method.name << " h = " << h;
+        before = now;
+      }
+    }
+  }
+  for (const char* method : {"auto", "seisav", "egc4"})
+    EXPECT_THROW(Simulation(problem, {.method = method, .variable_steps = true, .tolerance = 1e-5}), Error) << method;
+}
+
+TEST(Friction, ThatSaturatesReachesItsToleranceBySplitting) {
+  Problem problem = klein_gordon_case(0.0, 1.0);
+  problem.friction = saturating_friction(0.1, 0.05);
+  const Reference reference = make_reference(problem, std::vector{0.0, 2.0});
+  for (const char* method : {"auto", "seavf", "egc4"}) {
+    Simulation simulation(problem, {.method = method, .variable_steps = true, .tolerance = 1e-5});
+    const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                                {.tolerance = 1e-5, .t_end = 2});
+    ASSERT_EQ(report.status, RunReport::Status::success) << method << ": " << report.message;
+    const Eigen::Map<const Vector> exact(reference.state(1).data(), problem.size());
+    EXPECT_LE((simulation.physical() - exact).lpNorm<Eigen::Infinity>(), 1e-4) << method;
+  }
+}
+
+TEST(Friction, ThatIsNoNumberFailsTheStepAndLeavesTheState) {
+  Problem problem = duffing_case();
+  problem.friction = formula_friction(formula("0.3*v^1.5"), problem.grid);  // NaN where v < 0
+  for (const char* method : {"egc6", "etdrk4", "seimp", "strang_exact", "seisav"}) {
+    Simulation simulation(problem, {.method = method});
+    StepReport report;
+    for (int n = 0; n < 100 && report.solved(); ++n) report = simulation.step(1.0 / 16);
+    EXPECT_FALSE(report.solved()) << method;
+    EXPECT_TRUE(simulation.state().z.allFinite()) << method;
+  }
+}
+
 TEST(Friction, WhatFeedsEnergyIsPromisedNoLawAndTheWitnessIsNamed) {
   for (const auto& [name, problem] : beyond_linear_cases()) {
     const LawPromise promise = promise_energy_law(problem, 10);

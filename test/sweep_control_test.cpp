@@ -48,14 +48,6 @@ TEST(SweepControl, StopsWhereWhatIsLeftIsSmallBesideTheError) {
   EXPECT_EQ(sweeps({3, true, true}, 0.0, 0.0).sweeps, 2) << "nothing changes any more";
 }
 
-TEST(SweepControl, GivesTwoStagesAThirdSweepWhereTheSecondGainedLittle) {
-  for (const bool may_save : {false, true}) {
-    EXPECT_EQ(sweeps({2, true, may_save}, 0.1, 0.0).sweeps, 3);
-    EXPECT_EQ(sweeps({2, true, may_save}, 1e-3, 0.0).sweeps, 2);
-    EXPECT_EQ(sweeps({2, true, may_save}, 0.1, 0.0).questions, 0);
-  }
-}
-
 TEST(SweepControl, SavesAndHopesForNothingWhereSweepsDoNotConverge) {
   for (const double rate : {0.5, 1.0, 3.0, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_EQ(sweeps({4, true, true}, rate, 1e9).sweeps, 4) << rate;

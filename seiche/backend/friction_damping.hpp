@@ -23,6 +23,7 @@ class FrictionDamping final : public Damping {
   void apply(double t, const Vector& z, Vector& out) const override;
   bool is_frozen() const override { return false; }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
+  void apply_frozen(const Vector& z, Vector& out) const override { linear_->apply_frozen(z, out); }
   std::int64_t corrections() const override { return friction_->corrections(); }
 
  private:

@@ -57,12 +57,24 @@ bool GridDamping::field_factors(double t, double h, std::span<double> factors) c
   return true;
 }
 
-void GridDamping::apply(double t, const Vector& z, Vector& out) const {
+void GridDamping::apply_constant(const Vector& z, Vector& out) const {
   if (constant_) {
     constant_->apply(z, out);
   } else {
     out.setZero();
   }
+}
+
+void GridDamping::apply_frozen(const Vector& z, Vector& out) const {
+  apply_constant(z, out);
+  for (std::size_t f = 0; f < rate_fields_.size(); ++f) {
+    const Index begin = static_cast<Index>(f) * slots_;
+    if (rate_fields_[f]) out.segment(begin, slots_) += frozen_rate_ * z.segment(begin, slots_);
+  }
+}
+
+void GridDamping::apply(double t, const Vector& z, Vector& out) const {
+  apply_constant(z, out);
   add_rates(rate_ ? rate_->value(t) : 0.0, t, z, out);
 }
 

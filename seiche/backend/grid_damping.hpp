@@ -32,9 +32,11 @@ class GridDamping final : public Damping {
   void apply(double t, const Vector& z, Vector& out) const override;
   bool is_frozen() const override { return !field_rate_ && (!rate_ || rate_->is_constant()); }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
+  void apply_frozen(const Vector& z, Vector& out) const override;
   bool field_factors(double t, double h, std::span<double> factors) const override;
 
  private:
+  void apply_constant(const Vector& z, Vector& out) const;
   void constant_flow(double h, Vector& z) const;
   void rates_flow(double t, double h, Vector& z) const;
   double rate_decay(double t, double h) const;                                 // e^{−∫γ}

@@ -9,11 +9,11 @@
 namespace seiche {
 namespace {
 
-// Some of the numbers below are crossings of measured curves, which are flat: a factor of two in them is a few per cent of time.
-constexpr double stiff = 12;  // beyond so many times the rate of the solution explicit kicks go by stability
-constexpr double rough_tolerance = 3e-5;  // above: order four
-constexpr double fine_tolerance = 3e-8;   // below: order eight
-constexpr double sharp_friction = 30;     // of slopes at small and at typical velocities: no smooth force
+// Where the curves of time against tolerance cross (docs/performance.md, The choice of "auto"); they are flat there.
+constexpr double stiff_damping = 12;          // times the rate of the solution: backward flows e^{−|a|hD} would grow
+constexpr double rough_tolerance = 3e-5;      // collocation above it: order four
+constexpr double fine_tolerance = 3e-8;       // collocation below it: order eight
+constexpr double nystrom_tolerance = 1.5e-7;  // Nyström splittings above it: order four, below it six
 
 Vector random_state(const System& system) {
   std::mt19937_64 random(1);
@@ -28,13 +28,12 @@ Vector random_state(const System& system) {
 // L has eigenvalues in pairs ±iω: the growth over two applications.
 double spectral_radius(const System& system) {
   constexpr int pairs = 20;
-  Vector z = random_state(system), Mz(z.size()), Dz(z.size()), rest(z.size());
+  Vector z = random_state(system), Mz(z.size()), Dz(z.size());
   const auto apply_L = [&] {
-    system.damping->apply(0, z, Dz);
-    system.damping->apply_rest(0, z, rest);
+    system.damping->apply_frozen(z, Dz);
     system.linear->apply_M(z, Mz);
     system.linear->apply_S(Mz, z);
-    z -= Dz - rest;
+    z -= Dz;
   };
   double growth = 0;
   for (int k = 0; k < pairs; ++k) {
@@ -48,39 +47,43 @@ double spectral_radius(const System& system) {
   return growth;
 }
 
+double damping_radius(const System& system) {
+  constexpr int applications = 20;
+  Vector z = random_state(system), Dz(z.size());
+  double growth = 0;
+  for (int k = 0; k < applications; ++k) {
+    const double before = z.norm();
+    if (!(before > 0)) return 0;
+    z /= before;
+    system.damping->apply_frozen(z, Dz);
+    growth = Dz.norm();
+    z.swap(Dz);
+  }
+  return growth;
+}
+
+// Without D₀, which if it is stiff makes fast what will soon be over.
 double rate_of_solution(const System& system) {
   const Vector& z = system.initial;
-  Vector f(z.size()), moved(z.size());
-  system.right_hand_side(0, z, f);
+  Vector f(z.size()), moved(z.size()), Dz(z.size());
+  const auto undamped = [&](const Vector& at, Vector& out) {
+    system.right_hand_side(0, at, out);
+    system.damping->apply_frozen(at, Dz);
+    out += Dz;
+  };
+  undamped(z, f);
   const auto derivative_along = [&](const Vector& direction) -> Vector {
     const double step = 1e-6 * (1 + z.norm()) / std::max(direction.norm(), 1e-300);
     Vector forward(z.size()), back(z.size());
     moved = z + step * direction;
-    system.right_hand_side(0, moved, forward);
+    undamped(moved, forward);
     moved = z - step * direction;
-    system.right_hand_side(0, moved, back);
+    undamped(moved, back);
     return (forward - back) / (2 * step);
   };
   const double speed = f.norm();
   if (!(speed > 0)) return 0;
   return std::sqrt(derivative_along(derivative_along(f)).norm() / speed);
-}
-
-// Does R change its slope at once, as dry friction does, or one that saturates?
-bool is_sharp(const Friction& friction) {
-  const auto slope = [&](double v) {
-    const double u = 0;
-    double r = 0;
-    friction.force(0, {&u, 1}, {&v, 1}, {&r, 1});
-    return std::abs(r / v);
-  };
-  const double far = slope(1.0);
-  return far > 0 && slope(1e-3) > sharp_friction * far;
-}
-
-bool exists(std::string_view name) {
-  const std::vector<std::string> names = method_names();
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::string collocation_for(double tolerance) {
@@ -90,7 +93,7 @@ std::string collocation_for(double tolerance) {
 }  // namespace
 
 ProblemRates rates_of(const System& system) {
-  return {.linear = spectral_radius(system), .solution = rate_of_solution(system)};
+  return {.linear = spectral_radius(system), .damping = damping_radius(system), .solution = rate_of_solution(system)};
 }
 
 MethodChoice choose_method(const Problem& problem, const System& system, double tolerance,
@@ -105,22 +108,31 @@ MethodChoice choose_method(const Problem& problem, const System& system, double 
     choice.reason = fmt::format("{}, since S changes with z ({})", choice.method, accuracy);
     return choice;
   }
-  if (problem.friction && is_sharp(*problem.friction)) {
+  using enum Friction::Smoothness;
+  const Friction::Smoothness smoothness = problem.friction ? problem.friction->smoothness() : smooth;
+  if (smoothness == sharp || smoothness == jump) {
     choice.method = "seisav";
     choice.reason = fmt::format("seisav, since the friction {} is no smooth force: its flow is taken exactly",
                                 problem.friction->text());
     return choice;
   }
-  const std::optional<Momenta> p = momenta(problem);
-  const bool nystrom = exists("crkn6") && p && system.damping->is_linear() && !system.force &&
+  const bool nystrom = momenta(problem) && system.damping->is_linear() && !system.force &&
                        system.damping->is_frozen() && !system.damping->touches_potential();
-  if (nystrom && rates.stiffness() <= stiff) {
-    choice.method = wanted > 1e-4 ? "crkn4" : "crkn6";
-    choice.reason = fmt::format("{} ({}): {}, which is not stiff", choice.method, accuracy, seen);
+  if (nystrom && rates.damping <= stiff_damping * rates.solution) {
+    choice.method = wanted > nystrom_tolerance ? "crkn4" : "crkn6";
+    choice.reason =
+        fmt::format("{} ({}): {}; kicks between exact linear flows cost least where damping acts on momenta alone",
+                    choice.method, accuracy, seen);
+    return choice;
+  }
+  if (smoothness == kink && choice.method != "egc4") {
+    choice.method = "egc4";
+    choice.reason = fmt::format("egc4 ({}): the friction {} has a kink at v = 0, and higher orders gain nothing",
+                                accuracy, problem.friction->text());
     return choice;
   }
   choice.reason = fmt::format("{} ({}): {}{}", choice.method, accuracy, seen,
-                              rates.stiffness() > stiff ? ", which is stiff: L goes into exponentials" : "");
+                              nystrom ? "; damping so stiff must not be split into backward flows" : "");
   return choice;
 }
 

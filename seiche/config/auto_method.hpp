@@ -10,21 +10,21 @@ namespace seiche {
 
 // Rates of a problem at its start, 1/time.
 struct ProblemRates {
-  double linear = 0.0;  // spectral radius of L = SM − D₀, from below, by power iteration
-  double solution = 0.0;  // √(‖J²ż‖ / ‖ż‖) with J the derivative of the right-hand side: how fast the solution turns
-  double stiffness() const { return solution > 0 ? linear / solution : 1.0; }
+  double linear = 0.0;    // spectral radius of L = SM − D₀, from below, by power iteration
+  double damping = 0.0;   // the same of D₀
+  double solution = 0.0;  // √(‖J²ż‖ / ‖ż‖) with J the derivative of the right-hand side, both without D₀
 };
 
 ProblemRates rates_of(const System& system);
 
 struct MethodChoice {
   std::string method;
-  MethodOptions options;
-  std::string reason;  // what was seen, and what follows from it
+  MethodOptions options;  // as they were given
+  std::string reason;     // what was seen, and what follows from it
 };
 
-// `tolerance`: of values at the end; 0 where steps have one size, then as for 1e-6. Options other than those that come with the
-// choice stay as they are. The numbers it decides by are measurements (docs/performance.md).
+// `tolerance`: of values at the end; 0 where steps have one size, then as for 1e-6. The numbers it decides by are measurements
+// (docs/performance.md, The choice of "auto").
 MethodChoice choose_method(const Problem& problem, const System& system, double tolerance,
                            const MethodOptions& options = {});
 

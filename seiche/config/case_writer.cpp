@@ -89,11 +89,8 @@ std::string write_case(const RunSpec& spec) {
   text += fmt::format("auxiliary = \"{}\"\n", to_text(options.auxiliary));
   text += fmt::format("scalar_solver = \"{}\"\n", options.scalar_solver == ScalarSolver::newton ? "newton" : "robust");
 
-  const MethodEntry* method = spec.method == "auto" ? nullptr : &find_method(spec.method);
-  if (method != nullptr && method->projects())
-    text += fmt::format("law = \"{}\"\n", to_string(options.law_of(*method)));
-  if (method != nullptr && method->composition == Composition::nystrom)
-    text += fmt::format("linear = \"{}\"\n", options.linear == LinearTreatment::exact ? "exact" : "explicit");
+  if (options.law) text += fmt::format("law = \"{}\"\n", to_string(*options.law));
+  if (options.linear == LinearTreatment::explicit_kicks) text += "linear = \"explicit\"\n";
 
   text += fmt::format("\n[backend]\nname = {}\nplan = \"{}\"\n", toml_string(spec.backend),
                       spec.measure_plans ? "measure" : "estimate");

@@ -76,7 +76,6 @@ FrictionFormula friction_formula(const std::string& text, const Grid& grid) {
       throw Error("problem.friction: {} names {}, but the grid has {} ax{}", text, axes[a], grid.dimension(),
                   grid.dimension() == 1 ? "is" : "es");
   return {.formula = compile_formula(text, friction_variables()),
-          .uses_v = !compiles_without(text, {"v"}),
           .uses_u = !compiles_without(text, {"u"}),
           .uses_t = !compiles_without(text, {"t"}),
           .uses_place = !compiles_without(text, {"x", "y", "z"})};
@@ -189,6 +188,8 @@ void add_drives(const DriveSpec& spec, Problem& problem) {
   problem.forces.assign(static_cast<std::size_t>(problem.field_count()), nullptr);
   for (const auto& [field, text] : spec.forces) {
     const auto found = std::find(problem.fields.begin(), problem.fields.end(), field);
+    if (!field.empty() && found == problem.fields.end())
+      throw unknown_name("field in problem.force", field, problem.fields);
     const auto at = field.empty() ? static_cast<std::size_t>(obvious_field(problem))
                                   : static_cast<std::size_t>(found - problem.fields.begin());
     problem.forces[at] = compile_space_rate("problem.force", text)->on(problem.grid);

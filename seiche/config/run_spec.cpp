@@ -122,7 +122,9 @@ SimulationOptions simulation_options(const RunSpec& spec) {
 
 void settle_method(RunSpec& spec) {
   if (spec.method != "auto") return;
-  const Simulation chosen(make_problem(spec), simulation_options(spec));
+  SimulationOptions options = simulation_options(spec);
+  options.backend_options.measure_plans = false;  // nothing is timed yet, and no plan of the run is to depend on this
+  const Simulation chosen(make_problem(spec), options);
   spec.method = chosen.method().name;
   spec.method_options = chosen.method_options();
   spec.notes.push_back(fmt::format("method = \"auto\": {}", chosen.reason()));

@@ -47,6 +47,11 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
     reason_ = std::move(choice.reason);
     require_memory(*method_, problem_, options.variable_steps);
   }
+  if (options.variable_steps && problem_.friction && problem_.friction->smoothness() == Friction::Smoothness::jump)
+    throw Error(
+        "a tolerance cannot be met with the friction {}, which jumps at v = 0: while a velocity stays there, the error of a "
+        "step is of the size of the step; write method.h",
+        problem_.friction->text());
   if (options.variable_steps) {
     auto stepper = make_adaptive_stepper(*method_, system_, method_options_);
     adaptive_ = stepper.get();

@@ -10,7 +10,7 @@
 namespace seiche {
 
 struct SimulationOptions {
-  std::string method = "seisav";  // or "auto": choose_method decides
+  std::string method = "seisav";  // or "auto": choose_method decides. Other commands want a name
   std::string backend = "auto";
   MethodOptions method_options = {};
   BackendOptions backend_options = {};

@@ -21,6 +21,7 @@ class Damping {
   // Beside the constant D₀ that exponential methods take into L = SM − D₀ (frozen_damping): is D(t)z + R(t, z) = D₀z?
   virtual bool is_frozen() const = 0;
   virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀)z + R(t, z)
+  virtual void apply_frozen(const Vector& z, Vector& out) const = 0;          // D₀z
   virtual std::int64_t corrections() const { return 0; }                      // Friction::corrections
   // Where Ψ(t, t+h) multiplies each field by a number: those numbers, and true. A step then need not make a pass of it.
   virtual bool field_factors(double /*t*/, double /*h*/, std::span<double> /*factors*/) const { return false; }

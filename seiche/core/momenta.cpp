@@ -46,6 +46,8 @@ std::optional<Momenta> momenta_of_matrices(const Problem& problem) {
 
 std::optional<Momenta> momenta(const Problem& problem) {
   if (problem.field_count() == 0 || problem.field_count() % 2 != 0 || problem.structure) return std::nullopt;
+  for (Index p = problem.field_count() / 2; p < problem.field_count(); ++p)
+    if (problem.potential_depends_on(p)) return std::nullopt;
   return problem.matrices ? momenta_of_matrices(problem) : momenta_of_stencils(problem);
 }
 

@@ -49,24 +49,29 @@ class FormulaFriction : public Friction {
   }
 
   std::string feeds_at(double t_end) const override {
-    constexpr int times = 16;
-    constexpr std::size_t most_places = 16;
+    constexpr std::size_t most_places = 16, most_tries = 1U << 21U, least_times = 64;
     const std::size_t stride = f_.uses_place ? std::max<std::size_t>(1, places_.size() / most_places) : places_.size();
-    const std::vector<double> speeds = sizes_to_try(true);
+    const std::vector<double> speeds = speeds_to_try();
     const std::vector<double> coordinates = sizes_to_try(f_.uses_u);
-    for (int n = 0; n <= (f_.uses_t ? times : 0); ++n)
+    const std::size_t per_time = (places_.size() / stride) * speeds.size() * coordinates.size();
+    const std::size_t times = f_.uses_t ? std::clamp(most_tries / per_time, least_times, std::size_t{4096}) : 1;
+    constexpr double golden = 0.6180339887498949;  // its multiples avoid every period
+    for (std::size_t n = 0; n < times; ++n) {
+      const double fraction = static_cast<double>(n) * golden;
+      const double t = t_end * (fraction - std::floor(fraction));
       for (std::size_t j = 0; j < places_.size(); j += stride)
         for (const double u : coordinates)
           for (const double v : speeds) {
-            const double t = t_end * n / times;
             const double r = rate(t, u, v, places_[j]);
             if (v * r < 0) return witness(t, u, v, r);
           }
+    }
     return "";
   }
 
  protected:
   using Place = std::array<double, 3>;
+  virtual std::vector<double> speeds_to_try() const { return sizes_to_try(true); }
   // R at one point.
   virtual double rate(double t, double u, double v, const Place& place) const = 0;
 
@@ -107,6 +112,7 @@ class PositionFriction final : public FormulaFriction {
   std::string text() const override { return fmt::format("({})·v", formula_text()); }
 
  private:
+  std::vector<double> speeds_to_try() const override { return {1.0}; }  // the sign is that of c
   double rate(double t, double u, double v, const Place& place) const override { return formula(t, u, 0, place) * v; }
 };
 

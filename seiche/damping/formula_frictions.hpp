@@ -11,7 +11,7 @@ namespace seiche {
 // say, since a formula does not tell.
 struct FrictionFormula {
   FormulaPointer formula;
-  bool uses_v = true, uses_u = true, uses_t = true, uses_place = true;
+  bool uses_u = true, uses_t = true, uses_place = true;
 };
 
 // c(u, t, x)·v, with the exact flow e^{−wch}; where c depends on t, at the middle of h. Where c < 0 it feeds energy, as in van
@@ -19,7 +19,9 @@ struct FrictionFormula {
 FrictionPointer position_friction(FrictionFormula c, const Grid& grid);
 
 // r(v, u, t, x), by the midpoint discrete gradient v⁺ = v − wh r(m), m = (v + v⁺)/2, at the middle of h: ½v² falls by whr(m)m
-// exactly. Where r rises with v there is one such v⁺; elsewhere one near v is taken, and NaN where there is none.
+// exactly. Where r rises with v there is one such v⁺; elsewhere one near v is taken, and NaN where there is none. Where r is
+// stiff, wh r'(v) ≫ 2, the velocity changes its sign from step to step instead of coming to rest: the closed forms of
+// frictions.hpp do not.
 FrictionPointer formula_friction(FrictionFormula r, const Grid& grid);
 
 }  // namespace seiche

@@ -31,6 +31,7 @@ class ComponentFriction final : public Friction {
   bool is_dissipative() const override { return true; }
   std::string feeds_at(double) const override { return ""; }
   std::string fed_at() const override { return ""; }
+  Smoothness smoothness() const override { return law_.smoothness(); }
   std::string text() const override { return text_; }
 
  private:
@@ -40,6 +41,7 @@ class ComponentFriction final : public Friction {
 
 struct Quadratic {
   double a, c;
+  Friction::Smoothness smoothness() const { return c > 0 ? Friction::Smoothness::kink : Friction::Smoothness::smooth; }
   double force(double v) const { return (a + c * std::abs(v)) * v; }
   double flow(double v, double tau) const {
     const double weight = a > 0 ? -std::expm1(-a * tau) / a : tau;  // ∫ e^{−as}
@@ -49,6 +51,7 @@ struct Quadratic {
 
 struct Cubic {
   double c;
+  Friction::Smoothness smoothness() const { return Friction::Smoothness::smooth; }
   double force(double v) const { return c * v * v * v; }
   double flow(double v, double tau) const { return v / std::sqrt(1 + 2 * c * v * v * tau); }
 };
@@ -56,6 +59,7 @@ struct Cubic {
 // sinh(v/ε) decays like e^{−cτ/ε}.
 struct Saturating {
   double c, width;
+  Friction::Smoothness smoothness() const { return Friction::Smoothness::sharp; }
   double force(double v) const { return c * std::tanh(v / width); }
   double flow(double v, double tau) const {
     constexpr double large = 20;  // beyond it 2 sinh x = eˣ to the last digit
@@ -69,6 +73,7 @@ struct Saturating {
 
 struct Dry {
   double c;
+  Friction::Smoothness smoothness() const { return Friction::Smoothness::jump; }
   double force(double v) const { return v > 0 ? c : v < 0 ? -c : 0.0; }
   double flow(double v, double tau) const { return std::copysign(std::max(std::abs(v) - c * tau, 0.0), v); }
 };
@@ -92,6 +97,7 @@ class IsotropicFriction final : public Friction {
   bool is_dissipative() const override { return true; }
   std::string feeds_at(double) const override { return ""; }
   std::string fed_at() const override { return ""; }
+  Smoothness smoothness() const override { return Smoothness::kink; }
   std::string text() const override { return fmt::format("{} |v|v, |v| the length of the vector", c_); }
 
  private:
@@ -126,6 +132,7 @@ class OwnFlow final : public Friction {
     own_.flow(t, h, w, q, v);
     const double after = squares(v);
     if (!(after > before * (1 + 8 * epsilon))) return;  // or no number: the caller sees it
+    fed_.store(t, std::memory_order_relaxed);
     const double scale = std::sqrt(before / after);
     for (double& x : v) x *= scale;
     corrections_.fetch_add(1, std::memory_order_relaxed);

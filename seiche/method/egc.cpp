@@ -177,7 +177,9 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   bool compute(const State& s, double t, double h, Vector& z) override {
     const Tables& of_h = tables(h, steps_are_alike_);
-    const double size = s.z.norm() + h * predict(s, t, h);
+    double pushed = predict(s, t, h);
+    for (const double c : rule_.nodes) pushed = std::max(pushed, force_.external(t + c * h));
+    const double size = s.z.norm() + h * pushed;
     sweep(s, t, h, *of_h.nodes);
     coarse_ = {};
     for (std::size_t i = 0; i < seen_.size(); ++i) {

@@ -15,9 +15,10 @@ namespace seiche {
 // gradients a step. Between steps, a shorter step of the same method from the left end. `system` outlives the stepper.
 std::unique_ptr<AdaptiveStepper> with_error_estimate(const System& system, std::unique_ptr<Stepper> stepper);
 
-// For a method of order p: a step of two halves, beside one of the whole length that is thrown away; the difference over 2ᵖ − 1
+// For a method of order p, the errors of which no other formula knows: a step of two halves, beside one of the whole length that is thrown away; the difference over 2ᵖ − 1
 // is the error of the two. Between steps, a shorter step of the same method from the left end of either half.
 std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<ProjectedStepper> stepper,
                                                     int order);
+std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<Stepper> stepper, int order);
 
 }  // namespace seiche

@@ -26,7 +26,9 @@ class ExponentialRungeKutta final : public BaseStep {
     const Tables& of_h = cache_.at(h, [&] { return std::make_unique<Tables>(make_tables(h)); });
     forces_[0] = s.z;
     force_.evaluate(t, forces_[0]);
-    const double size = s.z.norm() + h * forces_[0].norm();
+    double pushed = forces_[0].norm();
+    for (const double c : {0.5, 1.0}) pushed = std::max(pushed, force_.external(t + c * h));
+    const double size = s.z.norm() + h * pushed;
     for (std::size_t i = 1; i < forces_.size(); ++i) {
       of_h.stages[i - 1]->apply(s.z, {forces_.data(), i}, {&forces_[i], 1});
       force_.evaluate(t + tableau_.stages[i - 1].c * h, forces_[i]);

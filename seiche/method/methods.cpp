@@ -186,6 +186,9 @@ std::unique_ptr<AdaptiveStepper> make_adaptive_stepper(const MethodEntry& method
   // The weights of with_error_estimate stand on the same midpoint as those of the midpoint rule, and share its errors.
   if (method.order > 2 || method.composition == runge_kutta)
     return with_step_doubling(system, make_projected(method, system, options), method.order);
+  // Friction that is a flow here would be a force in that formula, which need not be smooth.
+  if (!system.damping->is_linear())
+    return with_step_doubling(system, make_stepper(method, system, options), method.order);
   return with_error_estimate(system, make_stepper(method, system, options));
 }
 

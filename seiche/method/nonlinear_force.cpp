@@ -26,6 +26,13 @@ void NonlinearForce::evaluate(double t, Vector& z, Look look) {
   complete(t, z);
 }
 
+double NonlinearForce::external(double t) {
+  if (!system_.force) return 0;
+  rest_.setZero();
+  system_.force->add(t, 1, rest_);
+  return rest_.norm();
+}
+
 void NonlinearForce::complete(double t, Vector& z) {
   if (kind_ == PhiRows::Forces::gradients) {
     const Potential::Support support = system_.potential->support();

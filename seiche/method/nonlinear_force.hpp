@@ -17,6 +17,9 @@ class NonlinearForce {
   void evaluate(double t, Vector& z);             // z ← N(t, z), or ∇V(z)
   void evaluate(double t, Vector& z, Look look);  // the same, after a look at z and ∇V(z)
 
+  // The norm of f at a time, which a state and the forces at another time need not foretell; 0 without external forces.
+  double external(double t);
+
  private:
   void complete(double t, Vector& z);  // from gradient_ = ∇V(z)
 

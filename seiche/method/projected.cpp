@@ -17,9 +17,12 @@ Projected::Projected(const System& system, const PhiEvaluator& phi, BaseStep& ba
       phi_(phi),
       base_(base),
       law_(law),
+      may_flow_freely_(!system.force && system.damping->is_linear()),
       projection_(system, phi),
       free_(cached_step_sizes(system.space->size())),
-      z_(Vector::Zero(system.space->size())) {}
+      z_(Vector::Zero(system.space->size())) {
+  saved_.z = z_;
+}
 
 void Projected::begin(State& s) {
   s.energy = system_.energy(s.z);
@@ -40,15 +43,15 @@ StepReport Projected::step(State& s, double h) {
   const double t = s.t;
   const std::int64_t n = s.n;
   const Taken taken = take(s, t, h, law_ == EnergyLaw::none, report);
-  if (taken == Taken::unresolved) {
+  if (taken == Taken::unresolved && law_ == EnergyLaw::none) {
     fail(report, s, h, taken, 0);
     return report;
   }
-  if (taken == Taken::inadmissible) {
+  if (taken != Taken::whole) {
     saved_ = s;
     if (!take_halves(s, t, h, 1, report)) {
       s = saved_;
-      fail(report, s, h, Taken::inadmissible, max_halvings);
+      fail(report, s, h, taken, max_halvings);
       return report;
     }
   }
@@ -87,7 +90,8 @@ void Projected::keep_between(const State& s, Vector& z) {
 void Projected::fail(StepReport& report, const State& s, double h, Taken taken, int halvings) const {
   report.status = StepReport::Status::failed;
   if (taken == Taken::unresolved)
-    report.message = fmt::format("{} in the step from t = {:.6g} with h = {:.6g}", base_.failure(), s.t, h);
+    report.message = fmt::format("{} in the step from t = {:.6g} with h = {:.6g}{}", base_.failure(), s.t, h,
+                                 halvings > 0 ? fmt::format(", nor in {} halvings of it", halvings) : "");
   else
     report.message = fmt::format(
         "no point near the solution has an energy H ≤ {:.9g} in the step from t = {:.6g} with h = {:.6g}{}: H(0) = {:.6g}",
@@ -99,7 +103,7 @@ void Projected::fail(StepReport& report, const State& s, double h, Taken taken, 
 Projected::Taken Projected::take(State& s, double t, double h, bool strict, StepReport& report) {
   if (law_ == EnergyLaw::none) return take_without_law(s, t, h, report);
   const auto make_free = [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); };
-  if (!strict) free_.at(h, make_free);  // now: later steps of this length are to allocate nothing
+  if (!strict && may_flow_freely_) free_.at(h, make_free);  // now: later steps of this length are to allocate nothing
   const StepDissipation::Kind kind = base_.dissipation_kind();
   bool resolved = base_.compute(s, t, h, z_);
   StepDissipation::Amount amount;
@@ -114,11 +118,14 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
     resolved = std::isfinite(outcome.computed);  // ẑ may be finite where its energy is none
   }
   if (!resolved) {
-    if (strict) return Taken::unresolved;
+    if (strict || !may_flow_freely_) return Taken::unresolved;
     amount = {};
     free_.at(h, make_free).apply(s.z, {}, {&z_, 1});
     ++report.fallbacks;
-    outcome = projection_.project(z_, [&](double) { return EnergyTarget{s.energy, s.energy}; });
+    outcome = projection_.project(z_, [&](double computed) {
+      const bool conserves = kind == StepDissipation::Kind::none;
+      return EnergyTarget{conserves ? s.energy : std::min(computed, s.energy), s.energy};
+    });
   }
   report.scalar_iterations += outcome.iterations;
   report.fallbacks += outcome.by_bisection ? 1 : 0;

@@ -12,8 +12,8 @@
 namespace seiche {
 
 // ẑ of a base step, moved to the energy of energy_target. Nothing about ẑ enters the proof of the law, so it holds for every h:
-// where ẑ is no solution, e^{hL}z takes its place; where no point near it has an energy that the law allows, the step is
-// taken in halves.
+// where ẑ is no solution, e^{hL}z takes its place, if it leaves nothing but ∇V out; where it would, and where no point near ẑ
+// has an energy that the law allows, the step is taken in halves.
 class Projected {
  public:
   // All outlive it.
@@ -55,6 +55,7 @@ class Projected {
   const PhiEvaluator& phi_;
   BaseStep& base_;
   EnergyLaw law_;
+  bool may_flow_freely_;  // does e^{hL}z leave out neither a force nor friction?
   EnergyProjection projection_;
   StepCache<PhiMap> free_;  // e^{hL}z
   Vector z_;                // ẑ, then zⁿ

@@ -43,7 +43,7 @@ void SavClosure::begin(State& s) {
   s.shift = given_C_.value_or(s.energy_scale > 0 ? 2 * s.energy_scale : 1.0);
   s.r_squared = v + s.shift;
   constexpr double largest = 1e10;
-  if (std::abs(s.shift) > largest * std::max(s.energy_scale, 1e-300) && given_C_) {
+  if (given_C_ && s.energy_scale > 0 && std::abs(s.shift) > largest * s.energy_scale) {
     throw Error("C = {} drowns the energy {:.6g} in round-off; at most {:.3g} makes sense, and C = \"auto\" is good",
                 s.shift, s.energy_scale, largest * s.energy_scale);
   }

@@ -2,15 +2,20 @@
 #include <seiche/method/error_estimate.hpp>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 namespace seiche {
 namespace {
 
 class Doubled final : public AdaptiveStepper {
  public:
-  Doubled(const System& system, std::unique_ptr<ProjectedStepper> stepper, int order)
-      : system_(system), stepper_(std::move(stepper)), order_(order) {
+  // A step that may fail instead of being taken another way; one of `stepper`.
+  using Attempt = std::function<StepReport(State&, double h)>;
+
+  Doubled(const System& system, std::unique_ptr<Stepper> stepper, Attempt attempt, int order)
+      : system_(system), stepper_(std::move(stepper)), attempt_(std::move(attempt)), order_(order) {
     difference_.setZero(system.space->size());
     physical_.setZero(system.space->physical_size());
   }
@@ -25,11 +30,11 @@ class Doubled final : public AdaptiveStepper {
   StepReport attempt(State& s, double h) override {
     before_ = whole_ = s;
     h_ = h;
-    StepReport report = stepper_->attempt(whole_, h);
+    StepReport report = attempt_(whole_, h);
     if (!report.solved()) return report;
-    const StepReport first = stepper_->attempt(s, h / 2);
+    const StepReport first = attempt_(s, h / 2);
     middle_ = s;
-    const StepReport second = first.solved() ? stepper_->attempt(s, h / 2) : StepReport{};
+    const StepReport second = first.solved() ? attempt_(s, h / 2) : StepReport{};
     report.ledger = {};
     report += first;
     report += second;
@@ -61,7 +66,8 @@ class Doubled final : public AdaptiveStepper {
 
  private:
   const System& system_;
-  std::unique_ptr<ProjectedStepper> stepper_;
+  std::unique_ptr<Stepper> stepper_;
+  Attempt attempt_;
   int order_;
   State before_, middle_, whole_, between_;
   double h_ = 0;
@@ -72,7 +78,15 @@ class Doubled final : public AdaptiveStepper {
 
 std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<ProjectedStepper> stepper,
                                                     int order) {
-  return std::make_unique<Doubled>(system, std::move(stepper), order);
+  ProjectedStepper& projected = *stepper;
+  return std::make_unique<Doubled>(
+      system, std::move(stepper), [&projected](State& s, double h) { return projected.attempt(s, h); }, order);
+}
+
+std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<Stepper> stepper, int order) {
+  Stepper& plain = *stepper;
+  return std::make_unique<Doubled>(
+      system, std::move(stepper), [&plain](State& s, double h) { return plain.step(s, h); }, order);
 }
 
 }  // namespace seiche

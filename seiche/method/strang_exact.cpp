@@ -13,7 +13,8 @@ class StrangExact final : public BaseStep {
       : system_(system),
         phi_(phi),
         kind_(StepDissipation::kind_of(system, phi)),
-        is_kick_(system.damping->is_frozen() && momentum_form(system).kicks),
+        is_kick_(system.damping->is_frozen() && momentum_form(system).kicks &&
+                 !(system.force && system.force->touches_potential())),
         halves_(cached_step_sizes(system.space->size())) {
     for (Vector* v : {&gradient_, &rate_, &rest_, &middle_, &scratch_}) v->setZero(system.space->size());
   }

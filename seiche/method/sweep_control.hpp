@@ -4,8 +4,8 @@
 namespace seiche {
 
 // A sweep changes the solution by δ₁, the next by δ₂, …, and δₖ₊₁ ≈ δₖ²/δₖ₋₁ or less is what k sweeps leave. That need only be
-// small beside the error of the collocation step itself. Of three or more stages, s sweeps are enough, and fewer where the
-// nonlinearity is weak; of two, a third sweep multiplies the accuracy where the second gained little.
+// small beside the error of the collocation step itself: s sweeps are enough, and of three or more fewer where the nonlinearity
+// is weak.
 class SweepControl {
  public:
   // `from_history`: the first guess extrapolates the forces of the step before. Otherwise 2s sweeps are made. `may_save`: is
@@ -21,7 +21,7 @@ class SweepControl {
     change_ = change;
     const int planned = from_history_ ? stages_ : 2 * stages_;
     const bool converges = change < slowest * before;  // false for NaN
-    if (sweeps_ >= planned) return from_history_ && stages_ == 2 && sweeps_ == 2 && converges && change > fast * before;
+    if (sweeps_ >= planned) return false;
     if (!may_save_ || sweeps_ < least) return true;
     if (change == 0) return false;
     return !converges || change / before * change > small * error();
@@ -33,7 +33,6 @@ class SweepControl {
  private:
   static constexpr int least = 2;
   static constexpr double slowest = 0.3;  // a sweep that gains less gives nothing to go by
-  static constexpr double fast = 0.02;
   static constexpr double small = 0.5;
 
   int stages_;

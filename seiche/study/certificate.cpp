@@ -205,7 +205,10 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   if (problem.has_forces()) list.push_back(hypothesis_of_forces(problem));
   if (problem.structure) list.push_back(hypothesis_of_structure(problem, options));
   if (method.closure == ClosureKind::sav) list.push_back(hypothesis_of_margin(problem, options));
-  const std::string given_up = options.method_options.objection(method);
+  const bool bent = std::any_of(list.begin(), list.end(), [](const Hypothesis& h) {
+    return h.name == "S(z) skew" && h.grade == Grade::violated;
+  });
+  const std::string given_up = bent ? "S(z) is not skew" : options.method_options.objection(method);
   certificate.law = given_up.empty() ? law : LawPromise{false, given_up};
   if (certificate.law.promised) certificate.theorem = theorem(problem, method);
   return certificate;

@@ -53,7 +53,11 @@ PhysicalEquation::PhysicalEquation(const Problem& problem)
       gamma_(points_),
       velocity_(initial_.size()),
       beyond_(initial_.size()) {
-  if (friction_) inverse_mass_ = momenta(problem).value().inverse_mass;
+  if (friction_) {
+    const std::optional<Momenta> found = momenta(problem);
+    if (!found) throw Error("the friction {} acts on velocities, and {} has none", friction_->text(), problem.name);
+    inverse_mass_ = found->inverse_mass;
+  }
   if (!problem.derivative.is_zero()) derivative_ = rows(problem.derivative, problem.grid);
   if (problem.matrices) {
     S_ = rows(problem.matrices->S);

@@ -40,6 +40,7 @@ SpectrumRow row_of(std::string mode, const Pair& pair, double h) {
   const double whole_turns = std::round((row.exact_frequency * h - angle) / (2 * std::numbers::pi));
   row.numerical_frequency = (angle + 2 * std::numbers::pi * whole_turns) / h;
   if (!turns) row.numerical_frequency = std::abs(row.numerical_frequency);
+  row.resolved = std::isfinite(row.numerical_decay) && pair.uncertainty <= 1e-3 * std::max(row.exact_decay, 1 / h);
   row.aliased = row.exact_frequency * h > std::numbers::pi;
   return row;
 }
@@ -276,7 +277,8 @@ Spectrum spectrum(const Problem& problem, const SimulationOptions& options, doub
   const Simulation applies(problem, options);  // throws where it does not: without V more would seem to
   const Problem linear = linear_part_of(problem);
   SimulationOptions plain = options;
-  plain.method_options = {};  // they speak of V
+  plain.method_options = {};  // most of them speak of V
+  plain.method_options.linear = options.method_options.linear;
   plain.variable_steps = false;
   OneStep step(linear, plain, h);
 
@@ -301,7 +303,7 @@ Spectrum spectrum(const Problem& problem, const SimulationOptions& options, doub
   return result;
 }
 
-bool SpectrumRow::damping_differs() const { return std::abs(damping_error()) > round_off; }
+bool SpectrumRow::damping_differs() const { return !(std::abs(damping_error()) <= round_off); }
 
 std::optional<double> SpectrumRow::phase_error() const {
   if (exact_frequency == 0) return std::nullopt;
@@ -311,6 +313,10 @@ std::optional<double> SpectrumRow::phase_error() const {
 SpectrumVerdict judge(const Spectrum& spectrum) {
   SpectrumVerdict verdict;
   for (const SpectrumRow& row : spectrum.rows) {
+    if (!row.resolved) {
+      ++verdict.unresolved;
+      continue;
+    }
     verdict.round_off = std::max(verdict.round_off, row.round_off);
     verdict.aliased += row.aliased ? 1 : 0;
     const auto farther = [](const SpectrumRow* than, double error) {

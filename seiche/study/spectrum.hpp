@@ -20,6 +20,7 @@ struct SpectrumRow {
   double exact_frequency = 0.0, numerical_frequency = 0.0;  // radians per time, ≥ 0 but for a step that turns back
   bool aliased = false;    // exact frequency above π/h: one step tells the numerical one only modulo 2π/h
   double round_off = 0.0;  // of a decay or a frequency, in 1/time
+  bool resolved = true;    // false: of the mode a step leaves no more than round-off, and its rates are not known
 
   double damping_error() const { return numerical_decay - exact_decay; }
   bool damping_differs() const;               // by more than round-off
@@ -53,7 +54,9 @@ struct SpectrumVerdict {
   const SpectrumRow* worst_phase = nullptr;
   double relative = 0.0;   // that of worst_relative
   double round_off = 0.0;  // the largest, of the rates
-  std::size_t aliased = 0;
+  std::size_t aliased = 0, unresolved = 0;
+  // Does every mode decay as in the equation, and is that known?
+  bool is_physical() const { return most_spurious == nullptr && most_missing == nullptr && unresolved == 0; }
 };
 SpectrumVerdict judge(const Spectrum& spectrum);  // points into `spectrum`
 

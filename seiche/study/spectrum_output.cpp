@@ -52,12 +52,19 @@ std::string compared(const SpectrumRow& row) {
                      row.numerical_decay, row.exact_decay);
 }
 
+bool is_undamped(const SpectrumRow* row) { return row != nullptr && row->exact_decay <= row->round_off; }
+
 }  // namespace
 
 std::string spectrum_sentence(const Spectrum& spectrum) {
   const SpectrumVerdict verdict = judge(spectrum);
   std::string text;
-  if (!verdict.most_spurious && !verdict.most_missing) {
+  if (verdict.unresolved > 0)
+    text += fmt::format(
+        "Of {} of {} modes one step leaves no more than round-off: their rates are not known, and a smaller h would show "
+        "them.\n",
+        verdict.unresolved, spectrum.rows.size());
+  if (verdict.is_physical()) {
     text += fmt::format(
         "The damping is physical: every mode decays at the rate of the equation, to round-off ({:.1g} at most).\n",
         verdict.round_off);
@@ -65,10 +72,11 @@ std::string spectrum_sentence(const Spectrum& spectrum) {
     text += verdict.most_spurious ? fmt::format("Largest spurious damping: {}.\n", compared(*verdict.most_spurious))
                                   : std::string("No mode decays faster than in the equation.\n");
     if (verdict.most_missing) text += fmt::format("Largest missing damping: {}.\n", compared(*verdict.most_missing));
+    if (verdict.most_missing && verdict.most_missing->numerical_decay < -verdict.most_missing->round_off)
+      text += fmt::format("Mode {} grows: the steps are not stable.\n", verdict.most_missing->mode);
     text += verdict.worst_relative ? fmt::format("The damping is physical to within {:.3g} %, as mode {} shows{}.\n",
                                                  100 * verdict.relative, verdict.worst_relative->mode,
-                                                 verdict.most_spurious && verdict.most_spurious->exact_decay <=
-                                                                              verdict.most_spurious->round_off
+                                                 is_undamped(verdict.most_spurious) || is_undamped(verdict.most_missing)
                                                      ? "; modes without damping are not in this number"
                                                      : "")
                                    : std::string("No damped mode decays otherwise than in the equation.\n");
@@ -117,17 +125,18 @@ std::string spectrum_json(const Spectrum& spectrum) {
                      {"aliased", row.aliased},
                      {"round_off", number(row.round_off)}});
   }
-  const bool physical = !verdict.most_spurious && !verdict.most_missing;
   const Json document = {{"problem", spectrum.problem},
                          {"method", spectrum.method},
                          {"backend", spectrum.backend},
                          {"h", spectrum.h},
                          {"potential_left_out", spectrum.has_potential},
+                         {"drives_left_out", spectrum.has_drives},
                          {"rates_at_start", spectrum.rates_frozen},
                          {"homogeneous", spectrum.is_homogeneous},
                          {"linear", spectrum.is_linear},
                          {"verdict",
-                          {{"physical_to_round_off", physical},
+                          {{"physical_to_round_off", verdict.is_physical()},
+                           {"unresolved_modes", verdict.unresolved},
                            {"largest_spurious_damping", mode_json(verdict.most_spurious)},
                            {"largest_missing_damping", mode_json(verdict.most_missing)},
                            {"largest_relative_error", verdict.worst_relative ? number(verdict.relative) : Json(0.0)},
