@@ -53,7 +53,7 @@ TEST_P(EveryMethod, RaisesItsEnergyInNoStepOfAnySize) {
     if (!promise_energy_law(problem, 50).promised || !applies(method.name, problem)) continue;
     for (const BackendEntry& backend : backends_for(problem)) {
       for (const double h : {1.0 / 64, 0.1, 0.25, 1.0, 2.5, 10.0}) {
-        const LawRun result = run(problem, method.name, backend.name, h, std::max(6.0, 20 * h));
+        const LawRun result = run(problem, method.name, backend.name, h, std::max(3.0, 20 * h));
         EXPECT_LE(result.worst_increase, 1) << name << " " << backend.name << " h = " << h;
         ++runs;
         finished += result.finished ? 1 : 0;
