@@ -171,7 +171,7 @@ std::map<std::string, std::string> read_forces(const std::string& key, const Cas
   for (const auto& [field, formula] : value.entries) {
     if (std::find(problem.fields.begin(), problem.fields.end(), field) == problem.fields.end())
       throw unknown_name("field in " + key, field, problem.fields);
-    add(key + "." + field, field, formula);
+    add(fmt::format("{}.{}", key, field), field, formula);
   }
   return forces;
 }

@@ -1,6 +1,7 @@
 #include <seiche/method/step_dissipation.hpp>
 
 #include <array>
+#include <utility>
 
 namespace seiche {
 
@@ -17,13 +18,13 @@ StepDissipation::Kind StepDissipation::kind_of(const System& system, const PhiEv
   return d.is_quadratic && d.is_nonnegative ? Kind::quadratic : Kind::general;
 }
 
-StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output,
-                                 const GaussRule& coarse, const GaussRule& fine)
+StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, GaussRule coarse,
+                                 GaussRule fine)
     : system_(system),
       phi_(phi),
       output_(std::move(output)),
-      coarse_(coarse),
-      fine_(fine),
+      coarse_(std::move(coarse)),
+      fine_(std::move(fine)),
       kind_(kind_of(system, phi)),
       needs_gradient_(!phi.dissipation().is_quadratic || system.damping->touches_potential() ||
                       (system.force && system.force->touches_potential())),

@@ -24,8 +24,7 @@ struct DenseOutput {
 class StepDissipation {
  public:
   // `system` and `phi` outlive it.
-  StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, const GaussRule& coarse,
-                  const GaussRule& fine);
+  StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, GaussRule coarse, GaussRule fine);
 
   // How Q can be known.
   enum class Kind {

@@ -16,7 +16,7 @@ struct RunIdentity {
   std::string backend;
   double h = 0.0;  // of variable steps: NaN
   std::optional<double> tolerance = std::nullopt;
-  std::string certificate = "";  // a JSON document: which hypotheses of the energy law are met, or "" for none
+  std::string certificate = {};  // a JSON document: which hypotheses of the energy law are met, or "" for none
   std::map<std::string, std::string> versions = {};
 };
 

@@ -24,7 +24,7 @@ constexpr double ledger_round_off = 1e-13;  // relative to the largest |H|, per 
 Json summary_of(const std::filesystem::path& file) {
   std::ifstream input(file);
   if (!input) throw Error("{} cannot be read", file.string());
-  const Json summary = Json::parse(input, nullptr, false);
+  Json summary = Json::parse(input, nullptr, false);
   if (summary.is_discarded() || !summary.contains("energy") || !summary.contains("method"))
     throw Error("{} is no summary of a run", file.string());
   return summary;
