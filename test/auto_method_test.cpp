@@ -72,6 +72,11 @@ TEST(AutoMethod, TakesHigherOrdersForSmallerTolerances) {
   EXPECT_EQ(last, 8);
 }
 
+TEST(AutoMethod, TakesTheCaseThatAnotherMethodWouldTake) {
+  for (const std::string& text : {example_case("klein_gordon"), write_case(parse_case(example_case("gkdv"), "x.toml"))})
+    EXPECT_EQ(parse_case(text, "y.toml", {"method.name=auto"}).method, "auto");
+}
+
 TEST(AutoMethod, ACaseSaysWhatWasChosenAndWhy) {
   RunSpec spec =
       parse_case("[problem]\nname = \"klein_gordon\"\n[method]\nname = \"auto\"\ntolerance = 1e-7\n", "x.toml");

@@ -207,12 +207,12 @@ class Reader {
   template <class Read>
   void read_option(const std::string& option, const MethodEntry* method, Read read) {
     on("method", option, [&](const std::string& key, const CaseValue& value) {
-      if (spec_.method == "auto")
+      MethodOptions alone;
+      read(alone, key, value);
+      if (spec_.method == "auto" && alone != MethodOptions{})
         throw Error(
             "{} belongs to one method, and method.name = \"auto\" is yet to choose it: leave {} out, or name a method",
             key, option);
-      MethodOptions alone;
-      read(alone, key, value);
       if (method != nullptr) alone.validate(*method);
       read(spec_.method_options, key, value);
     });

@@ -50,6 +50,7 @@ struct MethodOptions {
   EnergyLaw law_of(const MethodEntry& method) const { return law.value_or(method.projection); }
   // Why no energy law is promised with these options, or "".
   std::string objection(const MethodEntry& method) const;
+  bool operator==(const MethodOptions&) const = default;
   // Throws Error where an option other than its default has no meaning for the method, with the reason.
   void validate(const MethodEntry& method) const;
 };
