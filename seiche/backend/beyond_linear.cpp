@@ -6,11 +6,13 @@
 namespace seiche {
 
 void add_beyond_linear(System& system, const Problem& problem, const std::shared_ptr<const FieldTransform>& transform,
-                       std::unique_ptr<LinearMap> derivative) {
+                       FunctionRef<std::unique_ptr<LinearMap>()> make_derivative) {
   if (problem.friction)
     system.damping = std::make_unique<FrictionDamping>(problem, transform, std::move(system.damping));
   if (problem.has_forces()) system.force = std::make_unique<GridForce>(problem, transform);
-  if (problem.structure) system.structure = std::make_unique<GridStructure>(problem, transform, std::move(derivative));
+  if (!problem.structure) return;
+  auto derivative = problem.derivative.is_zero() ? nullptr : make_derivative();
+  system.structure = std::make_unique<GridStructure>(problem, transform, std::move(derivative));
 }
 
 }  // namespace seiche

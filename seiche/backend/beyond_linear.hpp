@@ -3,15 +3,16 @@
 
 #include <seiche/backend/linear_map.hpp>
 #include <seiche/backend/transform.hpp>
+#include <seiche/core/function_ref.hpp>
 #include <seiche/core/system.hpp>
 
 #include <memory>
 
 namespace seiche {
 
-// Completes a system that has its linear damping. `derivative`: ∂ on the coordinates of one field, null where the problem has
-// none. Throws Error where the problem has friction but no velocities.
+// Completes a system that has its linear damping. make_derivative(): problem.derivative on the coordinates of one field, asked for
+// where it is not zero. Throws Error where the problem has friction but no velocities.
 void add_beyond_linear(System& system, const Problem& problem, const std::shared_ptr<const FieldTransform>& transform,
-                       std::unique_ptr<LinearMap> derivative);
+                       FunctionRef<std::unique_ptr<LinearMap>()> make_derivative);
 
 }  // namespace seiche

@@ -1,7 +1,6 @@
 #include <seiche/backend/dense_phi.hpp>
 #include <seiche/backend/lane_matrix.hpp>
 #include <seiche/backend/phi_functions.hpp>
-#include <seiche/core/tabulated_phi.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -109,8 +108,10 @@ class DensePhiForms final : public PhiForms {
   mutable Vector image_;
 };
 
-class DensePhi final : public TabulatedPhi {
+class DensePhi final : public PhiEvaluator {
  public:
+  bool has_tables() const override { return true; }
+
   DensePhi(Matrix S, const Matrix& M, const Matrix& D0, Potential::Support support)
       : S_(std::move(S)), L_(S_ * M - D0), Q_(dissipation_matrix<Matrix>(S_, M, D0)), support_(support) {
     const Matrix twice_sym = S_ + S_.transpose();

@@ -9,6 +9,7 @@ GridStructure::GridStructure(const Problem& problem, std::shared_ptr<const Field
                              std::unique_ptr<LinearMap> derivative)
     : structure_(problem.structure),
       transform_(std::move(transform)),
+      space_(problem.field_count(), transform_),
       derivative_(std::move(derivative)),
       slots_(transform_->slots()),
       derivative_slots_(transform_->slots()) {
@@ -25,30 +26,20 @@ void GridStructure::differentiate(std::span<const double> u, std::span<double> o
   transform_->inverse(all(derivative_slots_), out);
 }
 
-void GridStructure::to_points(const Vector& z, Vector& points) const {
-  const Index n = transform_->unknowns(), m = transform_->slots();
-  for (Index f = 0; f * n < points.size(); ++f) transform_->inverse(segment(z, f * m, m), segment(points, f * n, n));
-}
-
-void GridStructure::to_slots(const Vector& points, Vector& z) const {
-  const Index n = transform_->unknowns(), m = transform_->slots();
-  for (Index f = 0; f * n < points.size(); ++f) transform_->forward(segment(points, f * n, n), segment(z, f * m, m));
-}
-
 void GridStructure::apply(const Vector& z, const Vector& w, Vector& out) const {
-  to_points(z, z_);
-  to_points(w, w_);
+  space_.to_physical(z, z_);
+  space_.to_physical(w, w_);
   structure_->apply(
       all(z_), all(w_), [this](std::span<const double> u, std::span<double> du) { differentiate(u, du); }, all(out_));
-  to_slots(out_, out);
+  space_.from_physical(out_, out);
 }
 
 bool GridStructure::without_means(const Vector& z, Vector& d) const {
   if (!structure_->keeps_means()) return false;
   const Index n = transform_->unknowns();
-  to_points(z, z_);
+  space_.to_physical(z, z_);
   for (Index f = 0; f * n < z_.size(); ++f) z_.segment(f * n, n).array() -= z_.segment(f * n, n).mean();
-  to_slots(z_, d);
+  space_.from_physical(z_, d);
   return true;
 }
 

@@ -1,6 +1,7 @@
 // The part of a structure matrix that changes with the state, in whichever coordinates a FieldTransform gives each field.
 #pragma once
 
+#include <seiche/backend/grid_space.hpp>
 #include <seiche/backend/linear_map.hpp>
 #include <seiche/backend/transform.hpp>
 #include <seiche/core/problem.hpp>
@@ -20,11 +21,10 @@ class GridStructure final : public Structure {
 
  private:
   void differentiate(std::span<const double> u, std::span<double> out) const;
-  void to_points(const Vector& z, Vector& points) const;
-  void to_slots(const Vector& points, Vector& z) const;
 
   StructurePointer structure_;
   std::shared_ptr<const FieldTransform> transform_;
+  GridSpace space_;
   std::unique_ptr<LinearMap> derivative_;
   mutable Vector z_, w_, out_;               // at the points, all fields
   mutable Vector slots_, derivative_slots_;  // of one field

@@ -268,14 +268,12 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
     };
   }
   system.damping = std::make_unique<GridDamping>(problem, transform, std::move(constant), std::move(make_flow));
-  std::unique_ptr<LinearMap> derivative;
-  if (!problem.derivative.is_zero()) {
+  add_beyond_linear(system, problem, transform, [&] {
     const Modes modes(problem.grid);
-    derivative = std::make_unique<ModeMap>(modes, 1, [&](Index k) -> Block {
+    return std::make_unique<ModeMap>(modes, 1, [&](Index k) -> Block {
       return Block::Constant(1, 1, problem.derivative.symbol(modes[k]));
     });
-  }
-  add_beyond_linear(system, problem, transform, std::move(derivative));
+  });
   system.initial.resize(system.space->size());
   system.space->from_physical(problem.initial, system.initial);
   return system;

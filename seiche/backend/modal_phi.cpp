@@ -3,7 +3,6 @@
 #include <seiche/backend/mode_phi.hpp>
 #include <seiche/backend/mode_table.hpp>
 #include <seiche/backend/phi_functions.hpp>
-#include <seiche/core/tabulated_phi.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
@@ -189,8 +188,10 @@ auto with_block_type(const Symbols& symbols, const Body& body) {
   return symbols.are_real() ? sized.template operator()<double>() : sized.template operator()<std::complex<double>>();
 }
 
-class ModalPhi final : public TabulatedPhi {
+class ModalPhi final : public PhiEvaluator {
  public:
+  bool has_tables() const override { return true; }
+
   explicit ModalPhi(const ModalOperators& o)
       : symbols_{Modes(o.grid), o.S, o.M, o.D0},
         extent_{.fields = o.S.fields(),

@@ -1,5 +1,6 @@
 #include <seiche/config/auto_method.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/function_ref.hpp>
 #include <seiche/core/momenta.hpp>
 
 #include <algorithm>
@@ -25,39 +26,18 @@ Vector random_state(const System& system) {
   return z;
 }
 
-// L has eigenvalues in pairs ±iω: the growth over two applications.
-double spectral_radius(const System& system) {
-  constexpr int pairs = 20;
-  Vector z = random_state(system), Mz(z.size()), Dz(z.size());
-  const auto apply_L = [&] {
-    system.damping->apply_frozen(z, Dz);
-    system.linear->apply_M(z, Mz);
-    system.linear->apply_S(Mz, z);
-    z -= Dz;
-  };
+// Power iteration with z ← A²z, since the eigenvalues of L come in pairs ±iω.
+double spectral_radius(const System& system, FunctionRef<void(Vector& z)> apply) {
+  constexpr int iterations = 20;
+  Vector z = random_state(system);
   double growth = 0;
-  for (int k = 0; k < pairs; ++k) {
+  for (int k = 0; k < iterations; ++k) {
     const double before = z.norm();
     if (!(before > 0)) return 0;
     z /= before;
-    apply_L();
-    apply_L();
+    apply(z);
+    apply(z);
     growth = std::sqrt(z.norm());
-  }
-  return growth;
-}
-
-double damping_radius(const System& system) {
-  constexpr int applications = 20;
-  Vector z = random_state(system), Dz(z.size());
-  double growth = 0;
-  for (int k = 0; k < applications; ++k) {
-    const double before = z.norm();
-    if (!(before > 0)) return 0;
-    z /= before;
-    system.damping->apply_frozen(z, Dz);
-    growth = Dz.norm();
-    z.swap(Dz);
   }
   return growth;
 }
@@ -93,7 +73,20 @@ std::string collocation_for(double tolerance) {
 }  // namespace
 
 ProblemRates rates_of(const System& system) {
-  return {.linear = spectral_radius(system), .damping = damping_radius(system), .solution = rate_of_solution(system)};
+  Vector Mz(system.space->size()), Dz(system.space->size());
+  const auto apply_L = [&](Vector& z) {
+    system.damping->apply_frozen(z, Dz);
+    system.linear->apply_M(z, Mz);
+    system.linear->apply_S(Mz, z);
+    z -= Dz;
+  };
+  const auto apply_D = [&](Vector& z) {
+    system.damping->apply_frozen(z, Dz);
+    z.swap(Dz);
+  };
+  return {.linear = spectral_radius(system, apply_L),
+          .damping = spectral_radius(system, apply_D),
+          .solution = rate_of_solution(system)};
 }
 
 MethodChoice choose_method(const Problem& problem, const System& system, double tolerance,

@@ -3,9 +3,12 @@
 
 #include <seiche/core/vector.hpp>
 
+#include <array>
 #include <vector>
 
 namespace seiche {
+
+using Place = std::array<double, 3>;  // x, y, z; zero along axes that are not there
 
 enum class Boundary { periodic, dirichlet, neumann };
 
@@ -32,7 +35,8 @@ struct Grid {
   const GridAxis& axis(Index a) const { return axes[static_cast<std::size_t>(a)]; }
   Index unknowns() const;
   double coordinate(Index point, Index a) const;  // of unknown `point` along axis a
-  bool is_periodic() const;                       // along every axis
+  Place place(Index point) const;
+  bool is_periodic() const;  // along every axis
 };
 
 }  // namespace seiche

@@ -83,8 +83,7 @@ OperatorFindings look_at_modes(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
   const bool has_constant = problem.has_constant_damping();
   const bool has_rate = damping.rate || damping.field_rate;
-  AnyBlock projector = AnyBlock::Zero(m, m);
-  for (Index i = 0; has_rate && i < m; ++i) projector(i, i) = damping.rate_fields[static_cast<std::size_t>(i)] ? 1 : 0;
+  const AnyBlock projector = has_rate ? AnyBlock(rate_symbol(problem)) : AnyBlock();
 
   Scan<AnyBlock> metric(m, modes.count()), structure(m, modes.count());
   Scan<AnyBlock> constant(m, has_constant ? modes.count() : 0), rate(m, has_rate ? modes.count() : 0);

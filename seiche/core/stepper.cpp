@@ -1,15 +1,36 @@
 #include <seiche/core/stepper.hpp>
 
+#include <array>
+
 namespace seiche {
 
+std::span<const LedgerPart> ledger_parts() {
+  using L = StepLedger;
+  static constexpr std::array parts = {
+      LedgerPart{"work", &L::work},
+      LedgerPart{"damping_left", &L::damping_left},
+      LedgerPart{"substep", &L::substep},
+      LedgerPart{"scalar", &L::scalar},
+      LedgerPart{"auxiliary", &L::auxiliary},
+      LedgerPart{"projection", &L::projection},
+      LedgerPart{"damping_right", &L::damping_right},
+  };
+  return parts;
+}
+
+double StepLedger::sum() const {
+  double sum = 0;
+  for (const LedgerPart& part : ledger_parts()) sum += this->*part.value;
+  return sum;
+}
+
 StepLedger& StepLedger::operator+=(const StepLedger& other) {
-  work += other.work;
-  damping_left += other.damping_left;
-  substep += other.substep;
-  scalar += other.scalar;
-  auxiliary += other.auxiliary;
-  projection += other.projection;
-  damping_right += other.damping_right;
+  for (const LedgerPart& part : ledger_parts()) this->*part.value += other.*part.value;
+  return *this;
+}
+
+StepLedger& StepLedger::operator-=(const StepLedger& other) {
+  for (const LedgerPart& part : ledger_parts()) this->*part.value -= other.*part.value;
   return *this;
 }
 

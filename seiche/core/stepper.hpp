@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace seiche {
 
@@ -23,9 +25,17 @@ struct StepLedger {
   double projection = 0.0;     // onto the energy of the law
   double damping_right = 0.0;  // the second damping half-flow
 
-  double sum() const { return work + damping_left + substep + scalar + auxiliary + projection + damping_right; }
+  double sum() const;
   StepLedger& operator+=(const StepLedger& other);
+  StepLedger& operator-=(const StepLedger& other);
 };
+
+// Its parts, in the order of the columns of energy.csv.
+struct LedgerPart {
+  std::string_view name;
+  double StepLedger::*value;
+};
+std::span<const LedgerPart> ledger_parts();
 
 struct StepReport {
   enum class Status { solved, failed };

@@ -61,11 +61,7 @@ class UniformFieldRate final : public FieldRate {
 class FormulaFieldRate final : public FieldRate {
  public:
   FormulaFieldRate(FormulaPointer formula, const Grid& grid) : formula_(std::move(formula)) {
-    for (Index j = 0; j < grid.unknowns(); ++j) {
-      Place place{};
-      for (Index a = 0; a < grid.dimension(); ++a) place[static_cast<std::size_t>(a)] = grid.coordinate(j, a);
-      places_.push_back(place);
-    }
+    for (Index j = 0; j < grid.unknowns(); ++j) places_.push_back(grid.place(j));
   }
 
   void values(double t, std::span<double> gamma) const override {
@@ -97,8 +93,6 @@ class FormulaFieldRate final : public FieldRate {
   std::string text() const override { return formula_->text(); }
 
  private:
-  using Place = std::array<double, 3>;
-
   double value(double t, const Place& place) const {
     const std::array<double, 4> arguments = {t, place[0], place[1], place[2]};
     const double gamma = (*formula_)(arguments);

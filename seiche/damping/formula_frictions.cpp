@@ -28,11 +28,7 @@ std::vector<double> sizes_to_try(bool matters) {
 class FormulaFriction : public Friction {
  public:
   FormulaFriction(FrictionFormula formula, const Grid& grid) : f_(std::move(formula)) {
-    for (Index j = 0; j < grid.unknowns(); ++j) {
-      std::array<double, 3> place{};
-      for (Index a = 0; a < grid.dimension(); ++a) place[static_cast<std::size_t>(a)] = grid.coordinate(j, a);
-      places_.push_back(place);
-    }
+    for (Index j = 0; j < grid.unknowns(); ++j) places_.push_back(grid.place(j));
   }
 
   void force(double t, std::span<const double> q, std::span<const double> v, std::span<double> r) const override {
@@ -70,7 +66,6 @@ class FormulaFriction : public Friction {
   }
 
  protected:
-  using Place = std::array<double, 3>;
   virtual std::vector<double> speeds_to_try() const { return sizes_to_try(true); }
   // R at one point.
   virtual double rate(double t, double u, double v, const Place& place) const = 0;

@@ -8,6 +8,12 @@
 
 namespace seiche {
 
+// May ẑ be a solution? `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN.
+inline bool may_be_solution(const Vector& z, double size) {
+  constexpr double gross_growth = 1e3;
+  return z.norm() <= gross_growth * size;
+}
+
 class BaseStep {
  public:
   virtual ~BaseStep() = default;

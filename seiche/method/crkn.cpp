@@ -9,8 +9,6 @@
 namespace seiche {
 namespace {
 
-constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| + h|S∇V(uⁿ)| is no solution
-
 class Nystrom : public BaseStep {
  public:
   Nystrom(const System& system, const PhiEvaluator& phi, int order)
@@ -37,7 +35,7 @@ class Nystrom : public BaseStep {
       taken_ += flow(i, z);
       kick(scheme_.b[i + 1] * h, z);
     }
-    return z.norm() <= gross_growth * size;  // false for NaN
+    return may_be_solution(z, size);
   }
 
   std::string_view failure() const override { return "the Runge–Kutta–Nyström splitting left the numbers"; }

@@ -1,5 +1,4 @@
 #include <seiche/core/step_cache.hpp>
-#include <seiche/core/tabulated_phi.hpp>
 #include <seiche/method/collocation_weights.hpp>
 #include <seiche/method/continuous_extension.hpp>
 #include <seiche/method/egc.hpp>
@@ -17,14 +16,12 @@
 namespace seiche {
 namespace {
 
-constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| + h|F|, with F as predicted, is no solution
-
 class Collocation final : public AdaptiveStepper, private BaseStep {
  public:
   Collocation(const System& system, int stages, EnergyLaw law)
       : system_(system),
         phi_(system.make_phi()),
-        may_save_sweeps_(stages > 2 && dynamic_cast<const TabulatedPhi*>(phi_.get()) != nullptr),
+        may_save_sweeps_(stages > 2 && phi_->has_tables()),
         force_(system),
         rule_(stages),
         output_{.forces = stages,
@@ -187,7 +184,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       dissipation_.add(t + rule_.nodes[at] * h, seen_[i].node, seen_[i].gradient, h * rule_.weights[at], coarse_);
     }
     of_h.end->apply(s.z, forces_, {&z, 1});
-    return z.norm() <= gross_growth * size;  // false for NaN
+    return may_be_solution(z, size);
   }
 
   std::string_view failure() const override { return "the collocation equations were not solved"; }

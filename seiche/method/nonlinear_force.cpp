@@ -3,11 +3,12 @@
 namespace seiche {
 
 NonlinearForce::NonlinearForce(const System& system)
-    : system_(system),
-      kind_(system.damping->is_frozen() && !system.force && !system.structure ? PhiRows::Forces::gradients
-                                                                              : PhiRows::Forces::states),
-      gradient_(Vector::Zero(system.space->size())),
-      rest_(gradient_) {
+    : NonlinearForce(system, system.damping->is_frozen() && !system.force && !system.structure
+                                 ? PhiRows::Forces::gradients
+                                 : PhiRows::Forces::states) {}
+
+NonlinearForce::NonlinearForce(const System& system, PhiRows::Forces kind)
+    : system_(system), kind_(kind), gradient_(Vector::Zero(system.space->size())), rest_(gradient_) {
   if (system.structure) gradient_H_ = turned_ = gradient_;
 }
 

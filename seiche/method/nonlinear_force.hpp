@@ -9,7 +9,8 @@ namespace seiche {
 // N(t, z) = S∇V − (D(t) − D₀)z − R(t, z) + f(t) + (S(z) − S)∇H; or, where that is S∇V, only ∇V(z): then φ-maps multiply by S.
 class NonlinearForce {
  public:
-  explicit NonlinearForce(const System& system);  // which outlives it
+  explicit NonlinearForce(const System& system);               // which outlives it
+  NonlinearForce(const System& system, PhiRows::Forces kind);  // states: always N itself
 
   PhiRows::Forces kind() const { return kind_; }  // what PhiRows is to say of these forces
 

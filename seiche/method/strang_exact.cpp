@@ -1,17 +1,17 @@
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/momentum_form.hpp>
+#include <seiche/method/nonlinear_force.hpp>
 #include <seiche/method/strang_exact.hpp>
 
 namespace seiche {
 namespace {
-
-constexpr double gross_growth = 1e3;  // |ẑ| beyond this many |zⁿ| + h|N| is no solution
 
 class StrangExact final : public BaseStep {
  public:
   StrangExact(const System& system, const PhiEvaluator& phi)
       : system_(system),
         phi_(phi),
+        force_(system, PhiRows::Forces::states),
         kind_(StepDissipation::kind_of(system, phi)),
         is_kick_(system.damping->is_frozen() && momentum_form(system).kicks &&
                  !(system.force && system.force->touches_potential())),
@@ -31,7 +31,7 @@ class StrangExact final : public BaseStep {
     }
     middle_ = z + h * rate_;
     half.apply(middle_, {}, {&z, 1});
-    return z.norm() <= gross_growth * size;  // false for NaN
+    return may_be_solution(z, size);
   }
 
   std::string_view failure() const override { return "the splitting left the numbers"; }
@@ -49,12 +49,8 @@ class StrangExact final : public BaseStep {
  private:
   // rate_ ← N(z) at time t
   void evaluate(double t, const Vector& z) {
-    system_.potential->gradient(z, gradient_);
-    system_.linear->apply_S(gradient_, rate_);
-    if (system_.force) system_.force->add(t, 1, rate_);
-    if (system_.damping->is_frozen()) return;
-    system_.damping->apply_rest(t, z, rest_);
-    rate_ -= rest_;
+    rate_ = z;
+    force_.evaluate(t, rate_);
   }
 
   void add_end(double t, const Vector& z, double weight, StepDissipation::Amount& amount) {
@@ -67,6 +63,7 @@ class StrangExact final : public BaseStep {
 
   const System& system_;
   const PhiEvaluator& phi_;
+  NonlinearForce force_;
   StepDissipation::Kind kind_;
   bool is_kick_;
   StepCache<PhiMap> halves_;  // e^{hL/2}

@@ -6,9 +6,12 @@ namespace seiche {
 
 EnergyTrace::EnergyTrace(const std::filesystem::path& path, bool has_modified_energy, Schedule schedule, bool ledger)
     : file_(path), has_modified_energy_(has_modified_energy), has_ledger_(ledger), schedule_(schedule) {
-  file_.write(
-      fmt::format("t,H{}{}\n", has_modified_energy ? ",H_modified" : "",
-                  ledger ? ",work,damping_left,substep,scalar,auxiliary,projection,damping_right,round_off" : ""));
+  std::string header = has_modified_energy ? "t,H,H_modified" : "t,H";
+  if (ledger) {
+    for (const LedgerPart& part : ledger_parts()) header += fmt::format(",{}", part.name);
+    header += ",round_off";
+  }
+  file_.write(header + "\n");
 }
 
 void EnergyTrace::observe(const State& state, const EnergyReading& energy) {
@@ -23,18 +26,10 @@ void EnergyTrace::observe(const State& state, const EnergyReading& energy) {
 void EnergyTrace::add_ledger(const EnergyReading& energy) {
   if (is_first_) last_ = energy;
   is_first_ = false;
-  const StepLedger& now = energy.ledger;
-  const StepLedger& before = last_.ledger;
-  StepLedger change{.work = now.work - before.work,
-                    .damping_left = now.damping_left - before.damping_left,
-                    .substep = now.substep - before.substep,
-                    .scalar = now.scalar - before.scalar,
-                    .auxiliary = now.auxiliary - before.auxiliary,
-                    .projection = now.projection - before.projection,
-                    .damping_right = now.damping_right - before.damping_right};
-  for (const double part : {change.work, change.damping_left, change.substep, change.scalar, change.auxiliary,
-                            change.projection, change.damping_right, (energy.H - last_.H) - change.sum()})
-    row_.add(part);
+  StepLedger change = energy.ledger;
+  change -= last_.ledger;
+  for (const LedgerPart& part : ledger_parts()) row_.add(change.*part.value);
+  row_.add((energy.H - last_.H) - change.sum());
   last_ = energy;
 }
 

@@ -9,14 +9,6 @@
 namespace seiche {
 namespace {
 
-using Place = std::array<double, 3>;
-
-Place place_of(const Grid& grid, Index point) {
-  Place x{};
-  for (Index a = 0; a < grid.dimension(); ++a) x[static_cast<std::size_t>(a)] = grid.coordinate(point, a);
-  return x;
-}
-
 double speed_squared(const VariableWave& options, const Place& x) {
   const double c = options.speed ? options.speed(x) : 1.0;
   if (!(c > 0) || !std::isfinite(c)) throw Error("the wave speed c = {} at x = {:.6g} must be > 0", c, x[0]);
@@ -33,9 +25,9 @@ SparseMatrix stiffness(const VariableWave& options, const Grid& grid) {
     const GridAxis& axis = grid.axis(a);
     const double to_axis = 1 / square(axis.dx());
     const auto face = [&](Index i, double offset) {
-      Place beside = place_of(grid, i);
+      Place beside = grid.place(i);
       beside[static_cast<std::size_t>(a)] += offset;
-      const double here = speed_squared(options, place_of(grid, i));
+      const double here = speed_squared(options, grid.place(i));
       if (axis.boundary == Boundary::periodic) {  // back to where the points are, 0 < x ≤ L
         double& x = beside[static_cast<std::size_t>(a)];
         if (x < 0.5 * axis.dx()) x += axis.length;

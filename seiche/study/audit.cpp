@@ -155,9 +155,9 @@ class Auditor {
     if (!energy_.has("damping_left"))
       return add(claim, Verdict::not_checked, "the run kept none; output.ledger = \"on\" does");
     std::vector<std::vector<double>> columns;
-    for (const char* name :
-         {"work", "damping_left", "substep", "scalar", "auxiliary", "projection", "damping_right", "round_off"})
-      if (energy_.has(name)) columns.push_back(energy_.column(name));  // older runs have fewer
+    for (const LedgerPart& part : ledger_parts())
+      if (energy_.has(std::string(part.name))) columns.push_back(energy_.column(std::string(part.name)));
+    columns.push_back(energy_.column("round_off"));
     double worst = 0;
     double unexplained = 0;
     double total = 0;

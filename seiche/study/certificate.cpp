@@ -68,11 +68,8 @@ Hypothesis hypothesis_of_forces(const Problem& problem) {
 }
 
 // wᵀS(z)w = 0 for random z and w, as far as round-off lets one see.
-Hypothesis hypothesis_of_structure(const Problem& problem, const CertificateOptions& options) {
+Hypothesis hypothesis_of_structure(const Problem& problem, const System& system) {
   const std::string name = "S(z) skew";
-  std::optional<Simulation> own;
-  if (options.at_start == nullptr) own.emplace(problem, SimulationOptions{.method = options.method});
-  const System& system = own ? own->system() : options.at_start->system();
   const Index n = system.space->physical_size();
   Vector z(system.space->size()), w(z), out(z), values(n);
   std::mt19937_64 random(1);
@@ -153,12 +150,8 @@ Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOpti
   return sampled_condition(problem, options.t_end, name);
 }
 
-Hypothesis hypothesis_of_margin(const Problem& problem, const CertificateOptions& options) {
+Hypothesis hypothesis_of_margin(const Simulation& simulation) {
   const std::string name = "V + C > 0";
-  std::optional<Simulation> own;
-  if (options.at_start == nullptr)
-    own.emplace(problem, SimulationOptions{.method = options.method, .method_options = options.method_options});
-  const Simulation& simulation = own ? *own : *options.at_start;
   const State& s = simulation.state();
   const double V = simulation.system().potential->value(s.z);
   return {
@@ -203,8 +196,15 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   list.push_back(hypothesis_of_commuting(problem));
   if (problem.friction) list.push_back(hypothesis_of_friction(problem, options.t_end));
   if (problem.has_forces()) list.push_back(hypothesis_of_forces(problem));
-  if (problem.structure) list.push_back(hypothesis_of_structure(problem, options));
-  if (method.closure == ClosureKind::sav) list.push_back(hypothesis_of_margin(problem, options));
+  std::optional<Simulation> own;
+  const auto at_start = [&]() -> const Simulation& {
+    if (options.at_start != nullptr) return *options.at_start;
+    if (!own)
+      own.emplace(problem, SimulationOptions{.method = options.method, .method_options = options.method_options});
+    return *own;
+  };
+  if (problem.structure) list.push_back(hypothesis_of_structure(problem, at_start().system()));
+  if (method.closure == ClosureKind::sav) list.push_back(hypothesis_of_margin(at_start()));
   const bool bent = std::any_of(list.begin(), list.end(), [](const Hypothesis& h) {
     return h.name == "S(z) skew" && h.grade == Grade::violated;
   });
