@@ -22,8 +22,9 @@ LineStyle style_of(const Curve& curve, int index) {
   using enum Marker;
   using enum Dash;
   if (curve.origin == Origin::seiche) {
-    LineStyle line = method_line(curve.peer);
+    LineStyle line = method_line(curve.peer.substr(0, curve.peer.find(' ')));
     line.width = std::max(line.width, 1.3);
+    if (curve.rows.front()->sweep == Sweep::tolerance) line.dash = dash_dotted;
     line.size = 0.9;
     return line;
   }

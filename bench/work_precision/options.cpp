@@ -1,7 +1,7 @@
 #include <bench/work_precision/options.hpp>
+#include <bench/work_precision/seiche_peers.hpp>
 #include <bench/work_precision/test_problems.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/method/methods.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -34,7 +34,7 @@ const char* const usage =
     "seiche_work_precision: error against CPU time, Seiche's methods beside other integrators\n"
     "  --out DIR         where work_precision.csv, index.html and figures/ go (out/work_precision)\n"
     "  --problem LIST    of kg20,kg4096,kgs,kg2d,fpu,gkdv (all)\n"
-    "  --method LIST     of Seiche's methods (all that apply); peers are always measured\n"
+    "  --method LIST     of Seiche's methods (all that apply), as egc6, \"crkn6 explicit\", \"auto by tolerance\"\n"
     "  --quick           every second step size, short runs only: for trying\n"
     "  --repeats N       timed runs of which the median is taken (5)\n"
     "  --cap SECONDS     runs expected to take longer are skipped, and the table says so (1; quick 0.05)\n"
@@ -76,7 +76,11 @@ Options Options::parse(const std::vector<std::string>& arguments) {
   for (const std::string& key : options.problems) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) throw unknown_name("problem", key, keys);
   }
-  for (const std::string& method : options.methods) find_method(method);
+  const std::vector<std::string> of_seiche = seiche_peer_names();
+  for (const std::string& method : options.methods) {
+    if (std::find(of_seiche.begin(), of_seiche.end(), method) == of_seiche.end())
+      throw unknown_name("method", method, of_seiche);
+  }
   if (options.problems.empty()) options.problems = keys;
   return options;
 }

@@ -1,6 +1,7 @@
 #include <bench/work_precision/seiche_peers.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/run/adaptive.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +9,40 @@
 namespace seiche::bench {
 namespace {
 
-SimulationOptions options_of(const std::string& method) {
-  return {.method = method, .backend_options = {.measure_plans = true}};
+struct Variant {
+  std::string name, method;
+  LinearTreatment linear = LinearTreatment::exact;
+  Sweep sweep = Sweep::step_size;
+};
+
+std::vector<Variant> variants() {
+  std::vector<Variant> all;
+  for (const std::string& name : method_names()) all.push_back({.name = name, .method = name});
+  for (const char* method : {"crkn4", "crkn6"})
+    all.push_back(
+        {.name = fmt::format("{} explicit", method), .method = method, .linear = LinearTreatment::explicit_kicks});
+  for (const char* method : {"egc4", "egc6", "egc8", "etdrk4", "crkn4", "crkn6", "auto"})
+    all.push_back({.name = fmt::format("{} by tolerance", method), .method = method, .sweep = Sweep::tolerance});
+  return all;
+}
+
+SimulationOptions options_of(const Variant& variant, double parameter) {
+  SimulationOptions options{.method = variant.method, .backend_options = {.measure_plans = true}};
+  options.method_options.linear = variant.linear;
+  if (variant.sweep == Sweep::step_size) return options;
+  options.variable_steps = true;
+  options.tolerance = parameter;
+  return options;
 }
 
 class SeicheRun : public Run {
  public:
-  SeicheRun(const Problem& problem, const std::string& method, double h)
-      : simulation_(problem, options_of(method)), h_(h), has_own_(simulation_.stepper().has_modified_energy()) {
-    simulation_.step(h);  // builds the propagators
+  SeicheRun(const Problem& problem, const Variant& variant, double parameter)
+      : simulation_(problem, options_of(variant, parameter)),
+        sweep_(variant.sweep),
+        parameter_(parameter),
+        has_own_(simulation_.stepper().has_modified_energy()) {
+    if (sweep_ == Sweep::step_size) simulation_.step(parameter);  // builds the propagators
     restart();
   }
 
@@ -26,11 +52,8 @@ class SeicheRun : public Run {
   }
 
   std::string advance(double t) override {
-    const std::int64_t last = std::llround(t / h_);
-    while (simulation_.state().n < last) {
-      const StepReport report = simulation_.step(h_);
-      if (!report.solved()) return report.message;
-    }
+    const std::string failure = sweep_ == Sweep::step_size ? take_equal_steps(t) : take_fitting_steps(t);
+    if (!failure.empty()) return failure;
     return simulation_.state().z.allFinite() ? "" : "not finite";
   }
 
@@ -62,15 +85,32 @@ class SeicheRun : public Run {
   }
 
  private:
+  std::string take_equal_steps(double t) {
+    const std::int64_t last = std::llround(t / parameter_);
+    while (simulation_.state().n < last) {
+      const StepReport report = simulation_.step(parameter_);
+      if (!report.solved()) return report.message;
+    }
+    return "";
+  }
+
+  std::string take_fitting_steps(double t) {
+    const RunReport report = integrate_adaptive(simulation_.system(), simulation_.adaptive_stepper(),
+                                                simulation_.state(), {.tolerance = parameter_, .t_end = t});
+    return report.status == RunReport::Status::success ? "" : report.message;
+  }
+
   Simulation simulation_;
-  double h_;
+  Sweep sweep_;
+  double parameter_;  // h or the tolerance
   bool has_own_;
   std::int64_t gradients_before_ = 0;
 };
 
-bool method_applies(const Problem& problem, const std::string& method) {
+bool applies(const Problem& problem, const Variant& variant) {
+  constexpr double any_tolerance = 1e-6;
   try {
-    const Simulation simulation(problem, {.method = method});
+    const Simulation simulation(problem, options_of(variant, any_tolerance));
     return true;
   } catch (const Error&) {
     return false;
@@ -79,19 +119,25 @@ bool method_applies(const Problem& problem, const std::string& method) {
 
 }  // namespace
 
+std::vector<std::string> seiche_peer_names() {
+  std::vector<std::string> names;
+  for (const Variant& variant : variants()) names.push_back(variant.name);
+  return names;
+}
+
 std::vector<Peer> seiche_peers(const TestProblem& test) {
   std::vector<Peer> peers;
-  for (const MethodEntry& method : methods()) {
-    const std::string name(method.name);
-    if (!method_applies(test.problem, name)) continue;
-    peers.push_back({.name = name,
-                     .library = "Seiche",
-                     .origin = Origin::seiche,
-                     .sweep = Sweep::step_size,
-                     .applies = any_equation,
-                     .make = [problem = test.problem, name](const Equation&, double h) -> std::unique_ptr<Run> {
-                       return std::make_unique<SeicheRun>(problem, name, h);
-                     }});
+  for (const Variant& variant : variants()) {
+    if (!applies(test.problem, variant)) continue;
+    peers.push_back(
+        {.name = variant.name,
+         .library = "Seiche",
+         .origin = Origin::seiche,
+         .sweep = variant.sweep,
+         .applies = any_equation,
+         .make = [problem = test.problem, variant](const Equation&, double parameter) -> std::unique_ptr<Run> {
+           return std::make_unique<SeicheRun>(problem, variant, parameter);
+         }});
   }
   return peers;
 }
