@@ -45,6 +45,22 @@ TEST(Allocation, NoStepOfAnyMethodAllocates) {
   }
 }
 
+TEST(Allocation, NorDoesOneByKicksAlone) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer owns malloc";
+#endif
+  SimulationOptions options{.method = "crkn6"};
+  options.method_options.linear = LinearTreatment::explicit_kicks;
+  for (const char* backend : {"dense", "modal", "sparse"}) {
+    options.backend = backend;
+    Simulation simulation(klein_gordon_case(), options);
+    for (int n = 0; n < 64; ++n) simulation.step(1.0 / 64);
+    const long before = allocations;
+    for (int n = 0; n < 64; ++n) simulation.step(1.0 / 64);
+    EXPECT_EQ(allocations - before, 0) << backend;
+  }
+}
+
 TEST(Allocation, TheCounterCounts) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the address sanitizer owns malloc";

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace seiche::test {
 namespace {
@@ -60,6 +61,23 @@ TEST(AutoMethod, KeepsStiffDampingOutOfBackwardFlows) {
   EXPECT_EQ(Simulation(fpu_conservative_case(0.5, 0.01), {.method = "auto", .tolerance = 1e-6}).method().name, "crkn4");
   const Simulation stiff(fpu_conservative_case(0.5, 10.0), {.method = "auto", .tolerance = 1e-6});
   EXPECT_EQ(stiff.method().composition, Composition::collocation) << stiff.reason();
+}
+
+TEST(AutoMethod, KicksByAllForcesWhereNothingIsStiff) {
+  const auto chosen = [](double length, double tolerance) {
+    Problem p = klein_gordon({.grid = {.points = {256}, .length = {length}}, .alpha = 1.0});
+    for (Index j = 0; j < 256; ++j) p.initial[j] = std::cos(2 * std::numbers::pi * p.grid.coordinate(j, 0) / length);
+    p.initial.tail(256).setZero();
+    return std::make_unique<Simulation>(p, SimulationOptions{.method = "auto", .tolerance = tolerance});
+  };
+  const auto slow = chosen(50.0, 1e-6);
+  EXPECT_EQ(slow->method_options().linear, LinearTreatment::explicit_kicks) << slow->reason();
+  EXPECT_EQ(slow->backend(), "sparse");
+  const auto stiff = chosen(0.5, 1e-6);
+  EXPECT_EQ(stiff->method_options().linear, LinearTreatment::exact) << stiff->reason();
+  EXPECT_EQ(stiff->backend(), "modal");
+  const auto of_one_size = chosen(50.0, 0);
+  EXPECT_EQ(of_one_size->method_options().linear, LinearTreatment::exact) << of_one_size->reason();
 }
 
 TEST(AutoMethod, TakesHigherOrdersForSmallerTolerances) {

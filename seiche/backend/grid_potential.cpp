@@ -16,6 +16,7 @@ GridPotential::GridPotential(std::shared_ptr<const PointwisePotential> pointwise
 std::span<const double> GridPotential::values_of(const Vector& z, Vector& values) const {
   const Index n = transform_->unknowns();
   const Index slots = transform_->slots();
+  if (transform_->is_identity()) return segment(z, support_.begin, support_.size);
   for (Index f = 0; f < pointwise_->fields(); ++f)
     transform_->inverse(segment(z, support_.begin + f * slots, slots), segment(values, f * n, n));
   return all(values);

@@ -1,5 +1,6 @@
 #include <seiche/backend/beyond_linear.hpp>
 #include <seiche/backend/grid_damping.hpp>
+#include <seiche/backend/grid_kicks.hpp>
 #include <seiche/backend/grid_potential.hpp>
 #include <seiche/backend/grid_space.hpp>
 #include <seiche/backend/sparse.hpp>
@@ -7,6 +8,7 @@
 #include <seiche/backend/sparse_linear.hpp>
 #include <seiche/backend/sparse_phi.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/momenta.hpp>
 
 namespace seiche {
 namespace {
@@ -19,6 +21,15 @@ SparseMatrix matrix_of(const Problem& problem, const AnyStencil& stencil) {
     throw Error("the sparse backend does not take {}: {}; use discretisation \"fd2\" or \"fd4\", or backend \"modal\"",
                 problem.name, error.what());
   }
+}
+
+// For q̇ = p, ṗ = −Kq − ∇V(q), with V of no field, or of all positions.
+std::unique_ptr<Kicks> kicks_of(const Problem& problem, const SparseMatrix& M, const Potential& potential) {
+  const std::optional<Momenta> p = momenta(problem);
+  if (!p || p->inverse_mass != 1) return nullptr;
+  if (problem.potential && problem.potential->fields() != p->count) return nullptr;
+  const Index n = problem.size() / 2;
+  return grid_kicks(M.topLeftCorner(n, n), problem.potential, potential);
 }
 
 }  // namespace
@@ -39,6 +50,8 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
                                                           matrix_of(problem, problem.damping.constant)});
   const SparseOperators& matrices = *shared;
   system.linear = sparse_linear_part(matrices.S, matrices.M, system.potential->support(), options.sparse);
+
+  system.kicks = kicks_of(problem, matrices.M, *system.potential);
 
   const auto D0 = std::make_shared<const SparseMatrix>(
       problem.matrices ? frozen_damping_matrix(problem) : frozen_damping(problem).sparse_matrix(problem.grid));

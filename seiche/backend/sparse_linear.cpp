@@ -1,3 +1,4 @@
+#include <seiche/backend/equal_rows.hpp>
 #include <seiche/backend/lanczos.hpp>
 #include <seiche/backend/pade.hpp>
 #include <seiche/backend/sparse_linear.hpp>
@@ -71,6 +72,7 @@ class SparseLinear final : public LinearPart {
   SparseLinear(Operators operators, const SparseOptions& options)
       : operators_(std::move(operators)),
         options_(options),
+        rows_of_M_(EqualRows::of(operators_.M)),
         radius_(spectral_radius_bound(operators_.S * operators_.M)),
         scratch_(operators_.S.rows()) {
     if (options.exponential == ExponentialKind::lanczos)
@@ -78,14 +80,25 @@ class SparseLinear final : public LinearPart {
   }
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = operators_.S * z; }
-  void apply_M(const Vector& z, Vector& out) const override { out.noalias() = operators_.M * z; }
+  void apply_M(const Vector& z, Vector& out) const override {
+    if (rows_of_M_)
+      rows_of_M_->apply(z, out);
+    else
+      out.noalias() = operators_.M * z;
+  }
   double quadratic_energy(const Vector& z) const override {
+    if (rows_of_M_) return rows_of_M_->form(z) / 2;
     scratch_.noalias() = operators_.M * z;
     return z.dot(scratch_) / 2;
   }
   double quadratic_magnitude(const Vector& z) const override {
     scratch_.noalias() = operators_.absolute_M * z.cwiseAbs();
     return z.cwiseAbs().dot(scratch_) / 2;
+  }
+  ValueAndMagnitude quadratic(const Vector& z) const override {
+    if (!rows_of_M_) return LinearPart::quadratic(z);
+    const auto [value, magnitude] = rows_of_M_->form_and_magnitude(z);
+    return {value / 2, magnitude / 2};
   }
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
     if (kind == PropagatorKind::cayley) {
@@ -123,6 +136,7 @@ class SparseLinear final : public LinearPart {
 
   Operators operators_;
   SparseOptions options_;
+  std::optional<EqualRows> rows_of_M_;                 // nothing where coefficients change from point to point
   mutable std::unique_ptr<ResolventFactory> factory_;  // when first asked for: Lanczos needs none
   mutable double factor_bytes_ = -1;                   // likewise
   double radius_;

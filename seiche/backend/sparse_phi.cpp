@@ -177,8 +177,11 @@ class SparsePhi final : public PhiEvaluator {
     if (!Q_) {
       const SparseMatrix& M = operators_->M;
       const SparseMatrix of_D = symmetric_part(SparseMatrix(M * *D0_));
-      const SparseMatrix of_S = SparseMatrix(M * symmetric_part(operators_->S)) * M;
-      Q_ = std::make_shared<const SparseMatrix>(of_D - of_S);
+      const SparseMatrix sym_S = symmetric_part(operators_->S);
+      SparseMatrix Q = of_D;
+      if (has_entries(sym_S, {0, common_->size()})) Q -= SparseMatrix(M * sym_S) * M;
+      Q.prune(0.0);  // what is stored and zero would still fill the factors of Q
+      Q_ = std::make_shared<const SparseMatrix>(std::move(Q));
     }
     return Q_;
   }

@@ -12,6 +12,7 @@ class IdentityTransform final : public FieldTransform {
   explicit IdentityTransform(Index n) : n_(n) {}
   Index unknowns() const override { return n_; }
   Index slots() const override { return n_; }
+  bool is_identity() const override { return true; }
   void to_slots(std::span<const double> values, std::span<double> slots) const override {
     std::copy(values.begin(), values.end(), slots.begin());
   }

@@ -14,6 +14,7 @@ class FieldTransform {
   virtual ~FieldTransform() = default;
   virtual Index unknowns() const = 0;  // values per field
   virtual Index slots() const = 0;     // coordinates per field, some of which may always be zero
+  virtual bool is_identity() const { return false; }
 
   void forward(std::span<const double> values, std::span<double> slots) const;
   void inverse(std::span<const double> slots, std::span<double> values) const;

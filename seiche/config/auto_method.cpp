@@ -12,6 +12,7 @@ namespace {
 
 // Where the curves of time against tolerance cross (docs/performance.md, The choice of "auto"); they are flat there.
 constexpr double stiff_damping = 12;          // times the rate of the solution: backward flows e^{−|a|hD} would grow
+constexpr double stiff_kicks = 10;            // times the rate of the solution: kicks would be bound by their stability
 constexpr double rough_tolerance = 3e-5;      // collocation above it: order four
 constexpr double fine_tolerance = 3e-8;       // collocation below it: order eight
 constexpr double nystrom_tolerance = 1.5e-7;  // Nyström splittings above it: order four, below it six
@@ -66,6 +67,16 @@ double rate_of_solution(const System& system) {
   return std::sqrt(derivative_along(derivative_along(f)).norm() / speed);
 }
 
+// D = γ(t)P with P the projector on all momenta?
+bool damps_momenta_alike(const Problem& problem) {
+  if (problem.has_constant_damping() || problem.damping.field_rate) return false;
+  if (!problem.damping.rate) return true;
+  const std::optional<Momenta> p = momenta(problem);
+  for (Index i = 0; p && i < problem.field_count(); ++i)
+    if (problem.damping.rate_fields[static_cast<std::size_t>(i)] != (i >= p->first)) return false;
+  return p.has_value();
+}
+
 std::string collocation_for(double tolerance) {
   return tolerance > rough_tolerance ? "egc4" : tolerance > fine_tolerance ? "egc6" : "egc8";
 }
@@ -89,8 +100,8 @@ ProblemRates rates_of(const System& system) {
           .solution = rate_of_solution(system)};
 }
 
-MethodChoice choose_method(const Problem& problem, const System& system, double tolerance,
-                           const MethodOptions& options) {
+MethodChoice choose_method(const Problem& problem, const System& system, double tolerance, const MethodOptions& options,
+                           bool by_kicks) {
   const double wanted = tolerance > 0 ? tolerance : 1e-6;
   MethodChoice choice{.method = collocation_for(wanted), .options = options, .reason = {}};
   const ProblemRates rates = rates_of(system);
@@ -113,6 +124,14 @@ MethodChoice choose_method(const Problem& problem, const System& system, double 
                        system.damping->is_frozen() && !system.damping->touches_potential();
   if (nystrom && rates.damping <= stiff_damping * rates.solution) {
     choice.method = wanted > nystrom_tolerance ? "crkn4" : "crkn6";
+    // The size of a step of one size is the user's, and may be beyond what is stable.
+    if (by_kicks && tolerance > 0 && damps_momenta_alike(problem) && rates.linear <= stiff_kicks * rates.solution) {
+      choice.options.linear = LinearTreatment::explicit_kicks;
+      choice.reason =
+          fmt::format("{} with linear = \"explicit\" ({}): {}; nothing is stiff, and kicks by all forces cost least",
+                      choice.method, accuracy, seen);
+      return choice;
+    }
     choice.reason =
         fmt::format("{} ({}): {}; kicks between exact linear flows cost least where damping acts on momenta alone",
                     choice.method, accuracy, seen);

@@ -18,8 +18,9 @@ Problem as_integrated(const MethodEntry& method, const Problem& problem) {
 
 bool is_automatic(const SimulationOptions& options) { return options.method == "auto"; }
 
-const BackendEntry& choose_backend(const std::string& name, const Problem& problem) {
-  return name == "auto" ? automatic_backend(problem) : find_backend(name);
+const BackendEntry& choose_backend(const std::string& name, const Problem& problem, const MethodOptions& options) {
+  const bool by_kicks = options.linear == LinearTreatment::explicit_kicks;
+  return name == "auto" ? automatic_backend(problem, by_kicks) : find_backend(name);
 }
 
 void require_memory(const MethodEntry& method, const Problem& problem, bool variable_steps) {
@@ -36,15 +37,21 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
     : method_(is_automatic(options) ? nullptr : &find_method(options.method)),
       problem_(method_ != nullptr ? as_integrated(*method_, problem) : problem),
       method_options_(options.method_options) {
-  const BackendEntry& backend = choose_backend(options.backend, problem_);
+  const BackendEntry& backend = choose_backend(options.backend, problem_, method_options_);
   backend_name_ = backend.name;
   if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps);
   system_ = backend.system(problem_, options.backend_options);
   if (method_ == nullptr) {
-    MethodChoice choice = choose_method(problem_, system_, options.tolerance, options.method_options);
+    const bool by_kicks = options.backend == "auto" && automatic_backend(problem_, true).name != backend_name_;
+    MethodChoice choice = choose_method(problem_, system_, options.tolerance, options.method_options, by_kicks);
     method_ = &find_method(choice.method);
     method_options_ = choice.options;
     reason_ = std::move(choice.reason);
+    const BackendEntry& better = choose_backend(options.backend, problem_, method_options_);
+    if (better.name != backend_name_) {
+      backend_name_ = better.name;
+      system_ = better.system(problem_, options.backend_options);
+    }
     require_memory(*method_, problem_, options.variable_steps);
   }
   if (options.variable_steps && problem_.friction && problem_.friction->smoothness() == Friction::Smoothness::jump)

@@ -39,6 +39,7 @@ class PointwisePotential {
       std::span<const double> u) const = 0;  // V and Σ|V_j|, or the sizes of the terms of V_j
   double magnitude(std::span<const double> u) const { return value_and_magnitude(u).magnitude; }
   virtual double value_and_gradient(std::span<const double> u, std::span<double> gradient) const = 0;
+  virtual void gradient(std::span<const double> u, std::span<double> out) const { value_and_gradient(u, out); }
   // In place, between two transforms: with u = in · values, values ← out · ∇V(u); returns V(u).
   virtual double value_and_gradient_in_place(double in, double out, std::span<double> values) const;
   // ∫₀¹ ∇V(a + s(b − a)) ds, or another mean of gradients with the contract above
@@ -82,6 +83,7 @@ class Potential {
 
   void gradient(const Vector& z, Vector& out) const { value_and_gradient(z, out); }
   const Counts& counts() const { return counts_; }
+  void count_gradient() const { ++counts_.gradients; }  // one that was taken around this class
 
  protected:
   mutable Counts counts_;  // work done, for reports; not part of the value of V

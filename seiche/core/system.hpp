@@ -3,6 +3,7 @@
 
 #include <seiche/core/damping.hpp>
 #include <seiche/core/external_force.hpp>
+#include <seiche/core/kicks.hpp>
 #include <seiche/core/linear_part.hpp>
 #include <seiche/core/phi.hpp>
 #include <seiche/core/potential.hpp>
@@ -31,6 +32,7 @@ struct System {
   std::unique_ptr<Damping> damping;                                  // D and R
   std::unique_ptr<ExternalForce> force;                              // f; null: none
   std::unique_ptr<Structure> structure;                              // S(z) − S; null: S is all
+  std::unique_ptr<Kicks> kicks;                                      // of z = (q, p), D = γ on p, or null
   std::function<std::unique_ptr<PhiEvaluator>()> make_phi;           // of L = SM − D₀; closures have no use for it
   std::function<std::unique_ptr<PhiEvaluator>()> make_undamped_phi;  // of L = SM
   Vector initial;                                                    // z₀

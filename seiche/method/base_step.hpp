@@ -1,9 +1,11 @@
 // A step without a law, for Projected to end with one.
 #pragma once
 
+#include <seiche/core/squared_norm.hpp>
 #include <seiche/core/state.hpp>
 #include <seiche/method/step_dissipation.hpp>
 
+#include <cmath>
 #include <string_view>
 
 namespace seiche {
@@ -11,7 +13,8 @@ namespace seiche {
 // May ẑ be a solution? `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN.
 inline bool may_be_solution(const Vector& z, double size) {
   constexpr double gross_growth = 1e3;
-  return z.norm() <= gross_growth * size;
+  const double grown = squared_norm(z);
+  return std::isfinite(grown) && grown <= square(gross_growth * size);
 }
 
 class BaseStep {

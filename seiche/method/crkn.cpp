@@ -53,6 +53,7 @@ class Nystrom : public BaseStep {
   const System& system() const { return system_; }
   const MomentumForm& form() const { return form_; }
   const NystromScheme& scheme() const { return scheme_; }
+  void set_taken(double by_damping) { taken_ = by_damping; }  // of the step
   bool dissipates() const { return kind_ != StepDissipation::Kind::none; }
 
   // z += h S g with g in gradient_, zero outside the positions; returns the length of it.
@@ -115,7 +116,7 @@ class ExactFlows final : public Nystrom {
   Vector work_;
 };
 
-class Drifts final : public Nystrom {
+class Drifts : public Nystrom {
  public:
   Drifts(const System& system, const PhiEvaluator& phi, int order) : Nystrom(system, phi, order) {
     if (!form().separable)
@@ -126,10 +127,11 @@ class Drifts final : public Nystrom {
     for (Vector* v : {&Mz_, &momenta_}) v->setZero(system.space->size());
   }
 
- private:
+ protected:
   struct Drift {
     double length, decay;  // u += length · ∇T(v), v *= decay
   };
+  const Drift& drift(std::size_t i) const { return drifts_[i]; }
 
   void prepare(double h) override {
     if (h == h_) return;
@@ -142,8 +144,9 @@ class Drifts final : public Nystrom {
     }
   }
 
+ private:
   double flow(std::size_t i, Vector& z) override {
-    const auto [length, decay] = drifts_[i];
+    const auto [length, decay] = drift(i);
     const Potential::Support u = form().positions;
     if (form().canonical) {
       const double twice_T = dissipates() ? z.tail(u.size).squaredNorm() : 0;
@@ -174,6 +177,27 @@ class Drifts final : public Nystrom {
   Vector Mz_, momenta_;
 };
 
+// The same where the backend has kicks of its own.
+class FewPasses final : public Drifts {
+ public:
+  using Drifts::Drifts;
+
+  bool compute(const State& s, double, double h, Vector& z) override {
+    prepare(h);
+    const std::vector<double>& b = scheme().b;
+    stages_.clear();
+    for (std::size_t i = 0; i < scheme().flows(); ++i)
+      stages_.push_back({drift(i).length, drift(i).decay, b[i + 1] * h});
+    const Kicks::Report report = system().kicks->split(b[0] * h, stages_, s.z, z);
+    set_taken(report.taken);
+    const double force = std::sqrt(report.kicked) / std::abs(b[0]);  // h times it, where it is large
+    return may_be_solution(z, std::sqrt(squared_norm(s.z)) + force);
+  }
+
+ private:
+  std::vector<Kicks::DriftAndKick> stages_;
+};
+
 }  // namespace
 
 std::unique_ptr<BaseStep> conformal_nystrom(const System& system, const PhiEvaluator& phi, int order) {
@@ -181,6 +205,7 @@ std::unique_ptr<BaseStep> conformal_nystrom(const System& system, const PhiEvalu
 }
 
 std::unique_ptr<BaseStep> explicit_nystrom(const System& system, const PhiEvaluator& phi, int order) {
+  if (system.kicks) return std::make_unique<FewPasses>(system, phi, order);
   return std::make_unique<Drifts>(system, phi, order);
 }
 

@@ -67,8 +67,10 @@ bool EnergyProjection::solve(const EnergyLine& line, EnergyLine::Parts here, con
     here = next;
   }
   if (!(miss(here) <= here.loss()) || !(here.H() <= aim.cap + here.loss())) return false;
-  outcome.displacement = std::abs(here.lambda) * line.direction().norm();
-  if (here.lambda != 0) line.move(z, here.lambda);
+  if (here.lambda != 0) {
+    outcome.displacement = std::abs(here.lambda) * line.direction().norm();
+    line.move(z, here.lambda);
+  }
   outcome.admissible = true;
   outcome.H = aim.H;
   return true;

@@ -121,6 +121,7 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
     if (strict || !may_flow_freely_) return Taken::unresolved;
     amount = {};
     free_.at(h, make_free).apply(s.z, {}, {&z_, 1});
+    if (!z_.allFinite()) return Taken::inadmissible;
     ++report.fallbacks;
     outcome = projection_.project(z_, [&](double computed) {
       const bool conserves = kind == StepDissipation::Kind::none;
@@ -129,13 +130,13 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   }
   report.scalar_iterations += outcome.iterations;
   report.fallbacks += outcome.by_bisection ? 1 : 0;
-  if (!outcome.admissible || !z_.allFinite()) return Taken::inadmissible;
+  if (!outcome.admissible) return Taken::inadmissible;
   finish(s, t, h, resolved, amount, outcome, report);
   return Taken::whole;
 }
 
 Projected::Taken Projected::take_without_law(State& s, double t, double h, StepReport& report) {
-  if (!base_.compute(s, t, h, z_) || !z_.allFinite()) return Taken::unresolved;
+  if (!base_.compute(s, t, h, z_)) return Taken::unresolved;
   StepDissipation::Amount amount;
   EnergyProjection::Outcome outcome;
   if (keeps_ledger_) {

@@ -75,6 +75,12 @@ SEICHE_MULTIVERSION double sum_values_and_slopes(const W& w, const double* u, do
   });
 }
 
+template <class W>
+SEICHE_MULTIVERSION void slopes(const W& w, const double* u, double* slope, std::size_t n) {
+  const W local = w;
+  for (std::size_t j = 0; j < n; ++j) slope[j] = local.slope(u[j]);
+}
+
 // With u = in · values: values ← out · W'(u).
 template <class W>
 SEICHE_MULTIVERSION double slopes_in_place(const W& w, double in, double out, double* values, std::size_t n) {

@@ -27,6 +27,10 @@ class NodalPotential final : public PointwisePotential {
     return sum_values_and_slopes(w_, u.data(), gradient.data(), u.size());
   }
 
+  void gradient(std::span<const double> u, std::span<double> out) const override {
+    slopes(w_, u.data(), out.data(), u.size());
+  }
+
   double value_and_gradient_in_place(double in, double out, std::span<double> values) const override {
     return slopes_in_place(w_, in, out, values.data(), values.size());
   }

@@ -1,0 +1,280 @@
+#include <seiche/backend/equal_rows.hpp>
+#include <seiche/core/lanes.hpp>
+#include <seiche/core/multiversion.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+using Run = EqualRows::Run;
+using Kind = EqualRows::Kind;
+using Operands = EqualRows::Operands;
+using KickAndDrift = EqualRows::KickAndDrift;
+
+template <class V>
+[[gnu::always_inline]] inline V sizes(const V& x) {
+  return x < 0 ? -x : x;
+}
+
+// Row j of x, or rows j … j + 7.
+template <class V, std::size_t taps, class Visit>
+[[gnu::always_inline]] inline void visit_row(const std::array<Index, taps>& offsets, const std::array<double, taps>& a,
+                                             const double* x, Index j, Visit& visit) {
+  V sum{}, size{};
+  for (std::size_t k = 0; k < taps; ++k) visit.add(sum, size, a[k], load<V>(x + j + offsets[k]));
+  visit.row(j, sum, size);
+}
+
+// The rows of a run, eight at a time, from a row on that begins a line of the cache where the vectors do, and otherwise one at a
+// time. Copies keep in registers what the stores of a visit might otherwise be thought to change.
+template <std::size_t taps, class Visit>
+[[gnu::always_inline]] inline void visit_rows(const Run& run, const double* x, Visit& all) {
+  std::array<Index, taps> offsets;
+  std::array<double, taps> a;
+  std::copy_n(run.kind->offsets.begin(), taps, offsets.begin());
+  std::copy_n(run.kind->coefficients.begin(), taps, a.begin());
+  Visit visit = all;
+  constexpr Index few = 64;  // rows: not worth it
+  Index j = run.begin;
+  if (run.end - run.begin >= few)
+    for (; j % lane_count != 0; ++j) visit_row<double>(offsets, a, x, j, visit);
+  for (; j + lane_count <= run.end; j += lane_count) visit_row<Lanes>(offsets, a, x, j, visit);
+  for (; j < run.end; ++j) visit_row<double>(offsets, a, x, j, visit);
+  all = visit;
+}
+
+// A row with any number of taps.
+template <class Visit>
+void visit_any_rows(const Run& run, const double* x, Visit& visit) {
+  for (Index j = run.begin; j < run.end; ++j) {
+    double sum = 0, size = 0;
+    for (std::size_t k = 0; k < run.kind->offsets.size(); ++k)
+      visit.add(sum, size, run.kind->coefficients[k], x[j + run.kind->offsets[k]]);
+    visit.row(j, sum, size);
+  }
+}
+
+// Unrolled for the numbers of taps that differences of order two and four have in one, two and three dimensions.
+template <class Visit>
+[[gnu::always_inline]] inline void visit_runs(std::span<const Run> runs, const double* x, Visit& visit) {
+  for (const Run& run : runs) {
+    switch (run.kind->offsets.size()) {
+      case 1: visit_rows<1>(run, x, visit); break;
+      case 3: visit_rows<3>(run, x, visit); break;
+      case 5: visit_rows<5>(run, x, visit); break;
+      case 7: visit_rows<7>(run, x, visit); break;
+      case 9: visit_rows<9>(run, x, visit); break;
+      case 13: visit_rows<13>(run, x, visit); break;
+      default: visit_any_rows(run, x, visit);
+    }
+  }
+}
+
+struct Sums {
+  Lanes lanes{};
+  double rest = 0;
+  Sums() = default;
+  // One by one: a whole register read from where a single number has just been written would wait for the memory.
+  [[gnu::always_inline]] inline Sums(const Sums& other) : lanes(other.lanes), rest(other.rest) {}
+  [[gnu::always_inline]] inline Sums& operator=(const Sums& other) {
+    lanes = other.lanes;
+    rest = other.rest;
+    return *this;
+  }
+  [[gnu::always_inline]] inline void add(const Lanes& x) { lanes += x; }
+  [[gnu::always_inline]] inline void add(double x) { rest += x; }
+  [[gnu::always_inline]] inline double total() const { return sum(lanes) + rest; }
+};
+
+template <class V>
+[[gnu::always_inline]] inline V at(const double* p, Index j, const V&) {
+  return load<V>(p + j);
+}
+
+struct Product {
+  template <class V>
+  [[gnu::always_inline]] static inline void add(V& sum, V&, double a, const V& x) {
+    sum += a * x;
+  }
+};
+
+struct Store : Product {
+  double* out;
+  template <class V>
+  [[gnu::always_inline]] inline void row(Index j, const V& sum, const V&) const {
+    store(out + j, sum);
+  }
+};
+
+struct Form : Product {
+  const double* x;
+  Sums total{};
+  template <class V>
+  [[gnu::always_inline]] inline void row(Index j, const V& sum, const V& size) {
+    total.add(at(x, j, size) * sum);
+  }
+};
+
+struct FormAndMagnitude {
+  const double* x;
+  Sums total{}, magnitude{};
+  template <class V>
+  [[gnu::always_inline]] static inline void add(V& sum, V& size, double a, const V& x) {
+    sum += a * x;
+    size += sizes(V(a * x));
+  }
+  template <class V>
+  [[gnu::always_inline]] inline void row(Index j, const V& sum, const V& size) {
+    const V here = at(x, j, size);
+    total.add(here * sum);
+    magnitude.add(sizes(here) * size);
+  }
+};
+
+template <bool has_g>
+struct Subtract : Product {
+  double c;
+  const double *g, *y;
+  double* out;
+  template <class V>
+  [[gnu::always_inline]] inline V after(Index j, const V& sum) const {
+    V F = sum;
+    if constexpr (has_g) F += at(g, j, sum);
+    return at(y, j, sum) - c * F;
+  }
+  template <class V>
+  [[gnu::always_inline]] inline void row(Index j, const V& sum, const V&) const {
+    store(out + j, after(j, sum));
+  }
+};
+
+template <bool has_g>
+struct SubtractAndDrift : Subtract<has_g> {
+  const double* x;
+  double* x_after;
+  double length, decay;
+  Sums squares{};
+  template <class V>
+  [[gnu::always_inline]] inline void row(Index j, const V& sum, const V&) {
+    const V p = this->after(j, sum);
+    squares.add(V(p * p));
+    store(x_after + j, V(at(x, j, sum) + length * p));
+    store(this->out + j, V(decay * p));
+  }
+};
+
+template <bool has_g>
+[[gnu::always_inline]] inline void subtract(std::span<const Run> runs, double c, const Operands& in, double* out) {
+  Subtract<has_g> visit;
+  visit.c = c;
+  visit.g = in.g;
+  visit.y = in.y;
+  visit.out = out;
+  visit_runs(runs, in.x, visit);
+}
+
+template <bool has_g>
+[[gnu::always_inline]] inline double subtract_and_drift(std::span<const Run> runs, const KickAndDrift& factors,
+                                                        const Operands& in, double* x_after, double* y_after) {
+  SubtractAndDrift<has_g> visit;
+  visit.c = factors.kick;
+  visit.g = in.g;
+  visit.y = in.y;
+  visit.out = y_after;
+  visit.x = in.x;
+  visit.x_after = x_after;
+  visit.length = factors.length;
+  visit.decay = factors.decay;
+  visit_runs(runs, in.x, visit);
+  return visit.squares.total();
+}
+
+SEICHE_MULTIVERSION void apply_rows(std::span<const Run> runs, const double* x, double* out) {
+  Store visit;
+  visit.out = out;
+  visit_runs(runs, x, visit);
+}
+
+SEICHE_MULTIVERSION double form_of_rows(std::span<const Run> runs, const double* x) {
+  Form visit;
+  visit.x = x;
+  visit_runs(runs, x, visit);
+  return visit.total.total();
+}
+
+SEICHE_MULTIVERSION ValueAndMagnitude form_and_magnitude_of_rows(std::span<const Run> runs, const double* x) {
+  FormAndMagnitude visit{.x = x};
+  visit_runs(runs, x, visit);
+  return {visit.total.total(), visit.magnitude.total()};
+}
+
+}  // namespace
+
+SEICHE_MULTIVERSION void subtract_rows(std::span<const Run> runs, double c, const Operands& in, double* out) {
+  if (in.g != nullptr)
+    subtract<true>(runs, c, in, out);
+  else
+    subtract<false>(runs, c, in, out);
+}
+
+SEICHE_MULTIVERSION double kick_and_drift(std::span<const Run> runs, const KickAndDrift& factors, const Operands& in,
+                                          double* x_after, double* y_after) {
+  return in.g != nullptr ? subtract_and_drift<true>(runs, factors, in, x_after, y_after)
+                         : subtract_and_drift<false>(runs, factors, in, x_after, y_after);
+}
+
+std::optional<EqualRows> EqualRows::of(const SparseMatrix& A) {
+  constexpr std::size_t most_kinds = 216;  // three dimensions, differences of order four, periodic: 6³ … at their ends
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = A;
+  EqualRows result;
+  result.size_ = A.rows();
+  Kind kind;
+  for (Index i = 0; i < by_rows.rows(); ++i) {
+    kind.offsets.clear();
+    kind.coefficients.clear();
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(by_rows, i); entry; ++entry) {
+      kind.offsets.push_back(entry.col() - i);
+      kind.coefficients.push_back(entry.value());
+    }
+    const auto is_it = [&](const Kind& other) {
+      return other.offsets == kind.offsets && other.coefficients == kind.coefficients;
+    };
+    if (!result.runs_.empty() && is_it(*result.runs_.back().kind)) {
+      ++result.runs_.back().end;
+      continue;
+    }
+    auto known =
+        std::find_if(result.kinds_.begin(), result.kinds_.end(), [&](const auto& other) { return is_it(*other); });
+    if (known == result.kinds_.end()) {
+      if (result.kinds_.size() == most_kinds) return std::nullopt;
+      result.kinds_.push_back(std::make_shared<const Kind>(kind));
+      known = std::prev(result.kinds_.end());
+    }
+    result.runs_.push_back({i, i + 1, known->get()});
+  }
+  return result;
+}
+
+void EqualRows::cut_runs(Index length) {
+  std::vector<Run> cut;
+  for (const Run& run : runs_)
+    for (Index begin = run.begin; begin < run.end;) {
+      const Index end = std::min(run.end, (begin / length + 1) * length);
+      cut.push_back({begin, end, run.kind});
+      begin = end;
+    }
+  runs_ = std::move(cut);
+}
+
+void EqualRows::apply(const Vector& x, Vector& out) const { apply_rows(runs_, x.data(), out.data()); }
+
+double EqualRows::form(const Vector& x) const { return form_of_rows(runs_, x.data()); }
+
+ValueAndMagnitude EqualRows::form_and_magnitude(const Vector& x) const {
+  return form_and_magnitude_of_rows(runs_, x.data());
+}
+
+}  // namespace seiche

@@ -1,0 +1,108 @@
+#include <seiche/backend/equal_rows.hpp>
+#include <seiche/backend/grid_kicks.hpp>
+#include <seiche/backend/segment.hpp>
+
+#include <algorithm>
+
+namespace seiche {
+namespace {
+
+constexpr Index block_length = 512;  // points whose slopes of V stay in the first cache until their kick
+
+class GridKicks final : public Kicks {
+ public:
+  GridKicks(EqualRows K, std::shared_ptr<const PointwisePotential> V, const Potential& potential)
+      : K_(std::move(K)),
+        V_(std::move(V)),
+        potential_(potential),
+        slope_length_(!V_              ? 0
+                      : V_->is_local() ? std::min(n(), block_length)
+                                       : n()),
+        memory_(static_cast<std::size_t>(slope_length_ + 3 * n()) / lane_count + 4) {
+    K_.cut_runs(block_length);
+    const std::span<const EqualRows::Run> runs = K_.runs();
+    std::size_t next = 0;
+    for (Index begin = 0; begin < n(); begin += block_length) {
+      const std::size_t first = next;
+      while (next < runs.size() && runs[next].begin < begin + block_length) ++next;
+      blocks_.push_back({begin, std::min(n(), begin + block_length), runs.subspan(first, next - first)});
+    }
+  }
+
+  Report split(double first_kick, std::span<const DriftAndKick> stages, const Vector& z, Vector& out) const override {
+    double* const p = part(0);
+    std::array<double*, 2> others = {part(1), part(2)};
+    const double* q = z.data();
+    const double* p_before = z.data() + n();
+    double kick = first_kick;
+    Report report;
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      const auto [length, decay, next_kick] = stages[i];
+      double* const q_after = i + 1 < stages.size() ? others[i % 2] : out.data();
+      const double squares = for_blocks(q, [&](const Block& block, const double* g) {
+        return kick_and_drift(block.runs, {kick, length, decay}, {q, g, p_before}, q_after, p);
+      });
+      report.taken += squares * (1 - decay * decay) / 2;
+      if (i == 0) report.kicked = squares;
+      q = q_after;
+      p_before = p;
+      kick = next_kick;
+    }
+    for_blocks(q, [&](const Block& block, const double* g) {
+      subtract_rows(block.runs, kick, {q, g, p_before}, out.data() + n());
+      return 0.0;
+    });
+    return report;
+  }
+
+ private:
+  struct Block {  // points begin … end − 1, and the runs of K in them
+    Index begin, end;
+    std::span<const EqualRows::Run> runs;
+  };
+
+  Index n() const { return K_.size(); }
+
+  // Slopes of V, and three arrays of a number per point.
+  double* slope() const { return reinterpret_cast<double*>(memory_.data()); }
+  double* part(Index i) const {
+    const auto padded = [](Index length) { return (length + lane_count - 1) / lane_count * lane_count; };
+    return slope() + padded(slope_length_) + i * padded(n());
+  }
+
+  // Σ visit(block, slopes of V at q), where slopes[j] belongs to point j.
+  template <class Visit>
+  double for_blocks(const double* q, const Visit& visit) const {
+    const auto slopes_at = [&](Index begin, Index end) {
+      const auto length = static_cast<std::size_t>(end - begin);
+      V_->gradient({q + begin, length}, {slope(), length});
+    };
+    if (V_) potential_.count_gradient();
+    const bool is_local = V_ && V_->is_local();
+    if (V_ && !is_local) slopes_at(0, n());
+    double sum = 0;
+    for (const Block& block : blocks_) {
+      if (is_local) slopes_at(block.begin, block.end);
+      sum += visit(block, !V_ ? nullptr : is_local ? slope() - block.begin : slope());
+    }
+    return sum;
+  }
+
+  EqualRows K_;
+  std::shared_ptr<const PointwisePotential> V_;
+  const Potential& potential_;
+  Index slope_length_;
+  std::vector<Block> blocks_;
+  mutable std::vector<Lanes> memory_;  // so that every part begins a line of the cache
+};
+
+}  // namespace
+
+std::unique_ptr<Kicks> grid_kicks(const SparseMatrix& K, std::shared_ptr<const PointwisePotential> V,
+                                  const Potential& potential) {
+  std::optional<EqualRows> rows = EqualRows::of(K);
+  if (!rows) return nullptr;
+  return std::make_unique<GridKicks>(std::move(*rows), std::move(V), potential);
+}
+
+}  // namespace seiche

@@ -1,0 +1,169 @@
+// Kicks and drifts by differences, in few passes over memory.
+#include "support/matrices.hpp"
+#include "support/paper_cases.hpp"
+#include "support/worst.hpp"
+
+#include <seiche/backend/equal_rows.hpp>
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/damping/rates.hpp>
+#include <seiche/problem/beta_fpu.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/sine_gordon.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace seiche::test {
+namespace {
+
+Vector random_vector(Index size, unsigned seed = 1) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  Vector v(size);
+  for (double& x : v) x = normal(random);
+  return v;
+}
+
+Grid grid_of(const std::vector<Index>& points, Boundary boundary) {
+  Grid grid;
+  for (const Index n : points) grid.axes.push_back({.intervals = n, .length = 1.5, .boundary = boundary});
+  return grid;
+}
+
+std::vector<Grid> grids() {
+  std::vector<Grid> all;
+  for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet, Boundary::neumann})
+    for (const std::vector<Index>& points : std::vector<std::vector<Index>>{{5}, {20}, {1100}, {67, 30}, {9, 12, 70}})
+      all.push_back(grid_of(points, boundary));
+  return all;
+}
+
+TEST(EqualRows, HaveTheProductsAndFormsOfTheirMatrix) {
+  for (const Grid& grid : grids()) {
+    for (const Discretisation discretisation : {Discretisation::fd2, Discretisation::fd4}) {
+      const Stencil K = Stencil::identity(0.7) + (-0.3) * Stencil::laplacian(grid, discretisation);
+      const SparseMatrix A = K.sparse_matrix(grid);
+      std::optional<EqualRows> rows = EqualRows::of(A);
+      ASSERT_TRUE(rows);
+      for (const bool cut : {false, true}) {
+        if (cut) rows->cut_runs(16);
+        const Vector x = random_vector(A.rows());
+        Vector Ax(A.rows());
+        rows->apply(x, Ax);
+        const Vector expected = A * x;
+        const double size = (A.cwiseAbs() * x.cwiseAbs()).maxCoeff();
+        EXPECT_LE(largest(Ax - expected), 1e-14 * size);
+        const double magnitude = x.cwiseAbs().dot(A.cwiseAbs() * x.cwiseAbs());
+        EXPECT_NEAR(rows->form(x), x.dot(expected), 1e-14 * magnitude);
+        EXPECT_NEAR(rows->form_and_magnitude(x).value, x.dot(expected), 1e-14 * magnitude);
+        EXPECT_NEAR(rows->form_and_magnitude(x).magnitude, magnitude, 1e-14 * magnitude);
+      }
+    }
+  }
+}
+
+TEST(EqualRows, GiveUpWhereEveryRowIsOfItsOwnKind) {
+  SparseMatrix A = identity_matrix(1000);
+  for (Index i = 0; i < 1000; ++i) A.coeffRef(i, i) = 1 + 1e-3 * static_cast<double>(i);
+  EXPECT_FALSE(EqualRows::of(A));
+}
+
+TEST(EqualRows, ShowANumberThatIsNone) {
+  SparseMatrix A(20, 20);  // all zero: what M is where it is singular
+  const std::optional<EqualRows> rows = EqualRows::of(A);
+  Vector x = Vector::Ones(20);
+  EXPECT_EQ(rows->form(x), 0);
+  x[7] = NAN;
+  EXPECT_TRUE(std::isnan(rows->form(x)));
+}
+
+// By S, M and ∇V as the backend has them.
+Vector split_by_products(const System& system, double first, std::span<const Kicks::DriftAndKick> stages, Vector z,
+                         double& taken) {
+  const Index n = z.size() / 2;
+  const auto kick = [&](double c) {
+    Vector g(z.size());
+    system.gradient(z, g);
+    z.tail(n) -= c * g.head(n);
+  };
+  taken = 0;
+  kick(first);
+  for (const auto& [length, decay, c] : stages) {
+    z.head(n) += length * z.tail(n);
+    taken += z.tail(n).squaredNorm() * (1 - decay * decay) / 2;
+    z.tail(n) *= decay;
+    kick(c);
+  }
+  return z;
+}
+
+TEST(Kicks, AreThoseOfTheMatricesOneByOne) {
+  std::vector<NamedProblem> problems = {
+      {"sine-Gordon", sine_gordon({.grid = {.points = {1000}, .length = {20.0}}})},
+      {"springs", beta_fpu({.points = 700, .gamma = constant_rate(0.1)})},
+      {"small", klein_gordon_case()},
+  };
+  for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet, Boundary::neumann})
+    for (const std::vector<Index>& points : std::vector<std::vector<Index>>{{1537}, {40, 70}, {9, 12, 14}}) {
+      GridOptions grid{.points = points, .length = std::vector<double>(points.size(), 3.0)};
+      grid.boundary.assign(points.size(), boundary);
+      problems.push_back({"KG", klein_gordon({.grid = grid, .alpha = 1.0})});
+      problems.back().problem.initial = random_vector(problems.back().problem.size());
+    }
+  Problem free = klein_gordon_case(0.0, 1.0);
+  free.potential = nullptr;
+  problems.push_back({"no potential", free});
+  const std::vector<Kicks::DriftAndKick> stages = {{0.02, 0.99, -0.01}, {-0.01, 1.01, 0.02}, {0.03, 0.97, 0.01}};
+  for (const auto& [name, problem] : problems) {
+    const System system = find_backend("sparse").system(problem, {});
+    ASSERT_TRUE(system.kicks) << name;
+    for (std::size_t count = 1; count <= stages.size(); ++count) {
+      const std::span<const Kicks::DriftAndKick> some(stages.data(), count);
+      double taken = 0;
+      const Vector expected = split_by_products(system, 0.01, some, system.initial, taken);
+      Vector z(problem.size());
+      const Kicks::Report report = system.kicks->split(0.01, some, system.initial, z);
+      EXPECT_LE(largest(z - expected), 1e-13 * largest(expected)) << name;
+      EXPECT_NEAR(report.taken, taken, 1e-12 * expected.squaredNorm()) << name;
+    }
+  }
+}
+
+TEST(Kicks, ARunByThemIsTheRunByProductsOfTheModalBackend) {
+  int compared = 0;
+  for (const std::string method : {"crkn4", "crkn6"}) {
+    for (const auto& [name, problem] : grid_cases()) {
+      SimulationOptions options{.method = method};
+      options.method_options.linear = LinearTreatment::explicit_kicks;
+      std::vector<Vector> ends;
+      for (const char* backend : {"sparse", "modal"}) {
+        options.backend = backend;
+        try {
+          Simulation simulation(problem, options);
+          for (int n = 0; n < 50; ++n) ASSERT_TRUE(simulation.step(1.0 / 64).solved());
+          ends.push_back(simulation.physical());
+        } catch (const Error&) {
+        }
+      }
+      compared += ends.size() == 2 ? 1 : 0;
+      if (ends.size() == 2) {
+        EXPECT_LE(largest(ends[0] - ends[1]), 1e-11) << name << method;
+      }
+    }
+  }
+  EXPECT_GE(compared, 6);
+}
+
+TEST(Kicks, AreWhatExplicitMethodsRunOnByThemselves) {
+  SimulationOptions options{.method = "crkn4"};
+  EXPECT_EQ(Simulation(klein_gordon_case(), options).backend(), "modal");
+  options.method_options.linear = LinearTreatment::explicit_kicks;
+  EXPECT_EQ(Simulation(klein_gordon_case(), options).backend(), "sparse");
+  EXPECT_EQ(Simulation(klein_gordon({.grid = {.discretisation = Discretisation::spectral}}), options).backend(),
+            "modal");
+}
+
+}  // namespace
+}  // namespace seiche::test
