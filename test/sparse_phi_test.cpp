@@ -119,5 +119,21 @@ TEST(SparsePhi, KernelsAreFoundInPermutationsDifferencesAndEmptyRows) {
   EXPECT_LE((S * kernel).norm(), 1e-13 * S.norm());
 }
 
+TEST(SparsePhi, KernelsAreFoundInLargeRingsToo) {
+  for (const Index points : {20000, 20001}) {  // an odd ring knows no (−1)ʲ
+    const Problem ring = gkdv({.length = 1000.0, .points = points});
+    const SparseMatrix S = ring.S.sparse_matrix(ring.grid);
+    const Matrix kernel = sparse_kernel(S);
+    ASSERT_EQ(kernel.cols(), points % 2 == 0 ? 2 : 1);
+    EXPECT_LE((kernel.transpose() * kernel - Matrix::Identity(kernel.cols(), kernel.cols())).norm(), 1e-13);
+    EXPECT_LE((S * kernel).norm(), 1e-11 * S.norm());
+    const Vector constant = Vector::Constant(points, 1 / std::sqrt(static_cast<double>(points)));
+    EXPECT_NEAR((kernel.transpose() * constant).norm(), 1, 1e-12);
+  }
+  SparseMatrix everything(qr_limit + 1, qr_limit + 1);  // more than is looked for
+  everything.insert(0, 1) = 1;
+  EXPECT_EQ(sparse_kernel(everything).cols(), 0);
+}
+
 }  // namespace
 }  // namespace seiche::test
