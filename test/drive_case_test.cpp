@@ -71,6 +71,7 @@ TEST(DriveCase, WhatCannotBeIsRefusedInASentence) {
               HasSubstr("names y, but the grid has 1 axis"));
   EXPECT_THAT(refusal("friction = { kind = \"cubic\", coefficient = 1 }", "gkdv"), HasSubstr("gkdv has none"));
   EXPECT_THAT(refusal("force = \"sin(tt)\""), HasSubstr("unknown name 'tt'"));
+  EXPECT_THAT(refusal("force = { v = \"sin(tt)\" }"), HasSubstr("problem.force.v"));
   EXPECT_THAT(refusal("force = { w = \"sin(t)\" }"), HasSubstr("field"));
   EXPECT_THAT(refusal("[method]\nname = \"auto\"\nC = 2.0"), HasSubstr("is yet to choose"));
   EXPECT_THAT(refusal("force = \"sin(t)\"", "truss"), HasSubstr("say which of the fields x, y, px, py"));

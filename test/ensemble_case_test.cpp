@@ -58,7 +58,7 @@ TEST(EnsembleCase, MembersThatWouldNotFitIntoMemoryAreRefusedBeforeTheyAreMade) 
     }
     return "";
   };
-  for (const char* rest : {"10000000\n", "10000000\nkappa = { from = 0.1, to = 0.2 }\n"}) {
+  for (const char* rest : {"10000000\nperturb_initial = 0.1\n", "10000000\nkappa = { from = 0.1, to = 0.2 }\n"}) {
     EXPECT_NE(refusal(rest).find("10000000 members"), std::string::npos) << refusal(rest);
     EXPECT_NE(refusal(rest).find("fewer members"), std::string::npos) << refusal(rest);
   }
@@ -89,6 +89,8 @@ TEST(EnsembleCase, RangesAreEvenlySpacedAndTheSectionIsWrittenAsItIsRead) {
 TEST(EnsembleCase, MistakesAreOneSentenceWithTheKey) {
   EXPECT_NE(complaint("members = 0\n").find("ensemble.members = 0 must be ≥ 1"), std::string::npos);
   EXPECT_NE(complaint("seed = 1\n").find("has no members"), std::string::npos);
+  EXPECT_NE(complaint("members = 5\n").find("5 members and nothing in which they differ"), std::string::npos);
+  EXPECT_EQ(complaint("members = 1\n"), "");
   EXPECT_NE(complaint("members = 2\ngama = { from = 0, to = 1 }\n").find("did you mean 'gamma'"), std::string::npos);
   EXPECT_NE(complaint("members = 2\ngamma = 0.1\n").find("must be { from"), std::string::npos);
   EXPECT_NE(complaint("members = 2\ngamma = { form = 0, to = 1 }\n").find("did you mean 'from'"), std::string::npos);

@@ -330,8 +330,13 @@ class Reader {
         read_ensemble_key(ensemble, entry.key, value, *problem_, folder_);
       });
     }
+    const std::vector<std::string> keys = ensemble_keys(problem_);
+    const bool all_known = std::all_of(section->entries.begin(), section->entries.end(), [&](const CaseEntry& entry) {
+      return std::find(keys.begin(), keys.end(), entry.key) != keys.end();
+    });
     const std::string complaint = ensemble_complaint(ensemble);
-    if (complaints_.size() == complaints && !complaint.empty()) complain(section->order, section->place, complaint);
+    if (all_known && complaints_.size() == complaints && !complaint.empty())
+      complain(section->order, section->place, complaint);
   }
 
   std::string name_;

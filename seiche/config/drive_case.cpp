@@ -192,7 +192,8 @@ void add_drives(const DriveSpec& spec, Problem& problem) {
       throw unknown_name("field in problem.force", field, problem.fields);
     const auto at = field.empty() ? static_cast<std::size_t>(obvious_field(problem))
                                   : static_cast<std::size_t>(found - problem.fields.begin());
-    problem.forces[at] = compile_space_rate("problem.force", text)->on(problem.grid);
+    const std::string key = field.empty() ? "problem.force" : "problem.force." + field;
+    problem.forces[at] = compile_space_rate(key, text)->on(problem.grid);
   }
 }
 
