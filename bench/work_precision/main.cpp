@@ -22,7 +22,7 @@ void write_tables(const std::vector<ProblemResult>& results, const Manifest& man
 
 int run(const Options& options) {
   make_directory(options.out);
-  const std::vector<PeerGroup> groups = peer_groups();
+  const std::vector<PeerGroup> groups = options.peers ? peer_groups() : std::vector<PeerGroup>{};
   const Manifest manifest = make_manifest(options, groups);
   std::vector<Peer> peers;
   for (const PeerGroup& group : groups) peers.insert(peers.end(), group.peers.begin(), group.peers.end());

@@ -35,6 +35,7 @@ const char* const usage =
     "  --out DIR         where work_precision.csv, index.html and figures/ go (out/work_precision)\n"
     "  --problem LIST    of kg20,kg4096,kgs,kg2d,fpu,gkdv (all)\n"
     "  --method LIST     of Seiche's methods (all that apply), as egc6, \"crkn6 explicit\", \"auto by tolerance\"\n"
+    "  --no-peers        Seiche's methods alone\n"
     "  --quick           every second step size, short runs only: for trying\n"
     "  --repeats N       timed runs of which the median is taken (5)\n"
     "  --cap SECONDS     runs expected to take longer are skipped, and the table says so (1; quick 0.05)\n"
@@ -58,11 +59,15 @@ Options Options::parse(const std::vector<std::string>& arguments) {
       {"--cap", [&](const std::string& text) { options.cap_seconds = positive(option, text); }},
       {"--budget", [&](const std::string& text) { options.problem_seconds = positive(option, text); }},
   };
-  std::vector<std::string> names = {"--quick", "--help"};
+  std::vector<std::string> names = {"--quick", "--no-peers", "--help"};
   for (const auto& [name, set] : with_value) names.push_back(name);
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     option = arguments[i];
     if (option == "--quick") continue;
+    if (option == "--no-peers") {
+      options.peers = false;
+      continue;
+    }
     if (option == "--help") {
       options.help = true;
       continue;

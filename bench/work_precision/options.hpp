@@ -12,6 +12,7 @@ struct Options {
   std::vector<std::string> problems;
   std::vector<std::string> methods;  // of Seiche; empty: all that apply
   bool quick = false;
+  bool peers = true;  // other integrators beside Seiche's methods
   bool help = false;
   int repeats = 5;
   double cap_seconds = 1.0;        // of one run: what is expected above it is skipped

@@ -5,7 +5,8 @@
 
 namespace seiche {
 
-inline constexpr Index qr_limit = 4000;  // unknowns: a ring of differences then takes seconds, and of four times as many minutes
+inline constexpr Index qr_limit =
+    4000;  // unknowns: a ring of differences then takes seconds, and of four times as many minutes
 inline constexpr Index kernel_limit = 200'000;
 inline constexpr Index most_of_large_kernel = 32;  // dimensions beyond qr_limit
 
