@@ -40,8 +40,8 @@ StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, 
   const Index size = system.space->size();
   between_.resize(rules_.nested.coarse.nodes.size() + rules_.nested.more.size());
   between_ << rules_.nested.coarse.nodes, rules_.nested.more;
-  node_.assign(follows_energies_ ? static_cast<std::size_t>(between_.size()) : 1, Vector::Zero(size));
-  known_.resize(node_.size());
+  energies_.resize(static_cast<std::size_t>(between_.size()));
+  node_.assign(1, Vector::Zero(size));
   for (Vector* v : {&gradient_, &scratch_, &gradient_H_}) v->setZero(size);
 }
 
@@ -118,18 +118,15 @@ StepDissipation::Amount StepDissipation::measure(double t, double h, const Vecto
                                                  const Energies& before, const Energies& after,
                                                  std::span<const Energies> at_nodes) {
   const NestedRules& rules = rules_.nested;
-  const Index stages = rules.coarse.nodes.size();
-  const auto first = static_cast<std::size_t>(at_nodes.size());  // of the nodes between that are not known
-  std::copy(at_nodes.begin(), at_nodes.end(), known_.begin());
-  const Eigen::VectorXd& nodes = between_;
-  if (first < known_.size()) {
+  std::copy(at_nodes.begin(), at_nodes.end(), energies_.begin());
+  if (const std::size_t asked = energies_.size() - at_nodes.size(); asked > 0) {
     Tables& of_h = tables(h);
-    const std::span<Vector> asked = std::span<Vector>(node_).subspan(first);
     if (!of_h.between)
-      of_h.between = phi_.map(output_.at(nodes.tail(static_cast<Index>(asked.size())), PhiRows::Outputs::all), h);
-    of_h.between->apply(z, forces, asked);
-    for (std::size_t i = first; i < known_.size(); ++i)
-      known_[i] = {system_.linear->quadratic_energy(node_[i]), system_.potential->value(node_[i])};
+      of_h.between = phi_.map(output_.at(between_.tail(static_cast<Index>(asked)), PhiRows::Outputs::all), h);
+    if (node_.size() < asked) node_.resize(asked, Vector::Zero(z.size()));
+    of_h.between->apply(z, forces, {node_.data(), asked});
+    for (std::size_t i = 0; i < asked; ++i)
+      energies_[at_nodes.size() + i] = {system_.linear->quadratic_energy(node_[i]), system_.potential->value(node_[i])};
   }
 
   const double degree = system_.potential->homogeneity();
@@ -142,10 +139,10 @@ StepDissipation::Amount StepDissipation::measure(double t, double h, const Vecto
     return h * Q;
   };
   amount.fine = rules.fine[0] * rate(0, before) + rules.fine[1] * rate(1, after);
-  for (Index i = 0; i < nodes.size(); ++i) {
-    const double taken = rate(nodes[i], known_[static_cast<std::size_t>(i)]);
+  for (Index i = 0; i < between_.size(); ++i) {
+    const double taken = rate(between_[i], energies_[static_cast<std::size_t>(i)]);
     amount.fine += rules.fine[2 + i] * taken;
-    if (i < stages) amount.coarse += rules.coarse.weights[i] * taken;
+    if (i < rules.coarse.nodes.size()) amount.coarse += rules.coarse.weights[i] * taken;
   }
   return amount;
 }

@@ -63,7 +63,8 @@ class StepDissipation {
     double K = 0.0, V = 0.0;
   };
   Energies energies(const Vector& z, double H) const;  // of a state with this H
-  // As above, from the states at both ends and, where they are known already, at the coarse nodes of the nested rules.
+  // As above, from the states at both ends and at the coarse nodes of the nested rules, where a method knows these: always or
+  // never.
   Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Energies& before,
                  const Energies& after, std::span<const Energies> at_nodes = {});
 
@@ -86,9 +87,9 @@ class StepDissipation {
   Kind kind_;
   bool needs_gradient_, follows_energies_;
   StepCache<Tables> cache_;
-  std::vector<Vector> node_;     // one, or those of the nested rules between the ends
-  std::vector<Energies> known_;  // of these
-  Eigen::VectorXd between_;      // where they are
+  std::vector<Vector> node_;        // one, or as many as are looked at together
+  Eigen::VectorXd between_;         // nodes of the nested rules but for the ends
+  std::vector<Energies> energies_;  // there
   Vector gradient_, scratch_, gradient_H_;
 };
 
