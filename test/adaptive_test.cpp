@@ -298,6 +298,28 @@ TEST(Adaptive, TheControllerTakesNoNumberForNoError) {
   EXPECT_EQ(controller.next(0.1), fresh.next(0.1));
 }
 
+// Everything for a new h costs as much as many steps.
+TEST(Adaptive, AStepThatNearlyFitsIsKept) {
+  constexpr double tolerance = 1e-6, h = 0.125, allowed = 0.5 * tolerance * h;  // of order four
+  StepController controller(4, tolerance);
+  EXPECT_TRUE(controller.accepts(0.5 * allowed, h, 0));
+  for (const double share : {0.3, 0.4, 0.5, 0.6}) {
+    EXPECT_TRUE(controller.accepts(share * allowed, h, 0));
+    EXPECT_EQ(controller.next(h), h) << share;
+  }
+  EXPECT_TRUE(controller.accepts(0.2 * allowed, h, 0));
+  EXPECT_EQ(controller.next(h), h * std::exp2(0.25));
+  EXPECT_TRUE(controller.accepts(0.9 * allowed, h, 0));
+  EXPECT_LT(controller.next(h), h);
+  EXPECT_FALSE(controller.accepts(2 * allowed, h, 0));
+  EXPECT_LT(controller.next(h), h);
+}
+
+TEST(Adaptive, TheFirstStepKnowsTheTolerance) {
+  EXPECT_LT(StepController(4, 1e-9).first_share(), StepController(4, 1e-3).first_share());
+  EXPECT_LT(StepController(4, 1e-6).first_share(), StepController(8, 1e-6).first_share());
+}
+
 // A pulse of damping far shorter than the steps that the waves allow.
 TEST(Adaptive, ABoundOnStepsSeesWhatHappensInsideOne) {
   const Problem p = klein_gordon({.gamma = formula_rate(compile_formula("0.1 + 20*exp(-400*(t - 20.123)^2)", {"t"}))});

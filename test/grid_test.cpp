@@ -4,6 +4,8 @@
 #include "support/worst.hpp"
 
 #include <seiche/backend/backends.hpp>
+#include <seiche/backend/segment.hpp>
+#include <seiche/backend/transform.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
@@ -86,6 +88,28 @@ TEST(Grid, EigenfunctionsOfEveryBoundaryAreEigenfunctions) {
     }
     const Vector image = Stencil::laplacian(grid, Discretisation::spectral).matrix(grid) * u;
     EXPECT_LE((image + square(kappa) * u).norm(), 1e-12) << static_cast<int>(boundary);
+  }
+}
+
+// Long lines are split, those of odd or short lengths are not.
+TEST(Grid, SinesOfLinesOfAnyLengthAreTheirSums) {
+  for (const Index intervals : {2, 3, 4, 127, 128, 130, 132, 256, 260, 516, 1000, 1024, 2048}) {
+    const Grid grid{.axes = {{intervals, 1.0, dirichlet}}};
+    const auto transform = modal_transform(grid);
+    Vector u(grid.unknowns()), slots(grid.unknowns()), back(grid.unknowns());
+    for (Index j = 0; j < u.size(); ++j) u[j] = std::sin(0.1 * static_cast<double>(j * j)) + 0.3;
+    transform->forward(all(u), all(slots));
+    transform->inverse(all(slots), all(back));
+    EXPECT_LE((back - u).lpNorm<Eigen::Infinity>(), 1e-14) << intervals;
+    double error = 0;
+    for (Index k = 1; k < intervals; ++k) {
+      double sum = 0;
+      for (Index j = 1; j < intervals; ++j)  // j k modulo 2N, exactly
+        sum += u[j - 1] * std::sin(std::numbers::pi * static_cast<double>(j * k % (2 * intervals)) /
+                                   static_cast<double>(intervals));
+      error = worse(error, std::abs(slots[k - 1] - std::sqrt(2.0 / static_cast<double>(intervals)) * sum));
+    }
+    EXPECT_LE(error, 1e-13) << intervals;
   }
 }
 

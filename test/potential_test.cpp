@@ -157,6 +157,40 @@ TEST(Potential, AGradientInThePlaceOfItsArgumentIsTheSame) {
   });
 }
 
+// Lines of every length beside the eight points that are taken at a time.
+TEST(Potential, OfBondsIsTheSumOverBondsOnLinesOfAnyLength) {
+  const Polynomial<3> w{{0, 0.3, 0.5, 0.2}};
+  for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet}) {
+    const BondPotential<Polynomial<3>> V(w, boundary);
+    for (std::size_t n = 1; n <= 27; ++n) {
+      std::vector<double> u(n), gradient(n), expected(n);
+      for (std::size_t j = 0; j < n; ++j) u[j] = std::sin(1.7 * static_cast<double>(j + 1));
+      double sum = 0;
+      const auto bond = [&](double left, double right, double* at_left, double* at_right) {
+        sum += w.value(right - left);
+        if (at_left) *at_left -= w.slope(right - left);
+        if (at_right) *at_right += w.slope(right - left);
+      };
+      for (std::size_t j = 0; j + 1 < n; ++j) bond(u[j], u[j + 1], &expected[j], &expected[j + 1]);
+      if (boundary == Boundary::periodic) {
+        bond(u[n - 1], u[0], &expected[n - 1], &expected[0]);
+      } else {
+        bond(0, u[0], nullptr, &expected[0]);
+        bond(u[n - 1], 0, &expected[n - 1], nullptr);
+      }
+      EXPECT_NEAR(V.value(u), sum, 1e-14 * static_cast<double>(n + 1)) << n;
+      EXPECT_NEAR(V.value_and_gradient(u, gradient), sum, 1e-14 * static_cast<double>(n + 1)) << n;
+      std::vector<double> in_place(n);
+      for (std::size_t j = 0; j < n; ++j) in_place[j] = u[j] / 2;
+      EXPECT_NEAR(V.value_and_gradient_in_place(2, 3, in_place), sum, 1e-14 * static_cast<double>(n + 1)) << n;
+      for (std::size_t j = 0; j < n; ++j) {
+        EXPECT_NEAR(gradient[j], expected[j], 1e-14) << n << " " << j;
+        EXPECT_NEAR(in_place[j], 3 * expected[j], 1e-13) << n << " " << j;
+      }
+    }
+  }
+}
+
 TEST(Potential, GrowsOutwardOnlyForEvenPowersWithPositiveCoefficients) {
   EXPECT_TRUE(nodal_polynomial({0, 0, 1, 0, 2})->grows_outward());
   EXPECT_FALSE(nodal_polynomial({0, 0, 1, 1e-3, 2})->grows_outward());

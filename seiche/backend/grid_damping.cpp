@@ -2,6 +2,7 @@
 #include <seiche/backend/segment.hpp>
 #include <seiche/core/commuting_damping.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace seiche {
@@ -55,6 +56,12 @@ bool GridDamping::field_factors(double t, double h, std::span<double> factors) c
   const double decay = rate_ ? rate_decay(t, h) : 1.0;
   for (std::size_t f = 0; f < factors.size(); ++f) factors[f] = rate_ && rate_fields_[f] ? decay : 1.0;
   return true;
+}
+
+std::optional<double> GridDamping::factor_of_identity(double t) const {
+  if (constant_ || field_rate_ || !rate_) return std::nullopt;
+  if (std::find(rate_fields_.begin(), rate_fields_.end(), false) != rate_fields_.end()) return std::nullopt;
+  return rate_->value(t);
 }
 
 void GridDamping::apply_constant(const Vector& z, Vector& out) const {

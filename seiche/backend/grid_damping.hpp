@@ -30,6 +30,7 @@ class GridDamping final : public Damping {
   bool touches_potential() const override { return touches_potential_; }
   void flow(double t, double h, Vector& z) const override;
   void apply(double t, const Vector& z, Vector& out) const override;
+  std::optional<double> factor_of_identity(double t) const override;
   bool is_frozen() const override { return !field_rate_ && (!rate_ || rate_->is_constant()); }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
   void apply_frozen(const Vector& z, Vector& out) const override;

@@ -41,6 +41,7 @@ struct Lines {
 
 std::unique_ptr<Rows> fourier_rows(Index length, Index rows, bool alone_are_real, bool measure);
 std::unique_ptr<Rows> real_rows(const GridAxis& axis, Index rows, bool measure);
+std::unique_ptr<Rows> sine_row(Index intervals, bool measure);  // one row between two ends where u = 0
 std::unique_ptr<Columns> fourier_columns(const Lines& lines, bool measure);
 std::unique_ptr<Columns> real_columns(const GridAxis& axis, const Lines& lines, bool measure);
 

@@ -22,6 +22,7 @@ class GridPotential final : public Potential {
   int degree() const override { return pointwise_ ? pointwise_->degree() : 1; }
   void along(const Vector& p, const Vector& q, std::span<double> coefficients) const override;
   void along_ray(const Vector& z, std::span<double> coefficients) const override;
+  int homogeneity() const override { return pointwise_ ? pointwise_->homogeneity() : 0; }
   Support support() const override { return support_; }
 
  private:

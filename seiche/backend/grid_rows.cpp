@@ -132,44 +132,6 @@ class RealRows final : public Rows {
   BatchPlans forward_, inverse_;
 };
 
-// Sines by the Fourier transform of the odd continuation, of twice the length: faster than FFTW's own sine transform
-// except on the longest lines (docs/performance.md).
-class OddRows final : public Rows {
- public:
-  OddRows(const GridAxis& axis, bool measure)
-      : intervals_(axis.intervals),
-        values_(fftw_buffer(static_cast<std::size_t>(2 * intervals_))),
-        slots_(fftw_buffer(static_cast<std::size_t>(2 * intervals_ + 2))),
-        plan_([&] {
-          return fftw_plan_dft_r2c_1d(static_cast<int>(2 * intervals_), values_.get(), pairs(slots_.get()),
-                                      plan_flags(measure));
-        }) {}
-
-  Index values() const override { return intervals_ - 1; }
-  Index slots() const override { return intervals_ - 1; }
-  Index batch() const override { return 1; }
-  void to_slots(const double* values, double* slots, Index) const override { sines(values, slots); }
-  void to_values(double* slots, double* values, Index) const override { sines(slots, values); }
-
- private:
-  // 2 Σ_j u_j sin(πjk/N), its own inverse but for a factor.
-  void sines(const double* in, double* out) const {
-    const Index n = intervals_;
-    double* odd = values_.get();
-    odd[0] = odd[n] = 0;
-    for (Index j = 1; j < n; ++j) {
-      odd[j] = in[j - 1];
-      odd[2 * n - j] = -in[j - 1];
-    }
-    fftw_execute_dft_r2c(plan_.get(), odd, pairs(slots_.get()));
-    for (Index k = 1; k < n; ++k) out[k - 1] = -slots_[static_cast<std::size_t>(2 * k + 1)];
-  }
-
-  Index intervals_;
-  FftwBuffer values_, slots_;
-  FftwPlan plan_;
-};
-
 }  // namespace
 
 std::unique_ptr<Rows> fourier_rows(Index length, Index rows, bool alone_are_real, bool measure) {
@@ -177,9 +139,9 @@ std::unique_ptr<Rows> fourier_rows(Index length, Index rows, bool alone_are_real
 }
 
 std::unique_ptr<Rows> real_rows(const GridAxis& axis, Index rows, bool measure) {
-  constexpr Index longest_odd = 1 << 18;
-  if (axis.boundary == Boundary::dirichlet && rows == 1 && axis.intervals <= longest_odd)
-    return std::make_unique<OddRows>(axis, measure);
+  constexpr Index longest_split = 1 << 18;
+  if (axis.boundary == Boundary::dirichlet && rows == 1 && axis.intervals <= longest_split)
+    return sine_row(axis.intervals, measure);
   return std::make_unique<RealRows>(axis, rows, measure);
 }
 

@@ -17,6 +17,7 @@ class MaskedPotential final : public Potential {
   double value_and_gradient(const Vector& z, Vector& gradient) const override;
   void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const override;
   int degree() const override { return potential_->degree(); }
+  int homogeneity() const override { return potential_->homogeneity(); }
   void along(const Vector& p, const Vector& q, std::span<double> coefficients) const override;
   void along_ray(const Vector& z, std::span<double> coefficients) const override;
   Support support() const override { return potential_->support(); }

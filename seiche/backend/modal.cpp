@@ -70,7 +70,14 @@ class ModalLinear final : public LinearPart {
   }
 
   void apply_S(const Vector& z, Vector& out) const override { map(S_, S_symbol_).apply(z, out); }
-  void apply_M(const Vector& z, Vector& out) const override { map(M_, M_symbol_).apply(z, out); }
+  void apply_M(const Vector& z, Vector& out) const override {
+    if (!metric_) return map(M_, M_symbol_).apply(z, out);
+    for (Index f = 0; f < extent_.fields; ++f) {
+      const Index begin = f * extent_.slots();
+      multiply_modes(extent_.layout, metric_->factors.data(f, 0), z.data() + begin, extent_.slots(),
+                     out.data() + begin);
+    }
+  }
 
   double quadratic_energy(const Vector& z) const override {
     if (metric_) {

@@ -116,18 +116,34 @@ template <ModeLayout layout>
 SEICHE_MULTIVERSION double weighted_square_of(const double* M, const double* z, Index slots) {
   constexpr Index per_mode = slots_per_mode(layout);
   using LastV = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
-  Lanes lanes{};
+  const auto term = [&](Index slot) __attribute__((always_inline)) {
+    const Lanes x = load<Lanes>(z + slot);
+    return M == nullptr ? x * x : times<layout, Lanes>(M, slot, x) * x;
+  };
+  Lanes lanes{}, others{};  // sums that do not wait for one another
   LastV last{};
   Index slot = 0;
-  for (; slot + lane_count <= slots; slot += lane_count) {
-    const Lanes x = load<Lanes>(z + slot);
-    lanes += M == nullptr ? x * x : times<layout, Lanes>(M, slot, x) * x;
+  for (; slot + 2 * lane_count <= slots; slot += 2 * lane_count) {
+    lanes += term(slot);
+    others += term(slot + lane_count);
   }
+  for (; slot + lane_count <= slots; slot += lane_count) lanes += term(slot);
+  lanes += others;
   for (; slot < slots; slot += per_mode) {
     const LastV x = load<LastV>(z + slot);
     last += M == nullptr ? x * x : times<layout, LastV>(M, slot, x) * x;
   }
   return sum(lanes) + sum(last);
+}
+
+template <ModeLayout layout>
+SEICHE_MULTIVERSION void multiply_modes_of(const double* M, const double* z, Index slots, double* out) {
+  using LastV = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
+  Index slot = 0;
+  for (; slot + lane_count <= slots; slot += lane_count)
+    store<Lanes>(out + slot, times<layout, Lanes>(M, slot, load<Lanes>(z + slot)));
+  for (; slot < slots; slot += slots_per_mode(layout))
+    store<LastV>(out + slot, times<layout, LastV>(M, slot, load<LastV>(z + slot)));
 }
 
 }  // namespace
@@ -142,6 +158,13 @@ std::unique_ptr<Propagator> fused_propagator(const ModalExtent& extent, const Mo
 double weighted_square(ModeLayout layout, const double* M, const double* z, Index slots) {
   return layout == ModeLayout::singles ? weighted_square_of<ModeLayout::singles>(M, z, slots)
                                        : weighted_square_of<ModeLayout::real_pairs>(M, z, slots);
+}
+
+void multiply_modes(ModeLayout layout, const double* M, const double* z, Index slots, double* out) {
+  if (layout == ModeLayout::singles)
+    multiply_modes_of<ModeLayout::singles>(M, z, slots, out);
+  else
+    multiply_modes_of<ModeLayout::real_pairs>(M, z, slots, out);
 }
 
 }  // namespace seiche

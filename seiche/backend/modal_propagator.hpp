@@ -36,5 +36,7 @@ std::unique_ptr<Propagator> fused_propagator(const ModalExtent& extent, const Mo
 
 // Σ M z² over the slots of one field; null M: the identity.
 double weighted_square(ModeLayout layout, const double* M, const double* z, Index slots);
+// out ← M z over the slots of one field.
+void multiply_modes(ModeLayout layout, const double* M, const double* z, Index slots, double* out);
 
 }  // namespace seiche

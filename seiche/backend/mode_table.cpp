@@ -10,8 +10,6 @@
 namespace seiche {
 namespace {
 
-using mode_kernels::times;
-
 constexpr Index chunks_per_block = 1024;  // of one thread's share; part of what fixes the order of sums
 constexpr Index max_columns = 40;         // the inputs of eight slots wait in the first-level cache
 constexpr int unrolled_columns = 8;
@@ -37,9 +35,12 @@ template <int count = lane_count - 1>
 }
 
 // The inputs of eight slots. `known` of them, or, for 0, any number up to max_columns.
-template <int known>
+template <ModeLayout layout, int known>
 struct Inputs {
-  std::array<Lanes, known == 0 ? max_columns : known> x;
+  static constexpr bool are_turned = layout == ModeLayout::complex_pairs;
+  static constexpr std::size_t capacity = known == 0 ? max_columns : known;
+  std::array<Lanes, capacity> x;
+  std::array<Lanes, are_turned ? capacity : 0> turned;  // ix, once for all rows
   int count;
 
   [[gnu::always_inline]] inline explicit Inputs(std::span<const double* const> in)
@@ -51,6 +52,20 @@ struct Inputs {
       for (int j = 0; j < size(); ++j) x[j] = load<Lanes>(in[j] + begin);
     } else {
       for (int j = 0; j < size(); ++j) load_some(in[j] + begin, left, x[j]);
+    }
+    if constexpr (are_turned) {
+      constexpr Lanes sign = {-1, 1, -1, 1, -1, 1, -1, 1};
+      for (int j = 0; j < size(); ++j) turned[j] = sign * __builtin_shufflevector(x[j], x[j], 1, 0, 3, 2, 5, 4, 7, 6);
+    }
+  }
+  // factors of the modes of these slots × input j
+  [[gnu::always_inline]] inline Lanes times(const double* factors, int j) const {
+    if constexpr (are_turned) {
+      const Lanes c = load<Lanes>(factors);
+      return __builtin_shufflevector(c, c, 0, 0, 2, 2, 4, 4, 6, 6) * x[j] +
+             __builtin_shufflevector(c, c, 1, 1, 3, 3, 5, 5, 7, 7) * turned[j];
+    } else {
+      return mode_kernels::times<layout, Lanes>(factors, 0, x[j]);
     }
   }
   [[gnu::always_inline]] inline int size() const { return known == 0 ? count : known; }
@@ -65,14 +80,14 @@ SEICHE_MULTIVERSION void sum_rows(const ModeFactors& factors, std::span<const do
   const double* const* const inputs = in.data();
   double* const* const rows = out.data();
   const std::size_t row_count = out.size();
-  Inputs<known> x(in);
+  Inputs<layout, known> x(in);
   for (Index chunk = first; chunk < last; ++chunk) {
     const Index begin = chunk * lane_count;
     const Index left = slots - begin;
     x.load_from(inputs, begin, left);
     for (std::size_t i = 0; i < row_count; ++i) {
-      Lanes sum = times<layout, Lanes>(factor, 0, x.x[0]);
-      for (int j = 1; j < x.size(); ++j) sum += times<layout, Lanes>(factor + j * stride, 0, x.x[j]);
+      Lanes sum = x.times(factor, 0);
+      for (int j = 1; j < x.size(); ++j) sum += x.times(factor + j * stride, j);
       factor += x.size() * stride;
       if (left >= lane_count)
         store<Lanes>(rows[i] + begin, sum);
@@ -90,16 +105,16 @@ SEICHE_MULTIVERSION void sum_forms(const ModeFactors& factors, std::span<const d
   const double* factor = factors.of_chunk(first);
   const double* const* const inputs = in.data();
   const std::size_t forms = values.size();
-  Inputs<known> x(in);
+  Inputs<layout, known> x(in);
   std::array<Lanes, max_forms> totals{};
   for (Index chunk = first; chunk < last; ++chunk) {
     x.load_from(inputs, chunk * lane_count, slots - chunk * lane_count);
     for (std::size_t l = 0; l < forms; ++l) {
       Lanes total = totals[l];
       for (int i = 0; i < x.size(); ++i) {
-        Lanes row = times<layout, Lanes>(factor, 0, x.x[i]);
+        Lanes row = x.times(factor, i);
         factor += stride;
-        for (int j = i + 1; j < x.size(); ++j, factor += stride) row += times<layout, Lanes>(factor, 0, x.x[j]);
+        for (int j = i + 1; j < x.size(); ++j, factor += stride) row += x.times(factor, j);
         total += x.x[i] * row;
       }
       totals[l] = total;

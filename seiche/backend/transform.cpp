@@ -40,9 +40,8 @@ void FieldTransform::forward(std::span<const double> values, std::span<double> s
 void FieldTransform::inverse(std::span<const double> slots, std::span<double> values) const {
   const double scale = value_scale();
   thread_local std::vector<double> scaled;  // to_values overwrites what it is given
-  scaled.assign(slots.begin(), slots.end());
-  if (scale != 1)
-    for (double& slot : scaled) slot *= scale;
+  scaled.resize(slots.size());
+  for (std::size_t i = 0; i < slots.size(); ++i) scaled[i] = scale * slots[i];
   to_values(scaled, values);
 }
 

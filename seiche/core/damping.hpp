@@ -4,6 +4,7 @@
 #include <seiche/core/vector.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace seiche {
@@ -18,6 +19,8 @@ class Damping {
   // instead of the end so that equal steps reuse one matrix.
   virtual void flow(double t, double h, Vector& z) const = 0;
   virtual void apply(double t, const Vector& z, Vector& out) const = 0;  // D(t)z + R(t, z)
+  // γ(t) where D(t)z + R(t, z) = γ(t)z for every z, and nothing where damping is no multiple of the state.
+  virtual std::optional<double> factor_of_identity(double /*t*/) const { return std::nullopt; }
   // Beside the constant D₀ that exponential methods take into L = SM − D₀ (frozen_damping): is D(t)z + R(t, z) = D₀z?
   virtual bool is_frozen() const = 0;
   virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀)z + R(t, z)

@@ -79,6 +79,8 @@ class Potential {
   virtual int degree() const = 0;
   virtual void along(const Vector& p, const Vector& q, std::span<double> coefficients) const = 0;
   virtual void along_ray(const Vector& z, std::span<double> coefficients) const = 0;  // of x ↦ V(xz)
+  // d if V(xz) = xᵈV(z) for every z, so that zᵀ∇V(z) = dV(z); or 0 if there is no such d.
+  virtual int homogeneity() const { return 0; }
   virtual Support support() const = 0;
 
   void gradient(const Vector& z, Vector& out) const { value_and_gradient(z, out); }

@@ -28,6 +28,11 @@ class BaseStep {
   virtual StepDissipation::Kind dissipation_kind() const = 0;
   // Of the step just computed, where the kind is not `none`.
   virtual StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z) = 0;
+  // The same for those who profit from H(z).
+  virtual StepDissipation::Amount dissipated_on_the_way_to(const State& s, double t, double h, const Vector& z,
+                                                           double /*H*/) {
+    return dissipated(s, t, h, z);
+  }
 
   // The step just computed will be taken: s is still as before it but for what this changes, and never z, t and n.
   // Not resolved: e^{hL}z was taken instead of ẑ.

@@ -28,7 +28,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
                 .order = stages,
                 .kind = force_.kind(),
                 .weights = [C = interpolation(rule_.nodes)](double theta) { return collocation_weights(C, theta); }},
-        dissipation_(system, *phi_, output_, rule_, GaussRule(stages + 2)),
+        dissipation_(system, *phi_, output_, {rule_, GaussRule(stages + 2), NestedRules(stages)}),
         projected_(system, *phi_, *this, law),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
         cache_(cached_step_sizes(system.space->size())),
@@ -37,7 +37,9 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
                                                                : Potential::Support{0, system.space->size()}),
         components_before_(of_forces_.size) {
     const Index size = system.space->size();
-    if (dissipation_.kind() == StepDissipation::Kind::general)
+    if (dissipation_.follows_energies())
+      energies_.resize(forces_.size());
+    else if (dissipation_.kind() == StepDissipation::Kind::general)
       seen_.assign(forces_.size(), {Vector::Zero(size), Vector::Zero(size)});
     for (Vector& f : forces_) f.setZero(size);
     missing_.setZero(size);
@@ -160,13 +162,17 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       for (Index i = 0; i < stages(); ++i) {
         const double at = t + rule_.nodes[i] * h;
         const auto which = static_cast<std::size_t>(i);
-        if (!seen_.empty() && control.may_be_last())
+        if (!energies_.empty() && control.may_be_last()) {
+          energies_[which].K = system_.linear->quadratic_energy(forces_[which]);
+          energies_[which].V = force_.evaluate(at, forces_[which]);
+        } else if (!seen_.empty() && control.may_be_last()) {
           force_.evaluate(at, forces_[which], [&](const Vector& node, const Vector& gradient) {
             seen_[which].node = node;
             seen_[which].gradient = gradient;
           });
-        else
+        } else {
           force_.evaluate(at, forces_[which]);
+        }
       }
       change = h * distance(forces_.back(), of_forces_.begin, components_before_);
     } while (control.wants_another(change, error));
@@ -190,9 +196,16 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   std::string_view failure() const override { return "the collocation equations were not solved"; }
   StepDissipation::Kind dissipation_kind() const override { return dissipation_.kind(); }
 
-  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector&) override {
+  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z) override {
+    if (dissipation_.follows_energies()) return dissipated_on_the_way_to(s, t, h, z, system_.energy(z));
     return dissipation_.measure(t, h, s.z, forces_,
                                 dissipation_.kind() == StepDissipation::Kind::general ? &coarse_ : nullptr);
+  }
+  StepDissipation::Amount dissipated_on_the_way_to(const State& s, double t, double h, const Vector& z,
+                                                   double H) override {
+    if (!dissipation_.follows_energies()) return dissipated(s, t, h, z);
+    return dissipation_.measure(t, h, s.z, forces_, dissipation_.energies(s.z, s.energy), dissipation_.energies(z, H),
+                                energies_);
   }
 
   // The forces before the step are left in forces_.
@@ -220,8 +233,9 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   struct Seen {
     Vector node, gradient;  // Z_i and ∇V(Z_i)
   };
-  std::vector<Seen> seen_;       // where dissipation is evaluated node by node
-  StepDissipation::Sum coarse_;  // of these
+  std::vector<Seen> seen_;                           // where dissipation is evaluated node by node
+  StepDissipation::Sum coarse_;                      // of these
+  std::vector<StepDissipation::Energies> energies_;  // of Z_i, where dissipation follows from them
   bool steps_are_alike_ = true;
   Vector physical_;
   ContinuousExtension::Step last_;  // the step taken last; the forces of the one before it are left in forces_

@@ -9,14 +9,16 @@ namespace {
 class ExponentialRungeKutta final : public BaseStep {
  public:
   ExponentialRungeKutta(const System& system, const PhiEvaluator& phi, const ExponentialTableau& tableau)
-      : tableau_(tableau),
+      : system_(system),
+        tableau_(tableau),
         phi_(phi),
         force_(system),
         output_{.forces = tableau.C.cols(),
                 .order = tableau.C.rows(),
                 .kind = force_.kind(),
                 .weights = [&tableau](double theta) { return collocation_weights(tableau.C, theta); }},
-        dissipation_(system, phi, output_, GaussRule(tableau.coarse), GaussRule(tableau.fine)),
+        dissipation_(system, phi, output_,
+                     {GaussRule(tableau.coarse), GaussRule(tableau.fine), NestedRules(tableau.nested)}),
         cache_(cached_step_sizes(system.space->size())),
         forces_(tableau.stages.size() + 1, Vector::Zero(system.space->size())) {}
 
@@ -37,8 +39,14 @@ class ExponentialRungeKutta final : public BaseStep {
 
   std::string_view failure() const override { return "the exponential Runge–Kutta scheme left the numbers"; }
   StepDissipation::Kind dissipation_kind() const override { return dissipation_.kind(); }
-  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector&) override {
+  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z) override {
+    if (dissipation_.follows_energies()) return dissipated_on_the_way_to(s, t, h, z, system_.energy(z));
     return dissipation_.measure(t, h, s.z, used());
+  }
+  StepDissipation::Amount dissipated_on_the_way_to(const State& s, double t, double h, const Vector& z,
+                                                   double H) override {
+    if (!dissipation_.follows_energies()) return dissipated(s, t, h, z);
+    return dissipation_.measure(t, h, s.z, used(), dissipation_.energies(s.z, s.energy), dissipation_.energies(z, H));
   }
 
  private:
@@ -65,6 +73,7 @@ class ExponentialRungeKutta final : public BaseStep {
     return std::span<const Vector>(forces_).subspan(static_cast<std::size_t>(tableau_.first_used));
   }
 
+  const System& system_;
   const ExponentialTableau& tableau_;
   const PhiEvaluator& phi_;
   NonlinearForce force_;
@@ -82,7 +91,8 @@ const ExponentialTableau& exponential_midpoint() {
                                           .first_used = 1,
                                           .C = Eigen::MatrixXd::Ones(1, 1),
                                           .coarse = 1,
-                                          .fine = 3};
+                                          .fine = 3,
+                                          .nested = 1};
   return tableau;
 }
 
@@ -100,7 +110,8 @@ const ExponentialTableau& krogstad() {
                               .first_used = 0,
                               .C = C,
                               .coarse = 3,
-                              .fine = 4};
+                              .fine = 4,
+                              .nested = 2};
   }();
   return tableau;
 }

@@ -21,6 +21,7 @@ struct ExponentialTableau {
   Index first_used;           // forces before this one have no part in z(θ)
   Eigen::MatrixXd C;          // powers of θ × forces from first_used on
   int coarse, fine;           // nodes of the two quadratures of the dissipation
+  int nested;                 // and of the coarser one of those that share theirs: half the order of the scheme
 };
 
 // The exponential midpoint rule, of order two: two forces a step.

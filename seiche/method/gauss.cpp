@@ -2,6 +2,7 @@
 
 #include <boost/math/special_functions/legendre.hpp>
 
+#include <cmath>
 #include <vector>
 
 namespace seiche {
@@ -35,6 +36,28 @@ GaussRule::GaussRule(int s) : nodes(s), weights(s) {
     set(s - upper + i, zeros[static_cast<std::size_t>(i)]);
     set(upper - 1 - i, -zeros[static_cast<std::size_t>(i)]);
   }
+}
+
+NestedRules::NestedRules(int s) : coarse(s), more(s - 1) {
+  const GaussRule exact(2 * s);  // to degree 4s − 1
+  // By symmetry e is y, y² − a or y(y² − a), with y = θ − ½.
+  if (s > 2) {
+    double above = 0, below = 0;
+    for (Eigen::Index i = 0; i < exact.nodes.size(); ++i) {
+      const double theta = exact.nodes[i];
+      const double y = theta - 0.5;
+      const double factor = exact.weights[i] * (theta - coarse.nodes.array()).prod() * theta * (theta - 1);
+      above += factor * std::pow(y, s);
+      below += factor * std::pow(y, s - 2);
+    }
+    const double root = std::sqrt(above / below);
+    more[0] = 0.5 - root;
+    more[s - 2] = 0.5 + root;
+  }
+  if (s % 2 == 0) more[(s - 2) / 2] = 0.5;
+  Eigen::VectorXd nodes(2 * s + 1);
+  nodes << 0, 1, coarse.nodes, more;
+  fine = evaluation(nodes, exact.nodes).transpose() * exact.weights;
 }
 
 Eigen::MatrixXd interpolation(const Eigen::VectorXd& nodes) { return inverse_of_powers(nodes).cast<double>(); }

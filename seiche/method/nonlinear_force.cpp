@@ -12,13 +12,11 @@ NonlinearForce::NonlinearForce(const System& system, PhiRows::Forces kind)
   if (system.structure) gradient_H_ = turned_ = gradient_;
 }
 
-void NonlinearForce::evaluate(double t, Vector& z) {
-  if (kind_ == PhiRows::Forces::gradients) {
-    system_.potential->value_and_gradient(z, z);
-    return;
-  }
-  system_.potential->gradient(z, gradient_);
+double NonlinearForce::evaluate(double t, Vector& z) {
+  if (kind_ == PhiRows::Forces::gradients) return system_.potential->value_and_gradient(z, z);
+  const double V = system_.potential->value_and_gradient(z, gradient_);
   complete(t, z);
+  return V;
 }
 
 void NonlinearForce::evaluate(double t, Vector& z, Look look) {

@@ -15,7 +15,7 @@ class NonlinearForce {
   PhiRows::Forces kind() const { return kind_; }  // what PhiRows is to say of these forces
 
   using Look = FunctionRef<void(const Vector& z, const Vector& potential_gradient)>;
-  void evaluate(double t, Vector& z);             // z ← N(t, z), or ∇V(z)
+  double evaluate(double t, Vector& z);           // z ← N(t, z), or ∇V(z); returns V(z)
   void evaluate(double t, Vector& z, Look look);  // the same, after a look at z and ∇V(z)
 
   // The norm of f at a time, which a state and the forces at another time need not foretell; 0 without external forces.

@@ -109,10 +109,10 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   StepDissipation::Amount amount;
   // The guard asks whether H may rise, and a nonnegative form says no.
   const bool asked = law_ == EnergyLaw::interval || kind == StepDissipation::Kind::general || keeps_ledger_;
-  if (resolved && asked && kind != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_);
   EnergyProjection::Outcome outcome;
   if (resolved) {
     outcome = projection_.project(z_, [&](double computed) {
+      if (asked && kind != StepDissipation::Kind::none) amount = base_.dissipated_on_the_way_to(s, t, h, z_, computed);
       return energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount, kind);
     });
     resolved = std::isfinite(outcome.computed);  // ẑ may be finite where its energy is none

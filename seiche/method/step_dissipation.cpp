@@ -1,6 +1,8 @@
 #include <seiche/method/step_dissipation.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace seiche {
@@ -18,19 +20,27 @@ StepDissipation::Kind StepDissipation::kind_of(const System& system, const PhiEv
   return d.is_quadratic && d.is_nonnegative ? Kind::quadratic : Kind::general;
 }
 
-StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, GaussRule coarse,
-                                 GaussRule fine)
+// Without damping S is all that dissipates.
+bool StepDissipation::follow_energies(const System& system) {
+  return !system.force && system.damping->factor_of_identity(0) && system.potential->homogeneity() > 0 &&
+         system.make_undamped_phi()->dissipation().is_zero;
+}
+
+StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, Rules rules)
     : system_(system),
       phi_(phi),
       output_(std::move(output)),
-      coarse_(std::move(coarse)),
-      fine_(std::move(fine)),
+      rules_(std::move(rules)),
       kind_(kind_of(system, phi)),
       needs_gradient_(!phi.dissipation().is_quadratic || system.damping->touches_potential() ||
                       (system.force && system.force->touches_potential())),
+      follows_energies_(kind_ == Kind::general && follow_energies(system)),
       cache_(cached_step_sizes(system.space->size())) {
   if (kind_ != Kind::general) return;
   const Index size = system.space->size();
+  between_.resize(rules_.nested.coarse.nodes.size() + rules_.nested.more.size());
+  between_ << rules_.nested.coarse.nodes, rules_.nested.more;
+  energies_.resize(static_cast<std::size_t>(between_.size()));
   node_.assign(1, Vector::Zero(size));
   for (Vector* v : {&gradient_, &scratch_, &gradient_H_}) v->setZero(size);
 }
@@ -44,7 +54,7 @@ StepDissipation::Tables& StepDissipation::tables(double h) {
       for (const double w : rule.weights) f.coefficients.push_back(h * w);
       return f;
     };
-    const std::array forms = {form(fine_), form(coarse_)};
+    const std::array forms = {form(rules_.fine), form(rules_.coarse)};
     made->forms = phi_.forms(forms, h);
     return made;
   });
@@ -64,7 +74,7 @@ void StepDissipation::add_nodes(double t, double h, const Vector& z, std::span<c
       maps.push_back(phi_.map(output_.at(Eigen::VectorXd::Constant(1, theta), PhiRows::Outputs::all), h));
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const auto at = static_cast<Index>(i);
-    maps[i]->apply(z, forces, node_);
+    maps[i]->apply(z, forces, {node_.data(), 1});
     if (needs_gradient_) system_.potential->gradient(node_[0], gradient_);
     add(t + rule.nodes[at] * h, node_[0], gradient_, h * rule.weights[at], sum);
   }
@@ -87,14 +97,52 @@ StepDissipation::Amount StepDissipation::measure(double t, double h, const Vecto
       if (coarse != nullptr)
         by_coarse = *coarse;
       else
-        add_nodes(t, h, z, forces, coarse_, tables(h).coarse, by_coarse);
-      add_nodes(t, h, z, forces, fine_, tables(h).fine, by_fine);
+        add_nodes(t, h, z, forces, rules_.coarse, tables(h).coarse, by_coarse);
+      add_nodes(t, h, z, forces, rules_.fine, tables(h).fine, by_fine);
       amount = {.fine = by_fine.taken,
                 .coarse = by_coarse.taken,
                 .work = by_fine.work,
                 .negative = by_coarse.negative || by_fine.negative};
       break;
     }
+  }
+  return amount;
+}
+
+StepDissipation::Energies StepDissipation::energies(const Vector& z, double H) const {
+  const double K = system_.linear->quadratic_energy(z);
+  return {K, H - K};
+}
+
+StepDissipation::Amount StepDissipation::measure(double t, double h, const Vector& z, std::span<const Vector> forces,
+                                                 const Energies& before, const Energies& after,
+                                                 std::span<const Energies> at_nodes) {
+  const NestedRules& rules = rules_.nested;
+  std::copy(at_nodes.begin(), at_nodes.end(), energies_.begin());
+  if (const std::size_t asked = energies_.size() - at_nodes.size(); asked > 0) {
+    Tables& of_h = tables(h);
+    if (!of_h.between)
+      of_h.between = phi_.map(output_.at(between_.tail(static_cast<Index>(asked)), PhiRows::Outputs::all), h);
+    if (node_.size() < asked) node_.resize(asked, Vector::Zero(z.size()));
+    of_h.between->apply(z, forces, {node_.data(), asked});
+    for (std::size_t i = 0; i < asked; ++i)
+      energies_[at_nodes.size() + i] = {system_.linear->quadratic_energy(node_[i]), system_.potential->value(node_[i])};
+  }
+
+  const double degree = system_.potential->homogeneity();
+  Amount amount;
+  const auto rate = [&](double theta, const Energies& e) {
+    const double gamma = *system_.damping->factor_of_identity(t + theta * h);
+    const double Q = gamma * (2 * e.K + degree * e.V);
+    const double size = std::abs(gamma) * (2 * std::abs(e.K) + degree * std::abs(e.V));
+    amount.negative = amount.negative || Q < -100 * epsilon * size;
+    return h * Q;
+  };
+  amount.fine = rules.fine[0] * rate(0, before) + rules.fine[1] * rate(1, after);
+  for (Index i = 0; i < between_.size(); ++i) {
+    const double taken = rate(between_[i], energies_[static_cast<std::size_t>(i)]);
+    amount.fine += rules.fine[2 + i] * taken;
+    if (i < rules.coarse.nodes.size()) amount.coarse += rules.coarse.weights[i] * taken;
   }
   return amount;
 }

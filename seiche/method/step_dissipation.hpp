@@ -23,8 +23,12 @@ struct DenseOutput {
 
 class StepDissipation {
  public:
+  struct Rules {
+    GaussRule coarse, fine;
+    NestedRules nested;  // where Q is known from energies
+  };
   // `system` and `phi` outlive it.
-  StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, GaussRule coarse, GaussRule fine);
+  StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, Rules rules);
 
   // How Q can be known.
   enum class Kind {
@@ -52,24 +56,40 @@ class StepDissipation {
   // sum += weight · the integrands at (t, z).
   void add(double t, const Vector& z, const Vector& potential_gradient, double weight, Sum& sum);
 
+  // Of kind `general`, but does Q follow from K = ½zᵀMz and V? With D = γI, S skew and V homogeneous of degree d, it is
+  // γ(2K + dV): the ends of a step then cost no gradient and no transform, and the nodes between no gradient.
+  bool follows_energies() const { return follows_energies_; }
+  struct Energies {
+    double K = 0.0, V = 0.0;
+  };
+  Energies energies(const Vector& z, double H) const;  // of a state with this H
+  // As above, from the states at both ends and at the coarse nodes of the nested rules, where a method knows these: always or
+  // never.
+  Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Energies& before,
+                 const Energies& after, std::span<const Energies> at_nodes = {});
+
  private:
   using NodeMaps = std::vector<std::unique_ptr<PhiMap>>;  // one for each node of a rule
   struct Tables {
     std::unique_ptr<PhiForms> forms;  // quadratic
     NodeMaps fine, coarse;            // general; each made when it is first asked for
+    std::unique_ptr<PhiMap> between;  // the nodes of the nested rules that are not known already
   };
   void add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces, const GaussRule& rule,
                  NodeMaps& maps, Sum& sum);
   Tables& tables(double h);
+  static bool follow_energies(const System& system);
 
   const System& system_;
   const PhiEvaluator& phi_;
   DenseOutput output_;
-  GaussRule coarse_, fine_;
+  Rules rules_;
   Kind kind_;
-  bool needs_gradient_;
+  bool needs_gradient_, follows_energies_;
   StepCache<Tables> cache_;
-  std::vector<Vector> node_;
+  std::vector<Vector> node_;        // one, or as many as are looked at together
+  Eigen::VectorXd between_;         // nodes of the nested rules but for the ends
+  std::vector<Energies> energies_;  // there
   Vector gradient_, scratch_, gradient_H_;
 };
 

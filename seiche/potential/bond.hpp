@@ -4,6 +4,7 @@
 #include <seiche/core/grid.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/potential/bond_lanes.hpp>
+#include <seiche/potential/bond_loops.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
@@ -18,9 +19,7 @@ class BondPotential final : public PointwisePotential {
   BondPotential(W w, Boundary boundary) : w_(w), boundary_(boundary) {}
 
   double value(std::span<const double> u) const override {
-    double sum = 0;
-    for_bonds(u, [&](std::size_t, std::size_t, double d) { sum += w_.value(d); });
-    return sum;
+    return sum_bond_values(w_, u.data(), u.size(), boundary_ == Boundary::periodic);
   }
 
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
@@ -30,13 +29,11 @@ class BondPotential final : public PointwisePotential {
   }
 
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {
-    double sum = 0;
-    std::fill(gradient.begin(), gradient.end(), 0.0);
-    for_bonds(u, [&](std::size_t left, std::size_t right, double d) {
-      sum += w_.value(d);
-      pull(gradient, left, right, w_.slope(d));
-    });
-    return sum;
+    return bond_gradient(w_, 1, 1, u.data(), gradient.data(), u.size(), boundary_ == Boundary::periodic);
+  }
+
+  double value_and_gradient_in_place(double in, double out, std::span<double> values) const override {
+    return bond_gradient(w_, in, out, values.data(), values.data(), values.size(), boundary_ == Boundary::periodic);
   }
 
   void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override {

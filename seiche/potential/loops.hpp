@@ -1,15 +1,24 @@
 // Loops over the points of a grid: eight points at a time, for several instruction sets, sums in one fixed order.
 #pragma once
 
+#include <seiche/core/lanes.hpp>
 #include <seiche/core/multiversion.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/vector.hpp>
 
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 
 namespace seiche {
+
+// Can W be evaluated at eight points at a time?
+template <class W>
+concept TakesLanes = requires(const W w, Lanes u) {
+  { w.value(u) } -> std::same_as<Lanes>;
+  { w.slope(u) } -> std::same_as<Lanes>;
+};
 
 // Sums that do not wait for one another.
 class LaneSums {
@@ -47,10 +56,26 @@ template <class W>
   return std::abs(value);
 }
 
+// Σ_j f(j) by f(j, Lanes{}) for the eight numbers from j on, and f(j, 0.0) for one of the last few.
+template <class W, class F>
+[[gnu::always_inline]] inline double sum_lanes(std::size_t n, const F& f) {
+  if constexpr (TakesLanes<W>) {
+    Lanes sums{};
+    std::size_t j = 0;
+    for (; j + lane_count <= n; j += lane_count) sums += f(j, Lanes{});
+    for (int lane = 0; j < n; ++j, ++lane) sums[lane] += f(j, 0.0);
+    return sum(sums);
+  } else {
+    return sum_points(
+        n, [&](std::size_t j) __attribute__((always_inline)) { return f(j, 0.0); });
+  }
+}
+
 template <class W>
 SEICHE_MULTIVERSION double sum_values(const W& w, const double* u, std::size_t n) {
   const W local = w;
-  return sum_points(n, [&](std::size_t j) { return local.value(u[j]); });
+  return sum_lanes<W>(
+      n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) { return local.value(load<X>(u + j)); });
 }
 
 template <class W>
@@ -68,11 +93,12 @@ SEICHE_MULTIVERSION ValueAndMagnitude sum_values_and_magnitudes(const W& w, cons
 template <class W>
 SEICHE_MULTIVERSION double sum_values_and_slopes(const W& w, const double* u, double* slope, std::size_t n) {
   const W local = w;
-  return sum_points(n, [&](std::size_t j) {
-    const double x = u[j];
-    slope[j] = local.slope(x);
-    return local.value(x);
-  });
+  return sum_lanes<W>(
+      n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
+        const X x = load<X>(u + j);
+        store<X>(slope + j, local.slope(x));
+        return local.value(x);
+      });
 }
 
 template <class W>
@@ -85,11 +111,12 @@ SEICHE_MULTIVERSION void slopes(const W& w, const double* u, double* slope, std:
 template <class W>
 SEICHE_MULTIVERSION double slopes_in_place(const W& w, double in, double out, double* values, std::size_t n) {
   const W local = w;
-  return sum_points(n, [&](std::size_t j) {
-    const double x = in * values[j];
-    values[j] = out * local.slope(x);
-    return local.value(x);
-  });
+  return sum_lanes<W>(
+      n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
+        const X x = in * load<X>(values + j);
+        store<X>(values + j, out * local.slope(x));
+        return local.value(x);
+      });
 }
 
 template <class W>

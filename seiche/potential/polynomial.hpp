@@ -1,6 +1,8 @@
 // W(u) = Σ c_i uⁱ of one variable: value, slope, and the mean slope between two points without cancellation.
 #pragma once
 
+#include <seiche/core/lanes.hpp>
+
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -22,8 +24,10 @@ struct Polynomial {
   static constexpr int degree = Degree;
   std::array<double, Degree + 1> c{};
 
-  double value(double u) const {
-    double sum = c[Degree];
+  // Of one number, or of Lanes.
+  template <class X>
+  [[gnu::always_inline]] X value(const X& u) const {
+    X sum = X{} + c[Degree];
     for (std::size_t i = Degree; i-- > 0;) sum = sum * u + c[i];
     return sum;
   }
@@ -35,8 +39,9 @@ struct Polynomial {
     return sum;
   }
 
-  double slope(double u) const {
-    double sum = Degree * c[Degree];
+  template <class X>
+  [[gnu::always_inline]] X slope(const X& u) const {
+    X sum = X{} + Degree * c[Degree];
     for (std::size_t i = Degree; i-- > 1;) sum = sum * u + static_cast<double>(i) * c[i];
     return sum;
   }

@@ -53,7 +53,9 @@ class AdaptiveLoop {
     system_.right_hand_side(state_.t, state_.z, rate);
     const double quotient = state_.z.norm() / rate.norm();
     const double left = std::min(options_.t_end, recording_.next_time()) - state_.t;
-    h_ = options_.first_h > 0 ? options_.first_h : std::isfinite(quotient) && quotient > 0 ? 0.02 * quotient : 1e-3;
+    h_ = options_.first_h > 0                      ? options_.first_h
+         : std::isfinite(quotient) && quotient > 0 ? controller_.first_share() * quotient
+                                                   : 1e-3;
     h_ = bounded(StepController::rounded(std::min(h_, std::max(left, options_.t_end * epsilon) / 3)));
   }
 
@@ -85,7 +87,7 @@ class AdaptiveLoop {
     note(h);
     if (error) h_ = controller_.next(h);
     h_ = bounded(h_);
-    if (is_cut && h_ > h / 1.1) h_ = h;  // the other half, not a power of 2^{1/8} below it
+    if (is_cut && h_ > h / 1.1) h_ = h;  // the other half, not a power of 2^{1/4} below it
     return accept();
   }
 
