@@ -63,21 +63,45 @@ TEST(AutoMethod, KeepsStiffDampingOutOfBackwardFlows) {
   EXPECT_EQ(stiff.method().composition, Composition::collocation) << stiff.reason();
 }
 
-TEST(AutoMethod, KicksByAllForcesWhereNothingIsStiff) {
-  const auto chosen = [](double length, double tolerance) {
-    Problem p = klein_gordon({.grid = {.points = {256}, .length = {length}}, .alpha = 1.0});
-    for (Index j = 0; j < 256; ++j) p.initial[j] = std::cos(2 * std::numbers::pi * p.grid.coordinate(j, 0) / length);
-    p.initial.tail(256).setZero();
-    return std::make_unique<Simulation>(p, SimulationOptions{.method = "auto", .tolerance = tolerance});
-  };
-  const auto slow = chosen(50.0, 1e-6);
+struct Wave {
+  double length, tolerance, t_end;
+  Index points = 256;
+  double gamma = 0.1;
+};
+
+std::unique_ptr<Simulation> chosen_for(const Wave& wave, const std::string& backend = "auto") {
+  Problem p = klein_gordon(
+      {.grid = {.points = {wave.points}, .length = {wave.length}}, .alpha = 1.0, .gamma = constant_rate(wave.gamma)});
+  for (Index j = 0; j < wave.points; ++j)
+    p.initial[j] = std::cos(2 * std::numbers::pi * p.grid.coordinate(j, 0) / wave.length);
+  p.initial.tail(wave.points).setZero();
+  SimulationOptions options{.method = "auto", .backend = backend};
+  options.variable_steps = wave.tolerance > 0;
+  options.tolerance = wave.tolerance;
+  options.t_end = wave.t_end;
+  return std::make_unique<Simulation>(p, options);
+}
+
+TEST(AutoMethod, KicksByAllForcesWhereNothingIsStiffOrFaded) {
+  const auto slow = chosen_for({.length = 50, .tolerance = 1e-6, .t_end = 20});
   EXPECT_EQ(slow->method_options().linear, LinearTreatment::explicit_kicks) << slow->reason();
   EXPECT_EQ(slow->backend(), "sparse");
-  const auto stiff = chosen(0.5, 1e-6);
-  EXPECT_EQ(stiff->method_options().linear, LinearTreatment::exact) << stiff->reason();
-  EXPECT_EQ(stiff->backend(), "modal");
-  const auto of_one_size = chosen(50.0, 0);
-  EXPECT_EQ(of_one_size->method_options().linear, LinearTreatment::exact) << of_one_size->reason();
+  EXPECT_EQ(chosen_for({.length = 50, .tolerance = 1e-6, .t_end = 1e6, .gamma = 0})->backend(), "sparse");
+  const std::vector<Wave> others = {
+      {.length = 0.5, .tolerance = 1e-6, .t_end = 20},               // stiff
+      {.length = 50, .tolerance = 0, .t_end = 20},                   // steps of one size
+      {.length = 50, .tolerance = 1e-6, .t_end = 1e4},               // over long before
+      {.length = 50, .tolerance = 1e-6, .t_end = 0},                 // who knows
+      {.length = 50, .tolerance = 1e-6, .t_end = 20, .points = 60},  // few unknowns
+  };
+  for (const Wave& wave : others) {
+    const auto simulation = chosen_for(wave);
+    EXPECT_EQ(simulation->method_options().linear, LinearTreatment::exact) << simulation->reason();
+    EXPECT_EQ(simulation->backend(), "modal");
+  }
+  const auto asked = chosen_for({.length = 50, .tolerance = 1e-6, .t_end = 20}, "modal");
+  EXPECT_EQ(asked->backend(), "modal");
+  EXPECT_EQ(asked->method_options().linear, LinearTreatment::exact);
 }
 
 TEST(AutoMethod, TakesHigherOrdersForSmallerTolerances) {

@@ -8,6 +8,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/beta_fpu.hpp>
+#include <seiche/problem/chain.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/sine_gordon.hpp>
 
@@ -45,7 +46,7 @@ TEST(EqualRows, HaveTheProductsAndFormsOfTheirMatrix) {
     for (const Discretisation discretisation : {Discretisation::fd2, Discretisation::fd4}) {
       const Stencil K = Stencil::identity(0.7) + (-0.3) * Stencil::laplacian(grid, discretisation);
       const SparseMatrix A = K.sparse_matrix(grid);
-      std::optional<EqualRows> rows = EqualRows::of(A);
+      std::optional<EqualRows> rows = EqualRows::of(A, EqualRows::Limit::none);
       ASSERT_TRUE(rows);
       for (const bool cut : {false, true}) {
         if (cut) rows->cut_runs(16);
@@ -68,6 +69,8 @@ TEST(EqualRows, GiveUpWhereEveryRowIsOfItsOwnKind) {
   SparseMatrix A = identity_matrix(1000);
   for (Index i = 0; i < 1000; ++i) A.coeffRef(i, i) = 1 + 1e-3 * static_cast<double>(i);
   EXPECT_FALSE(EqualRows::of(A));
+  const Grid narrow = grid_of({1000, 3}, Boundary::periodic);  // few kinds, but no two rows in a row
+  EXPECT_FALSE(EqualRows::of(Stencil::laplacian(narrow).sparse_matrix(narrow)));
 }
 
 TEST(EqualRows, ShowANumberThatIsNone) {
@@ -118,15 +121,18 @@ TEST(Kicks, AreThoseOfTheMatricesOneByOne) {
   const std::vector<Kicks::DriftAndKick> stages = {{0.02, 0.99, -0.01}, {-0.01, 1.01, 0.02}, {0.03, 0.97, 0.01}};
   for (const auto& [name, problem] : problems) {
     const System system = find_backend("sparse").system(problem, {});
-    ASSERT_TRUE(system.kicks) << name;
+    ASSERT_TRUE(system.make_kicks) << name;
+    const std::unique_ptr<Kicks> kicks = system.make_kicks();
     for (std::size_t count = 1; count <= stages.size(); ++count) {
       const std::span<const Kicks::DriftAndKick> some(stages.data(), count);
       double taken = 0;
       const Vector expected = split_by_products(system, 0.01, some, system.initial, taken);
       Vector z(problem.size());
-      const Kicks::Report report = system.kicks->split(0.01, some, system.initial, z);
+      const Kicks::Report report = kicks->split(0.01, some, system.initial, z);
       EXPECT_LE(largest(z - expected), 1e-13 * largest(expected)) << name;
       EXPECT_NEAR(report.taken, taken, 1e-12 * expected.squaredNorm()) << name;
+      Vector kicked = split_by_products(system, 0.01, {}, system.initial, taken);
+      EXPECT_NEAR(report.kicked, kicked.tail(kicked.size() / 2).squaredNorm(), 1e-12 * expected.squaredNorm()) << name;
     }
   }
 }
@@ -156,6 +162,37 @@ TEST(Kicks, ARunByThemIsTheRunByProductsOfTheModalBackend) {
   EXPECT_GE(compared, 6);
 }
 
+TEST(Kicks, KeepTheLawOverManyBlocksAtEveryStepSize) {
+  Problem p = klein_gordon({.grid = {.points = {1300}, .length = {20.0}}, .alpha = 1.0, .gamma = constant_rate(0.1)});
+  p.initial *= 3;
+  SimulationOptions options{.method = "crkn6"};
+  options.method_options.linear = LinearTreatment::explicit_kicks;
+  for (const double h : {1.0 / 16, 1.0, 10.0}) {
+    Simulation simulation(p, options);
+    EnergyReading before = simulation.energy();
+    for (int n = 0; n < 60; ++n) {
+      ASSERT_TRUE(simulation.step(h).solved()) << h;
+      const EnergyReading after = simulation.energy();
+      EXPECT_LE(after.H - before.H, std::max(before.round_off, after.round_off)) << h;
+      before = after;
+    }
+  }
+}
+
+TEST(Kicks, GoOnWhereASolutionHasFadedUntilItsSquareUnderflows) {
+  Problem p = klein_gordon_case();
+  p.initial *= 1.57e-162 / p.initial.norm();
+  for (const LinearTreatment linear : {LinearTreatment::exact, LinearTreatment::explicit_kicks}) {
+    SimulationOptions options{.method = "crkn4"};
+    options.method_options.linear = linear;
+    Simulation simulation(p, options);
+    for (int n = 0; n < 20; ++n) {
+      EXPECT_EQ(simulation.step(1.0 / 64).message, "");
+      EXPECT_GT(simulation.energy().round_off, 0);
+    }
+  }
+}
+
 TEST(Kicks, AreWhatExplicitMethodsRunOnByThemselves) {
   SimulationOptions options{.method = "crkn4"};
   EXPECT_EQ(Simulation(klein_gordon_case(), options).backend(), "modal");
@@ -163,6 +200,7 @@ TEST(Kicks, AreWhatExplicitMethodsRunOnByThemselves) {
   EXPECT_EQ(Simulation(klein_gordon_case(), options).backend(), "sparse");
   EXPECT_EQ(Simulation(klein_gordon({.grid = {.discretisation = Discretisation::spectral}}), options).backend(),
             "modal");
+  EXPECT_EQ(Simulation(chain({.points = 40, .mass = 2.0}), options).backend(), "modal");  // p is no velocity
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ LineStyle style_of(const Curve& curve, int index) {
     LineStyle line = method_line(curve.peer.substr(0, curve.peer.find(' ')));
     line.width = std::max(line.width, 1.3);
     if (curve.rows.front()->sweep == Sweep::tolerance) line.dash = dash_dotted;
+    if (curve.peer.ends_with(" explicit")) line.filled = false;
     line.size = 0.9;
     return line;
   }

@@ -26,8 +26,8 @@ std::vector<Variant> variants() {
   return all;
 }
 
-SimulationOptions options_of(const Variant& variant, double parameter) {
-  SimulationOptions options{.method = variant.method, .backend_options = {.measure_plans = true}};
+SimulationOptions options_of(const Variant& variant, double parameter, double t_end) {
+  SimulationOptions options{.method = variant.method, .backend_options = {.measure_plans = true}, .t_end = t_end};
   options.method_options.linear = variant.linear;
   if (variant.sweep == Sweep::step_size) return options;
   options.variable_steps = true;
@@ -37,8 +37,8 @@ SimulationOptions options_of(const Variant& variant, double parameter) {
 
 class SeicheRun : public Run {
  public:
-  SeicheRun(const Problem& problem, const Variant& variant, double parameter)
-      : simulation_(problem, options_of(variant, parameter)),
+  SeicheRun(const Problem& problem, const Variant& variant, double parameter, double t_end)
+      : simulation_(problem, options_of(variant, parameter, t_end)),
         sweep_(variant.sweep),
         parameter_(parameter),
         has_own_(simulation_.stepper().has_modified_energy()) {
@@ -109,8 +109,10 @@ class SeicheRun : public Run {
 
 bool applies(const Problem& problem, const Variant& variant) {
   constexpr double any_tolerance = 1e-6;
+  SimulationOptions options = options_of(variant, any_tolerance, 1);
+  options.backend_options.measure_plans = false;
   try {
-    const Simulation simulation(problem, options_of(variant, any_tolerance));
+    const Simulation simulation(problem, options);
     return true;
   } catch (const Error&) {
     return false;
@@ -135,8 +137,8 @@ std::vector<Peer> seiche_peers(const TestProblem& test) {
          .origin = Origin::seiche,
          .sweep = variant.sweep,
          .applies = any_equation,
-         .make = [problem = test.problem, variant](const Equation&, double parameter) -> std::unique_ptr<Run> {
-           return std::make_unique<SeicheRun>(problem, variant, parameter);
+         .make = [problem = test.problem, variant](const Equation& equation, double parameter) -> std::unique_ptr<Run> {
+           return std::make_unique<SeicheRun>(problem, variant, parameter, equation.t_end);
          }});
   }
   return peers;

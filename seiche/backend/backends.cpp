@@ -3,7 +3,6 @@
 #include <seiche/backend/modal.hpp>
 #include <seiche/backend/sparse.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/momenta.hpp>
 
 #include <fftw3.h>
 
@@ -41,8 +40,7 @@ const BackendEntry& find_backend(std::string_view name) {
 
 const BackendEntry& automatic_backend(const Problem& problem, bool by_kicks) {
   constexpr Index dense_up_to = 24;  // unknowns; docs/performance.md has the measurement
-  const bool differences = !problem.matrices && problem.S.is_sparse() && problem.M.is_sparse();
-  if (by_kicks && differences && momenta(problem)) return find_backend("sparse");
+  if (by_kicks && has_grid_kicks(problem)) return find_backend("sparse");
   if (problem.size() <= dense_up_to) return find_backend("dense");
   return find_backend(problem.matrices ? "sparse" : "modal");
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace seiche {
 namespace {
@@ -37,7 +36,7 @@ template <std::size_t taps, class Visit>
   std::copy_n(run.kind->offsets.begin(), taps, offsets.begin());
   std::copy_n(run.kind->coefficients.begin(), taps, a.begin());
   Visit visit = all;
-  constexpr Index few = 64;  // rows: not worth it
+  constexpr Index few = 64;  // rows, of which too many would come one at a time
   Index j = run.begin;
   if (run.end - run.begin >= few)
     for (; j % lane_count != 0; ++j) visit_row<double>(offsets, a, x, j, visit);
@@ -57,14 +56,19 @@ void visit_any_rows(const Run& run, const double* x, Visit& visit) {
   }
 }
 
-// Unrolled for the numbers of taps that differences of order two and four have in one, two and three dimensions.
+// Unrolled for the numbers of taps that differences of order two and four have in one, two and three dimensions, and of order two at
+// ends.
 template <class Visit>
 [[gnu::always_inline]] inline void visit_runs(std::span<const Run> runs, const double* x, Visit& visit) {
   for (const Run& run : runs) {
     switch (run.kind->offsets.size()) {
+      case 0: visit_rows<0>(run, x, visit); break;
       case 1: visit_rows<1>(run, x, visit); break;
+      case 2: visit_rows<2>(run, x, visit); break;
       case 3: visit_rows<3>(run, x, visit); break;
+      case 4: visit_rows<4>(run, x, visit); break;
       case 5: visit_rows<5>(run, x, visit); break;
+      case 6: visit_rows<6>(run, x, visit); break;
       case 7: visit_rows<7>(run, x, visit); break;
       case 9: visit_rows<9>(run, x, visit); break;
       case 13: visit_rows<13>(run, x, visit); break;
@@ -138,11 +142,12 @@ template <bool has_g>
 struct Subtract : Product {
   double c;
   const double *g, *y;
+  Index g_begin;
   double* out;
   template <class V>
   [[gnu::always_inline]] inline V after(Index j, const V& sum) const {
     V F = sum;
-    if constexpr (has_g) F += at(g, j, sum);
+    if constexpr (has_g) F += at(g, j - g_begin, sum);
     return at(y, j, sum) - c * F;
   }
   template <class V>
@@ -171,6 +176,7 @@ template <bool has_g>
   Subtract<has_g> visit;
   visit.c = c;
   visit.g = in.g;
+  visit.g_begin = in.g_begin;
   visit.y = in.y;
   visit.out = out;
   visit_runs(runs, in.x, visit);
@@ -182,6 +188,7 @@ template <bool has_g>
   SubtractAndDrift<has_g> visit;
   visit.c = factors.kick;
   visit.g = in.g;
+  visit.g_begin = in.g_begin;
   visit.y = in.y;
   visit.out = y_after;
   visit.x = in.x;
@@ -226,8 +233,9 @@ SEICHE_MULTIVERSION double kick_and_drift(std::span<const Run> runs, const KickA
                          : subtract_and_drift<false>(runs, factors, in, x_after, y_after);
 }
 
-std::optional<EqualRows> EqualRows::of(const SparseMatrix& A) {
-  constexpr std::size_t most_kinds = 216;  // three dimensions, differences of order four, periodic: 6³ … at their ends
+std::optional<EqualRows> EqualRows::of(const SparseMatrix& A, Limit limit) {
+  constexpr std::size_t most_kinds =
+      512;  // 5³ of one periodic field in three dimensions, with differences of order four
   const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = A;
   EqualRows result;
   result.size_ = A.rows();
@@ -249,12 +257,15 @@ std::optional<EqualRows> EqualRows::of(const SparseMatrix& A) {
     auto known =
         std::find_if(result.kinds_.begin(), result.kinds_.end(), [&](const auto& other) { return is_it(*other); });
     if (known == result.kinds_.end()) {
-      if (result.kinds_.size() == most_kinds) return std::nullopt;
+      if (limit == Limit::of_gain && result.kinds_.size() == most_kinds) return std::nullopt;
       result.kinds_.push_back(std::make_shared<const Kind>(kind));
       known = std::prev(result.kinds_.end());
     }
     result.runs_.push_back({i, i + 1, known->get()});
   }
+  constexpr std::size_t few_runs = 16;
+  const std::size_t most_runs = few_runs + static_cast<std::size_t>(A.rows()) / lane_count;
+  if (limit == Limit::of_gain && result.runs_.size() > most_runs) return std::nullopt;
   return result;
 }
 

@@ -1,7 +1,6 @@
 // Sparse matrices most of whose rows are one row shifted, as differences on a grid give.
 #pragma once
 
-#include <seiche/core/lanes.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/sparse_operators.hpp>
 
@@ -24,15 +23,17 @@ class EqualRows {
     const Kind* kind;
   };
 
-  struct Operands {  // all point to component 0; g null: zero
+  struct Operands {  // x and y point to component 0, g to component g_begin; g null: zero
     const double *x, *g, *y;
+    Index g_begin = 0;
   };
   struct KickAndDrift {
     double kick, length, decay;
   };
 
-  // Nothing where rows are of more kinds than grids give.
-  static std::optional<EqualRows> of(const SparseMatrix& A);
+  enum class Limit { none, of_gain };
+  // Nothing, with a limit, where rows differ so much that a product with the matrix costs less.
+  static std::optional<EqualRows> of(const SparseMatrix& A, Limit limit = Limit::of_gain);
 
   Index size() const { return size_; }
   std::span<const Run> runs() const { return runs_; }

@@ -1,13 +1,15 @@
 #include <seiche/backend/equal_rows.hpp>
+#include <seiche/backend/fftw_plan.hpp>
 #include <seiche/backend/grid_kicks.hpp>
-#include <seiche/backend/segment.hpp>
+#include <seiche/core/lanes.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace seiche {
 namespace {
 
-constexpr Index block_length = 512;  // points whose slopes of V stay in the first cache until their kick
+constexpr Index block_length = 512;  // points whose slopes, where V is local, stay in the first cache until their kick
 
 class GridKicks final : public Kicks {
  public:
@@ -18,7 +20,7 @@ class GridKicks final : public Kicks {
         slope_length_(!V_              ? 0
                       : V_->is_local() ? std::min(n(), block_length)
                                        : n()),
-        memory_(static_cast<std::size_t>(slope_length_ + 3 * n()) / lane_count + 4) {
+        memory_(fftw_buffer(static_cast<std::size_t>(padded(slope_length_) + 3 * padded(n())))) {
     K_.cut_runs(block_length);
     const std::span<const EqualRows::Run> runs = K_.runs();
     std::size_t next = 0;
@@ -39,8 +41,8 @@ class GridKicks final : public Kicks {
     for (std::size_t i = 0; i < stages.size(); ++i) {
       const auto [length, decay, next_kick] = stages[i];
       double* const q_after = i + 1 < stages.size() ? others[i % 2] : out.data();
-      const double squares = for_blocks(q, [&](const Block& block, const double* g) {
-        return kick_and_drift(block.runs, {kick, length, decay}, {q, g, p_before}, q_after, p);
+      const double squares = for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
+        return kick_and_drift(block.runs, {kick, length, decay}, {q, g, p_before, g_begin}, q_after, p);
       });
       report.taken += squares * (1 - decay * decay) / 2;
       if (i == 0) report.kicked = squares;
@@ -48,8 +50,8 @@ class GridKicks final : public Kicks {
       p_before = p;
       kick = next_kick;
     }
-    for_blocks(q, [&](const Block& block, const double* g) {
-      subtract_rows(block.runs, kick, {q, g, p_before}, out.data() + n());
+    for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
+      subtract_rows(block.runs, kick, {q, g, p_before, g_begin}, out.data() + n());
       return 0.0;
     });
     return report;
@@ -64,13 +66,11 @@ class GridKicks final : public Kicks {
   Index n() const { return K_.size(); }
 
   // Slopes of V, and three arrays of a number per point.
-  double* slope() const { return reinterpret_cast<double*>(memory_.data()); }
-  double* part(Index i) const {
-    const auto padded = [](Index length) { return (length + lane_count - 1) / lane_count * lane_count; };
-    return slope() + padded(slope_length_) + i * padded(n());
-  }
+  static Index padded(Index length) { return (length + lane_count - 1) / lane_count * lane_count; }
+  double* slope() const { return memory_.get(); }
+  double* part(Index i) const { return slope() + padded(slope_length_) + i * padded(n()); }
 
-  // Σ visit(block, slopes of V at q), where slopes[j] belongs to point j.
+  // Σ visit(block, slopes of V at q, the point that the first of them belongs to).
   template <class Visit>
   double for_blocks(const double* q, const Visit& visit) const {
     const auto slopes_at = [&](Index begin, Index end) {
@@ -83,7 +83,7 @@ class GridKicks final : public Kicks {
     double sum = 0;
     for (const Block& block : blocks_) {
       if (is_local) slopes_at(block.begin, block.end);
-      sum += visit(block, !V_ ? nullptr : is_local ? slope() - block.begin : slope());
+      sum += visit(block, V_ ? slope() : nullptr, is_local ? block.begin : 0);
     }
     return sum;
   }
@@ -93,15 +93,14 @@ class GridKicks final : public Kicks {
   const Potential& potential_;
   Index slope_length_;
   std::vector<Block> blocks_;
-  mutable std::vector<Lanes> memory_;  // so that every part begins a line of the cache
+  FftwBuffer memory_;  // every part begins a line of the cache
 };
 
 }  // namespace
 
 std::unique_ptr<Kicks> grid_kicks(const SparseMatrix& K, std::shared_ptr<const PointwisePotential> V,
                                   const Potential& potential) {
-  std::optional<EqualRows> rows = EqualRows::of(K);
-  if (!rows) return nullptr;
+  std::optional<EqualRows> rows = EqualRows::of(K, EqualRows::Limit::none);
   return std::make_unique<GridKicks>(std::move(*rows), std::move(V), potential);
 }
 

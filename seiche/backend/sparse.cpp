@@ -23,16 +23,13 @@ SparseMatrix matrix_of(const Problem& problem, const AnyStencil& stencil) {
   }
 }
 
-// For q̇ = p, ṗ = −Kq − ∇V(q), with V of no field, or of all positions.
-std::unique_ptr<Kicks> kicks_of(const Problem& problem, const SparseMatrix& M, const Potential& potential) {
-  const std::optional<Momenta> p = momenta(problem);
-  if (!p || p->inverse_mass != 1) return nullptr;
-  if (problem.potential && problem.potential->fields() != p->count) return nullptr;
-  const Index n = problem.size() / 2;
-  return grid_kicks(M.topLeftCorner(n, n), problem.potential, potential);
-}
-
 }  // namespace
+
+bool has_grid_kicks(const Problem& problem) {
+  if (problem.matrices || !problem.S.is_sparse() || !problem.M.is_sparse()) return false;
+  const std::optional<Momenta> p = momenta(problem);
+  return p && p->inverse_mass == 1 && (!problem.potential || problem.potential->fields() == p->count);
+}
 
 System sparse_system(const Problem& problem, const BackendOptions& options) {
   options.sparse.validate();
@@ -51,7 +48,11 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
   const SparseOperators& matrices = *shared;
   system.linear = sparse_linear_part(matrices.S, matrices.M, system.potential->support(), options.sparse);
 
-  system.kicks = kicks_of(problem, matrices.M, *system.potential);
+  if (has_grid_kicks(problem))
+    system.make_kicks = [shared, V = problem.potential, &potential = *system.potential] {
+      const Index positions = shared->M.rows() / 2;
+      return grid_kicks(shared->M.topLeftCorner(positions, positions), V, potential);
+    };
 
   const auto D0 = std::make_shared<const SparseMatrix>(
       problem.matrices ? frozen_damping_matrix(problem) : frozen_damping(problem).sparse_matrix(problem.grid));

@@ -9,4 +9,7 @@ namespace seiche {
 // or the options do not fit.
 System sparse_system(const Problem& problem, const BackendOptions& options);
 
+// Has its system Kicks: is it of the form q̇ = p, ṗ = −Kq − ∇V(q) with differences on a grid, and V of all positions or none?
+bool has_grid_kicks(const Problem& problem);
+
 }  // namespace seiche

@@ -32,8 +32,6 @@ double largest_column(const SparseMatrix& A) {
   return largest;
 }
 
-SparseMatrix sparse_columns(const Eigen::MatrixXd& dense) { return dense.sparseView(1.0, epsilon / 4); }
-
 // With AᵀP = QR of rank r, the columns of Q after the first r are orthogonal to the range of Aᵀ.
 SparseMatrix kernel_by_qr(const SparseMatrix& A) {
   const Index n = A.cols();
@@ -42,13 +40,24 @@ SparseMatrix kernel_by_qr(const SparseMatrix& A) {
   Eigen::SparseQR<SparseMatrix, Eigen::COLAMDOrdering<int>> qr;
   qr.setPivotThreshold(1e-12 * largest_column(transposed));
   qr.compute(transposed);
-  Eigen::MatrixXd kernel(n, n - qr.rank());
+  SparseMatrix kernel(n, n - qr.rank());
   for (Index j = 0; j < kernel.cols(); ++j) {
     const Vector unit = Vector::Unit(n, qr.rank() + j);
     const Vector column = qr.matrixQ() * unit;
-    kernel.col(j) = column;
+    for (Index i = 0; i < n; ++i)
+      if (std::abs(column[i]) > epsilon / 4) kernel.insert(i, j) = column[i];
   }
-  return sparse_columns(kernel);
+  kernel.makeCompressed();
+  return kernel;
+}
+
+// At most, of AᵀA.
+double entries_of_square(const SparseMatrix& A) {
+  std::vector<double> in_row(static_cast<std::size_t>(A.rows()));
+  for_entries(A, [&](Index i, Index, double) { ++in_row[static_cast<std::size_t>(i)]; });
+  double sum = 0;
+  for (const double count : in_row) sum += square(count);
+  return sum;
 }
 
 // Of a random block, (AᵀA + δI)⁻¹ leaves the kernel and divides what belongs to σ by 1 + σ²/δ.
@@ -56,6 +65,7 @@ SparseMatrix kernel_by_inverse_iteration(const SparseMatrix& A) {
   constexpr int iterations = 6;
   const Index n = A.cols();
   const double size = largest_column(A);
+  if (entries_of_square(A) > 64.0 * static_cast<double>(n)) return {n, 0};
   SparseMatrix shifted = A.transpose() * A;
   shifted += 1e-13 * square(size) * identity_matrix(n);
   const Eigen::SimplicialLDLT<SparseMatrix> factors(shifted);
@@ -71,7 +81,10 @@ SparseMatrix kernel_by_inverse_iteration(const SparseMatrix& A) {
     const Eigen::MatrixXd image = A * block;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(image.transpose() * image);
     const Index found = (ritz.eigenvalues().array() <= square(1e-9 * size)).count();
-    if (found < tried) return sparse_columns(block * ritz.eigenvectors().leftCols(found));
+    if (found > most_of_large_kernel) break;
+    if (found == tried) continue;
+    if (ritz.eigenvalues()[found] < square(1e-5 * size)) break;  // no gap: what was found may be slow, and no kernel
+    return Eigen::MatrixXd(block * ritz.eigenvectors().leftCols(found)).sparseView(1.0, epsilon / 4);
   }
   return {n, 0};
 }

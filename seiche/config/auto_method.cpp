@@ -11,8 +11,10 @@ namespace seiche {
 namespace {
 
 // Where the curves of time against tolerance cross (docs/performance.md, The choice of "auto"); they are flat there.
-constexpr double stiff_damping = 12;          // times the rate of the solution: backward flows e^{−|a|hD} would grow
-constexpr double stiff_kicks = 10;            // times the rate of the solution: kicks would be bound by their stability
+constexpr double stiff_damping = 12;  // times the rate of the solution: backward flows e^{−|a|hD} would grow
+constexpr double stiff_kicks = 10;    // times the rate of the solution: kicks would be bound by their stability
+constexpr Index many_unknowns = 256;  // below them a transform costs no more than the differences it replaces
+constexpr double faded = 20;          // γ · t_end: by then exact flows take steps far beyond what is stable for kicks
 constexpr double rough_tolerance = 3e-5;      // collocation above it: order four
 constexpr double fine_tolerance = 3e-8;       // collocation below it: order eight
 constexpr double nystrom_tolerance = 1.5e-7;  // Nyström splittings above it: order four, below it six
@@ -77,6 +79,11 @@ bool damps_momenta_alike(const Problem& problem) {
   return p.has_value();
 }
 
+// Is a solution still there at the end?
+bool stays(const MethodRequest& request, const ProblemRates& rates) {
+  return rates.damping == 0 || (request.t_end > 0 && rates.damping * request.t_end <= faded);
+}
+
 std::string collocation_for(double tolerance) {
   return tolerance > rough_tolerance ? "egc4" : tolerance > fine_tolerance ? "egc6" : "egc8";
 }
@@ -100,8 +107,9 @@ ProblemRates rates_of(const System& system) {
           .solution = rate_of_solution(system)};
 }
 
-MethodChoice choose_method(const Problem& problem, const System& system, double tolerance, const MethodOptions& options,
-                           bool by_kicks) {
+MethodChoice choose_method(const Problem& problem, const System& system, const MethodRequest& request,
+                           const MethodOptions& options) {
+  const double tolerance = request.tolerance;
   const double wanted = tolerance > 0 ? tolerance : 1e-6;
   MethodChoice choice{.method = collocation_for(wanted), .options = options, .reason = {}};
   const ProblemRates rates = rates_of(system);
@@ -125,7 +133,8 @@ MethodChoice choose_method(const Problem& problem, const System& system, double 
   if (nystrom && rates.damping <= stiff_damping * rates.solution) {
     choice.method = wanted > nystrom_tolerance ? "crkn4" : "crkn6";
     // The size of a step of one size is the user's, and may be beyond what is stable.
-    if (by_kicks && tolerance > 0 && damps_momenta_alike(problem) && rates.linear <= stiff_kicks * rates.solution) {
+    if (request.by_kicks && tolerance > 0 && damps_momenta_alike(problem) && problem.size() >= many_unknowns &&
+        rates.linear <= stiff_kicks * rates.solution && stays(request, rates)) {
       choice.options.linear = LinearTreatment::explicit_kicks;
       choice.reason =
           fmt::format("{} with linear = \"explicit\" ({}): {}; nothing is stiff, and kicks by all forces cost least",

@@ -23,9 +23,14 @@ struct MethodChoice {
   std::string reason;     // what was seen, and what follows from it
 };
 
-// `tolerance`: of values at the end; 0 where steps have one size, then as for 1e-6. by_kicks: may a method that asks for no
-// exponential have the backend that suits it? The numbers it decides by are measurements (docs/performance.md, The choice of "auto").
-MethodChoice choose_method(const Problem& problem, const System& system, double tolerance,
-                           const MethodOptions& options = {}, bool by_kicks = false);
+struct MethodRequest {
+  double tolerance = 0.0;  // of values at the end; 0 where steps have one size, then as for 1e-6
+  double t_end = 0.0;      // 0: not known
+  bool by_kicks = false;   // may a method that asks for no exponential have the backend that suits it?
+};
+
+// The numbers it decides by are measurements (docs/performance.md, The choice of "auto").
+MethodChoice choose_method(const Problem& problem, const System& system, const MethodRequest& request,
+                           const MethodOptions& options = {});
 
 }  // namespace seiche

@@ -117,7 +117,8 @@ SimulationOptions simulation_options(const RunSpec& spec) {
           .method_options = spec.method_options,
           .backend_options = {.measure_plans = spec.measure_plans, .sparse = spec.sparse},
           .variable_steps = spec.tolerance.has_value(),
-          .tolerance = spec.tolerance.value_or(0.0)};
+          .tolerance = spec.tolerance.value_or(0.0),
+          .t_end = spec.t_end};
 }
 
 void settle_method(RunSpec& spec) {

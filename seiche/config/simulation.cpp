@@ -18,9 +18,22 @@ Problem as_integrated(const MethodEntry& method, const Problem& problem) {
 
 bool is_automatic(const SimulationOptions& options) { return options.method == "auto"; }
 
-const BackendEntry& choose_backend(const std::string& name, const Problem& problem, const MethodOptions& options) {
-  const bool by_kicks = options.linear == LinearTreatment::explicit_kicks;
-  return name == "auto" ? automatic_backend(problem, by_kicks) : find_backend(name);
+// Lanczos iteration would ask of M what kicks have no use for.
+bool kicks_suit(const SimulationOptions& options) {
+  return options.backend_options.sparse.exponential == ExponentialKind::pade;
+}
+
+const BackendEntry& choose_backend(const SimulationOptions& options, const Problem& problem,
+                                   const MethodOptions& method_options) {
+  if (options.backend != "auto") return find_backend(options.backend);
+  return automatic_backend(problem, method_options.linear == LinearTreatment::explicit_kicks && kicks_suit(options));
+}
+
+// Is there a backend for kicks that "auto" may take? It runs on one thread, and keeps matrices.
+bool may_choose_kicks(const SimulationOptions& options, const Problem& problem, const std::string& backend) {
+  constexpr Index most_unknowns = Index{1} << 23;
+  return options.backend == "auto" && kicks_suit(options) && options.backend_options.threads == 1 &&
+         problem.size() <= most_unknowns && automatic_backend(problem, true).name != backend;
 }
 
 void require_memory(const MethodEntry& method, const Problem& problem, bool variable_steps) {
@@ -37,19 +50,23 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
     : method_(is_automatic(options) ? nullptr : &find_method(options.method)),
       problem_(method_ != nullptr ? as_integrated(*method_, problem) : problem),
       method_options_(options.method_options) {
-  const BackendEntry& backend = choose_backend(options.backend, problem_, method_options_);
+  const BackendEntry& backend = choose_backend(options, problem_, method_options_);
   backend_name_ = backend.name;
   if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps);
   system_ = backend.system(problem_, options.backend_options);
   if (method_ == nullptr) {
-    const bool by_kicks = options.backend == "auto" && automatic_backend(problem_, true).name != backend_name_;
-    MethodChoice choice = choose_method(problem_, system_, options.tolerance, options.method_options, by_kicks);
+    MethodChoice choice = choose_method(problem_, system_,
+                                        {.tolerance = options.tolerance,
+                                         .t_end = options.t_end,
+                                         .by_kicks = may_choose_kicks(options, problem_, backend_name_)},
+                                        options.method_options);
     method_ = &find_method(choice.method);
     method_options_ = choice.options;
     reason_ = std::move(choice.reason);
-    const BackendEntry& better = choose_backend(options.backend, problem_, method_options_);
+    const BackendEntry& better = choose_backend(options, problem_, method_options_);
     if (better.name != backend_name_) {
       backend_name_ = better.name;
+      system_ = System{};  // before the other takes its memory
       system_ = better.system(problem_, options.backend_options);
     }
     require_memory(*method_, problem_, options.variable_steps);

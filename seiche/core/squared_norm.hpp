@@ -1,3 +1,4 @@
+// Lengths of vectors.
 #pragma once
 
 #include <seiche/core/vector.hpp>

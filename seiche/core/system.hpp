@@ -12,6 +12,7 @@
 #include <seiche/core/structure.hpp>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -21,8 +22,11 @@ namespace seiche {
 struct EnergyTerms {
   ValueAndMagnitude quadratic, potential;
   double sum() const { return quadratic.value + potential.value; }
-  // 50ε times the sizes of the terms of H: no energy computed in double precision means more than this.
-  double round_off() const { return 50 * epsilon * (2 * quadratic.magnitude + potential.magnitude); }
+  // 50ε times the sizes of the terms of H, and the least normal number, below which there are no relative errors: no energy
+  // computed in double precision means more than this.
+  double round_off() const {
+    return 50 * epsilon * (2 * quadratic.magnitude + potential.magnitude) + std::numeric_limits<double>::min();
+  }
 };
 
 struct System {
@@ -32,7 +36,7 @@ struct System {
   std::unique_ptr<Damping> damping;                                  // D and R
   std::unique_ptr<ExternalForce> force;                              // f; null: none
   std::unique_ptr<Structure> structure;                              // S(z) − S; null: S is all
-  std::unique_ptr<Kicks> kicks;                                      // of z = (q, p), D = γ on p, or null
+  std::function<std::unique_ptr<Kicks>()> make_kicks;                // of z = (q, p), D = γ on p; or null
   std::function<std::unique_ptr<PhiEvaluator>()> make_phi;           // of L = SM − D₀; closures have no use for it
   std::function<std::unique_ptr<PhiEvaluator>()> make_undamped_phi;  // of L = SM
   Vector initial;                                                    // z₀

@@ -6,15 +6,17 @@
 #include <seiche/method/step_dissipation.hpp>
 
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 namespace seiche {
 
-// May ẑ be a solution? `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN.
+// May ẑ be a solution? `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN; a solution that has
+// faded until its square underflows is one.
 inline bool may_be_solution(const Vector& z, double size) {
   constexpr double gross_growth = 1e3;
   const double grown = squared_norm(z);
-  return std::isfinite(grown) && grown <= square(gross_growth * size);
+  return std::isfinite(grown) && (grown < std::numeric_limits<double>::min() || grown <= square(gross_growth * size));
 }
 
 class BaseStep {

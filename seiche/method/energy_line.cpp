@@ -25,35 +25,42 @@ EnergyLine::EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLine
       polynomial_(system.potential->degree() > 0) {
   if (is_ray_)
     prepare_ray();
-  else
-    prepare_line(phi, direction);
+  else if (direction == Direction::steepest)
+    turn_downhill(phi);
 }
 
 void EnergyLine::prepare_ray() {
   K_ = system_.linear->quadratic_energy(z_);
-  slope_ = {2 * K_, std::abs(2 * K_)};
+  slope_ = Slope{2 * K_, std::abs(2 * K_)};
   if (!polynomial_) return;
   system_.potential->along_ray(z_, scratch_.V);
   for (std::size_t k = 1; k < scratch_.V.size(); ++k) {
-    slope_.value += static_cast<double>(k) * scratch_.V[k];
-    slope_.size += static_cast<double>(k) * std::abs(scratch_.V[k]);
+    slope_->value += static_cast<double>(k) * scratch_.V[k];
+    slope_->size += static_cast<double>(k) * std::abs(scratch_.V[k]);
   }
 }
 
-void EnergyLine::prepare_line(const PhiEvaluator& phi, Direction direction) {
+void EnergyLine::take_gradients() {
   scratch_.gradient.setZero();
   system_.potential->gradient(z_, scratch_.gradient);
   system_.linear->apply_M(z_, scratch_.trial);
-  if (direction == Direction::steepest) {
-    scratch_.trial += scratch_.gradient;  // ∇H, for a moment
-    if (!without_casimirs(system_, phi, scratch_.trial, scratch_.d)) scratch_.d = scratch_.trial;
-    const double length = scratch_.d.norm();
-    if (length > 0) scratch_.d *= z_.norm() / length;
-    scratch_.trial -= scratch_.gradient;
-  }
+}
+
+void EnergyLine::turn_downhill(const PhiEvaluator& phi) {
+  take_gradients();
+  scratch_.trial += scratch_.gradient;  // ∇H
+  if (!without_casimirs(system_, phi, scratch_.trial, scratch_.d)) scratch_.d = scratch_.trial;
+  const double length = scratch_.d.norm();
+  if (length > 0) scratch_.d *= z_.norm() / length;
+}
+
+EnergyLine::Slope EnergyLine::slope() {
+  if (slope_) return *slope_;
+  take_gradients();
   const double of_K = scratch_.d.dot(scratch_.trial);
   const double of_V = scratch_.d.dot(scratch_.gradient);
-  slope_ = {of_K + of_V, std::abs(of_K) + std::abs(of_V)};
+  slope_ = Slope{of_K + of_V, std::abs(of_K) + std::abs(of_V)};
+  return *slope_;
 }
 
 EnergyLine::Parts EnergyLine::at(double lambda) const {
@@ -69,10 +76,11 @@ EnergyLine::Parts EnergyLine::at(double lambda) const {
   }
   if (is_ray_)
     scratch_.trial = (1 + lambda) * z_;
-  else
+  else if (lambda != 0)
     scratch_.trial = z_ + lambda * scratch_.d;
-  parts.K = system_.linear->quadratic_energy(scratch_.trial);
-  parts.V = system_.potential->value(scratch_.trial);
+  const Vector& at = lambda == 0 ? z_ : scratch_.trial;
+  parts.K = system_.linear->quadratic_energy(at);
+  parts.V = system_.potential->value(at);
   parts.size = std::abs(parts.V);
   return parts;
 }

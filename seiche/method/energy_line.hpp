@@ -4,6 +4,7 @@
 #include <seiche/core/system.hpp>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace seiche {
@@ -41,21 +42,23 @@ class EnergyLine {
   struct Slope {
     double value = 0, size = 0;  // size: the sum of its terms without their signs
   };
-  Slope slope() const { return slope_; }  // dH/dλ at 0; on a ray without its part from V where V is no polynomial
+  // dH/dλ at 0; on a ray without its part from V where V is no polynomial. Elsewhere the first call takes a gradient.
+  Slope slope();
 
   void move(Vector& z, double lambda) const;  // z is the vector of the line
   const Vector& direction() const { return is_ray_ ? z_ : scratch_.d; }
 
  private:
   void prepare_ray();
-  void prepare_line(const PhiEvaluator& phi, Direction direction);
+  void take_gradients();
+  void turn_downhill(const PhiEvaluator& phi);
 
   const System& system_;
   EnergyLineScratch& scratch_;
   const Vector& z_;
   bool is_ray_, polynomial_;
-  double K_ = 0;  // at λ = 0
-  Slope slope_;
+  double K_ = 0;  // at λ = 0, on the ray
+  std::optional<Slope> slope_;
 };
 
 }  // namespace seiche

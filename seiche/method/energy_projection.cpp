@@ -25,10 +25,15 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
   EnergyLine::Parts start;
   EnergyTarget aim;
   {
-    const EnergyLine line(system_, phi_, scratch_, z, Direction::casimir_free);
+    EnergyLine line(system_, phi_, scratch_, z, Direction::casimir_free);
     start = line.at(0);
     outcome.H = outcome.computed = start.H();
     aim = wanted(outcome.computed);
+    if (std::abs(start.H() - aim.H) <= start.round_off() && start.H() <= aim.cap + start.loss()) {
+      outcome.admissible = true;
+      outcome.H = aim.H;
+      return outcome;
+    }
     const EnergyLine::Slope slope = line.slope();
     const bool conditioned = std::abs(slope.value) >= least_slope * slope.size;
     if (!conditioned && aim.H < aim.cap && start.H() <= aim.cap) {
@@ -38,7 +43,7 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
     if (conditioned && solve(line, start, aim, z, outcome)) return outcome;
   }
   {
-    const EnergyLine line(system_, phi_, scratch_, z, Direction::steepest);
+    EnergyLine line(system_, phi_, scratch_, z, Direction::steepest);
     if (solve(line, line.at(0), aim, z, outcome)) return outcome;
   }
   outcome.by_bisection = true;
@@ -54,7 +59,7 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
 }
 
 // z from `here` on its line to where H is what it should be; false, with z as it was, if the secant iteration does not find it.
-bool EnergyProjection::solve(const EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z,
+bool EnergyProjection::solve(EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z,
                              Outcome& outcome) {
   const auto miss = [&](const EnergyLine::Parts& p) { return std::abs(p.H() - aim.H); };
   double lambda = (aim.H - here.H()) / line.slope().value;

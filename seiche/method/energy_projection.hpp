@@ -32,7 +32,7 @@ class EnergyProjection {
   Outcome project(Vector& z, Wanted wanted);
 
  private:
-  bool solve(const EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z, Outcome& outcome);
+  bool solve(EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z, Outcome& outcome);
   bool bisect(const EnergyLine& line, double goal, Vector& z, Outcome& outcome);
 
   const System& system_;

@@ -121,7 +121,7 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
     if (strict || !may_flow_freely_) return Taken::unresolved;
     amount = {};
     free_.at(h, make_free).apply(s.z, {}, {&z_, 1});
-    if (!z_.allFinite()) return Taken::inadmissible;
+    if (!z_.allFinite()) return Taken::unresolved;
     ++report.fallbacks;
     outcome = projection_.project(z_, [&](double computed) {
       const bool conserves = kind == StepDissipation::Kind::none;

@@ -157,7 +157,7 @@ class Auditor {
     std::vector<std::vector<double>> columns;
     for (const LedgerPart& part : ledger_parts())
       if (energy_.has(std::string(part.name))) columns.push_back(energy_.column(std::string(part.name)));
-    columns.push_back(energy_.column("round_off"));
+    if (energy_.has("round_off")) columns.push_back(energy_.column("round_off"));
     double worst = 0;
     double unexplained = 0;
     double total = 0;
