@@ -34,6 +34,8 @@ class Run {
   virtual void values(std::span<double> z) const = 0;  // field-major
   virtual Work work() const = 0;
   virtual std::optional<OwnEnergy> own_energy() const { return std::nullopt; }
+  // Of H as this integrator evaluates it, where it does and keeps a law by it.
+  virtual double energy_round_off() const { return 0; }
   // ż as this integrator sees it, put together from the parts it steps with.
   virtual void right_hand_side(std::span<const double> z, std::span<double> dz) = 0;
 };

@@ -101,7 +101,7 @@ void watch_energy(const Subject& subject, Contestant& c, double cap_seconds) {
       break;
     }
     const std::int64_t taken = std::max<std::int64_t>(c.run->work().steps, i);
-    rises.add(energy, subject.judge.energy_round_off(z), taken);
+    rises.add(energy, std::max(subject.judge.energy_round_off(z), c.run->energy_round_off()), taken);
     if (const auto reading = c.run->own_energy()) own.add(reading->value, reading->round_off, taken);
     if (spent > 1.5 * cap_seconds && i < outputs) {
       c.row.status = Status::skipped;

@@ -38,43 +38,48 @@ SimulationOptions options_of(const Variant& variant, double parameter, double t_
 class SeicheRun : public Run {
  public:
   SeicheRun(const Problem& problem, const Variant& variant, double parameter, double t_end)
-      : simulation_(problem, options_of(variant, parameter, t_end)),
+      : problem_(problem),
+        options_(options_of(variant, parameter, t_end)),
         sweep_(variant.sweep),
         parameter_(parameter),
-        has_own_(simulation_.stepper().has_modified_energy()) {
-    if (sweep_ == Sweep::step_size) simulation_.step(parameter);  // builds the propagators
+        simulation_(std::make_unique<Simulation>(problem_, options_)) {
+    if (sweep_ == Sweep::step_size) simulation_->step(parameter);  // builds the propagators
     restart();
   }
 
+  // Which steps a run by tolerance takes is not known before: what they need is a part of its cost, and nothing is kept.
   void restart() override {
-    simulation_.restart();
-    gradients_before_ = simulation_.system().potential->counts().gradients;
+    if (sweep_ == Sweep::tolerance) simulation_ = std::make_unique<Simulation>(problem_, options_);
+    simulation_->restart();
+    gradients_before_ = simulation_->system().potential->counts().gradients;
   }
 
   std::string advance(double t) override {
     const std::string failure = sweep_ == Sweep::step_size ? take_equal_steps(t) : take_fitting_steps(t);
     if (!failure.empty()) return failure;
-    return simulation_.state().z.allFinite() ? "" : "not finite";
+    return simulation_->state().z.allFinite() ? "" : "not finite";
   }
 
   void values(std::span<double> z) const override {
-    const Vector physical = simulation_.physical();
+    const Vector physical = simulation_->physical();
     std::copy(physical.begin(), physical.end(), z.begin());
   }
 
   Work work() const override {
-    return {simulation_.state().n, simulation_.system().potential->counts().gradients - gradients_before_};
+    return {simulation_->state().n, simulation_->system().potential->counts().gradients - gradients_before_};
   }
 
   std::optional<OwnEnergy> own_energy() const override {
-    if (!has_own_) return std::nullopt;
-    const EnergyReading reading = simulation_.energy();
+    if (!simulation_->stepper().has_modified_energy()) return std::nullopt;
+    const EnergyReading reading = simulation_->energy();
     return OwnEnergy{reading.modified, reading.modified_round_off};
   }
 
+  double energy_round_off() const override { return simulation_->energy().round_off; }
+
   // The library's own: with the damping in S for `whole` methods.
   void right_hand_side(std::span<const double> z, std::span<double> dz) override {
-    const System& system = simulation_.system();
+    const System& system = simulation_->system();
     const Vector values = Eigen::Map<const Vector>(z.data(), static_cast<Index>(z.size()));
     Vector coordinates(system.space->size());
     Vector rate(system.space->size());
@@ -87,23 +92,24 @@ class SeicheRun : public Run {
  private:
   std::string take_equal_steps(double t) {
     const std::int64_t last = std::llround(t / parameter_);
-    while (simulation_.state().n < last) {
-      const StepReport report = simulation_.step(parameter_);
+    while (simulation_->state().n < last) {
+      const StepReport report = simulation_->step(parameter_);
       if (!report.solved()) return report.message;
     }
     return "";
   }
 
   std::string take_fitting_steps(double t) {
-    const RunReport report = integrate_adaptive(simulation_.system(), simulation_.adaptive_stepper(),
-                                                simulation_.state(), {.tolerance = parameter_, .t_end = t});
+    const RunReport report = integrate_adaptive(simulation_->system(), simulation_->adaptive_stepper(),
+                                                simulation_->state(), {.tolerance = parameter_, .t_end = t});
     return report.status == RunReport::Status::success ? "" : report.message;
   }
 
-  Simulation simulation_;
+  Problem problem_;
+  SimulationOptions options_;
   Sweep sweep_;
   double parameter_;  // h or the tolerance
-  bool has_own_;
+  std::unique_ptr<Simulation> simulation_;
   std::int64_t gradients_before_ = 0;
 };
 
