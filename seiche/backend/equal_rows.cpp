@@ -31,8 +31,8 @@ template <class V, std::size_t taps, class Visit>
 // time. Copies keep in registers what the stores of a visit might otherwise be thought to change.
 template <std::size_t taps, class Visit>
 [[gnu::always_inline]] inline void visit_rows(const Run& run, const double* x, Visit& all) {
-  std::array<Index, taps> offsets;
-  std::array<double, taps> a;
+  std::array<Index, taps> offsets{};
+  std::array<double, taps> a{};
   std::copy_n(run.kind->offsets.begin(), taps, offsets.begin());
   std::copy_n(run.kind->coefficients.begin(), taps, a.begin());
   Visit visit = all;
@@ -82,8 +82,9 @@ struct Sums {
   double rest = 0;
   Sums() = default;
   // One by one: a whole register read from where a single number has just been written would wait for the memory.
+  // NOLINTNEXTLINE(modernize-use-equals-default): that would copy all bytes in whole registers
   [[gnu::always_inline]] inline Sums(const Sums& other) : lanes(other.lanes), rest(other.rest) {}
-  [[gnu::always_inline]] inline Sums& operator=(const Sums& other) {
+  [[gnu::always_inline]] inline Sums& operator=(const Sums& other) {  // NOLINT(modernize-use-equals-default): likewise
     lanes = other.lanes;
     rest = other.rest;
     return *this;
@@ -106,6 +107,7 @@ struct Product {
 };
 
 struct Store : Product {
+  explicit Store(double* into) : out(into) {}
   double* out;
   template <class V>
   [[gnu::always_inline]] inline void row(Index j, const V& sum, const V&) const {
@@ -114,6 +116,7 @@ struct Store : Product {
 };
 
 struct Form : Product {
+  explicit Form(const double* of) : x(of) {}
   const double* x;
   Sums total{};
   template <class V>
@@ -140,6 +143,8 @@ struct FormAndMagnitude {
 
 template <bool has_g>
 struct Subtract : Product {
+  Subtract(double factor, const Operands& in, double* into)
+      : c(factor), g(in.g), y(in.y), g_begin(in.g_begin), out(into) {}
   double c;
   const double *g, *y;
   Index g_begin;
@@ -158,6 +163,13 @@ struct Subtract : Product {
 
 template <bool has_g>
 struct SubtractAndDrift : Subtract<has_g> {
+  // NOLINTNEXTLINE(readability-non-const-parameter): the base writes to y_into
+  SubtractAndDrift(const KickAndDrift& factors, const Operands& in, double* x_into, double* y_into)
+      : Subtract<has_g>(factors.kick, in, y_into),
+        x(in.x),
+        x_after(x_into),
+        length(factors.length),
+        decay(factors.decay) {}
   const double* x;
   double* x_after;
   double length, decay;
@@ -171,43 +183,13 @@ struct SubtractAndDrift : Subtract<has_g> {
   }
 };
 
-template <bool has_g>
-[[gnu::always_inline]] inline void subtract(std::span<const Run> runs, double c, const Operands& in, double* out) {
-  Subtract<has_g> visit;
-  visit.c = c;
-  visit.g = in.g;
-  visit.g_begin = in.g_begin;
-  visit.y = in.y;
-  visit.out = out;
-  visit_runs(runs, in.x, visit);
-}
-
-template <bool has_g>
-[[gnu::always_inline]] inline double subtract_and_drift(std::span<const Run> runs, const KickAndDrift& factors,
-                                                        const Operands& in, double* x_after, double* y_after) {
-  SubtractAndDrift<has_g> visit;
-  visit.c = factors.kick;
-  visit.g = in.g;
-  visit.g_begin = in.g_begin;
-  visit.y = in.y;
-  visit.out = y_after;
-  visit.x = in.x;
-  visit.x_after = x_after;
-  visit.length = factors.length;
-  visit.decay = factors.decay;
-  visit_runs(runs, in.x, visit);
-  return visit.squares.total();
-}
-
 SEICHE_MULTIVERSION void apply_rows(std::span<const Run> runs, const double* x, double* out) {
-  Store visit;
-  visit.out = out;
+  Store visit(out);
   visit_runs(runs, x, visit);
 }
 
 SEICHE_MULTIVERSION double form_of_rows(std::span<const Run> runs, const double* x) {
-  Form visit;
-  visit.x = x;
+  Form visit(x);
   visit_runs(runs, x, visit);
   return visit.total.total();
 }
@@ -221,16 +203,25 @@ SEICHE_MULTIVERSION ValueAndMagnitude form_and_magnitude_of_rows(std::span<const
 }  // namespace
 
 SEICHE_MULTIVERSION void subtract_rows(std::span<const Run> runs, double c, const Operands& in, double* out) {
-  if (in.g != nullptr)
-    subtract<true>(runs, c, in, out);
-  else
-    subtract<false>(runs, c, in, out);
+  if (in.g != nullptr) {
+    Subtract<true> visit(c, in, out);
+    visit_runs(runs, in.x, visit);
+  } else {
+    Subtract<false> visit(c, in, out);
+    visit_runs(runs, in.x, visit);
+  }
 }
 
 SEICHE_MULTIVERSION double kick_and_drift(std::span<const Run> runs, const KickAndDrift& factors, const Operands& in,
                                           double* x_after, double* y_after) {
-  return in.g != nullptr ? subtract_and_drift<true>(runs, factors, in, x_after, y_after)
-                         : subtract_and_drift<false>(runs, factors, in, x_after, y_after);
+  if (in.g != nullptr) {
+    SubtractAndDrift<true> visit(factors, in, x_after, y_after);
+    visit_runs(runs, in.x, visit);
+    return visit.squares.total();
+  }
+  SubtractAndDrift<false> visit(factors, in, x_after, y_after);
+  visit_runs(runs, in.x, visit);
+  return visit.squares.total();
 }
 
 std::optional<EqualRows> EqualRows::of(const SparseMatrix& A, Limit limit) {

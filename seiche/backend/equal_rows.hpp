@@ -24,7 +24,9 @@ class EqualRows {
   };
 
   struct Operands {  // x and y point to component 0, g to component g_begin; g null: zero
-    const double *x, *g, *y;
+    const double* x = nullptr;
+    const double* g = nullptr;
+    const double* y = nullptr;
     Index g_begin = 0;
   };
   struct KickAndDrift {

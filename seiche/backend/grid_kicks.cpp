@@ -39,16 +39,16 @@ class GridKicks final : public Kicks {
     double kick = first_kick;
     Report report;
     for (std::size_t i = 0; i < stages.size(); ++i) {
-      const auto [length, decay, next_kick] = stages[i];
+      const DriftAndKick& stage = stages[i];
       double* const q_after = i + 1 < stages.size() ? others[i % 2] : out.data();
       const double squares = for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
-        return kick_and_drift(block.runs, {kick, length, decay}, {q, g, p_before, g_begin}, q_after, p);
+        return kick_and_drift(block.runs, {kick, stage.length, stage.decay}, {q, g, p_before, g_begin}, q_after, p);
       });
-      report.taken += squares * (1 - decay * decay) / 2;
+      report.taken += squares * (1 - square(stage.decay)) / 2;
       if (i == 0) report.kicked = squares;
       q = q_after;
       p_before = p;
-      kick = next_kick;
+      kick = stage.kick;
     }
     for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
       subtract_rows(block.runs, kick, {q, g, p_before, g_begin}, out.data() + n());
