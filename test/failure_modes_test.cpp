@@ -6,6 +6,7 @@
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/run/adaptive.hpp>
+#include <seiche/run/integrate.hpp>
 #include <seiche/study/reference.hpp>
 
 #include <gtest/gtest.h>
@@ -50,6 +51,26 @@ TEST(FailureMode, WithAToleranceTheSameRunIsAccurateAtTheCostOfShortSteps) {
   EXPECT_GT(report.rejected, 0);
   const Vector z = simulation.physical();
   EXPECT_NEAR(z[0], reference.state(1)[0], 2e-5);
+}
+
+class AllSteps final : public Observer {
+ public:
+  bool is_due(const State&, bool) const override { return true; }
+  void observe(const State&, const EnergyReading&) override {}
+  void finish(const RunReport&) override {}
+};
+
+// The solution blows up at t ≈ 0.36 and C follows it until round-off alone exceeds everything there was.
+TEST(FailureMode, RoundOffThatDrownsTheEnergyIsNoExcuseForARise) {
+  Problem problem = klein_gordon_case(0.1, -1.0);
+  problem.initial.head(20).setConstant(5);
+  problem.initial.tail(20).setZero();
+  Simulation simulation(problem, {.method = "seisav"});
+  AllSteps every;
+  const std::vector<Observer*> observers = {&every};
+  const RunReport report = integrate(simulation.system(), simulation.stepper(), simulation.state(),
+                                     {.h = 1.0 / 256, .t_end = 0.46, .law = {true, "damped"}}, observers);
+  EXPECT_NE(report.law, LawVerdict::holds) << report.message;
 }
 
 TEST(FailureMode, AnEnergyThatIsUnboundedBelowFailsAtHugeStepsWithTheEnergiesAndTheStateAsItWas) {

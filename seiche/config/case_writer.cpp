@@ -124,8 +124,9 @@ std::string example_case(const std::string& problem) {
   text += "\n[method]\n";
   text += line("name", toml_string(entry.default_method), fmt::format("auto | {}", fmt::join(method_names(), " | ")));
   text += line("h", number_or_string(entry.default_h), "step size, time; a number, or a fraction in quotes");
-  text += line("# tolerance", "1e-8",
-               "steps of variable size, with this error at the end (max norm); h is then the first step tried");
+  text += line(
+      "# tolerance", "1e-8",
+      "steps of variable size, each adding at most this error per time (max norm); h is then the first step tried");
   text += line(
       "# h_max", "0.5",
       "with a tolerance: no longer step; write it where γ(t) has pulses shorter than the waves: no more than their width");

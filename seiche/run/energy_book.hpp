@@ -25,6 +25,7 @@ class EnergyBook {
   bool reopened_ = false;
   bool has_increase_ = false;
   std::int64_t last_n_ = 0;
+  double size_at_start_ = 0.0;  // of the terms of the energy that is promised
   EnergyReading last_;
   EnergySummary energy_, modified_;
   struct Violation {
