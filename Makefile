@@ -1,7 +1,7 @@
 # The front door of Seiche. Each target installs what it needs (Debian, Ubuntu) and builds what it runs.
 PREFIX ?= /usr/local
-OUT ?= out/paper
 ARGS ?=
+OUT ?= $(if $(filter --quick,$(ARGS)),out/paper-quick,out/paper)
 WP_ARGS ?=
 JOBS ?= $(shell nproc)
 
@@ -21,7 +21,7 @@ configure: deps
 build: configure  ## build/release/seiche, the program
 	@cmake --build --preset release --parallel $(JOBS) --target seiche_cli
 
-paper: build  ## the paper's examples, figures and claims: out/paper/report.html (ARGS=--quick, OUT=folder)
+paper: build  ## the paper's examples, figures and claims: out/paper/report.html (ARGS=--quick: out/paper-quick; OUT=folder)
 	@build/release/seiche paper --out "$(OUT)" $(ARGS)
 	@echo "The report is $(OUT)/report.html"
 

@@ -1,11 +1,11 @@
 // seiche converge: errors, orders, energies and cost of methods at several step sizes.
 #include "command_line.hpp"
-#include "law_promise.hpp"
 #include "load_case.hpp"
 #include "reference_name.hpp"
 #include "stop_signal.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <seiche/config/case_value.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
@@ -45,6 +45,25 @@ double step_size(const std::string& text) {
   return h;
 }
 
+// Options of the case that some of the methods do not know, and by whom they are left out; "" if there are none.
+std::string options_left_out(const std::vector<std::string>& methods, const MethodOptions& given) {
+  const MethodOptions defaults;
+  std::vector<std::string> all;
+  const auto look_at = [&](const char* name, auto MethodOptions::*option) {
+    std::vector<std::string> without;
+    for (const std::string& method : methods)
+      if (given.*option != defaults.*option && options_for(method, given).*option == defaults.*option)
+        without.push_back(method);
+    if (!without.empty()) all.push_back(fmt::format("method.{} is left out by {}", name, fmt::join(without, ", ")));
+  };
+  look_at("C", &MethodOptions::C);
+  look_at("auxiliary", &MethodOptions::auxiliary);
+  look_at("scalar_solver", &MethodOptions::scalar_solver);
+  look_at("law", &MethodOptions::law);
+  look_at("linear", &MethodOptions::linear);
+  return all.empty() ? "" : fmt::format("{}, to which that means nothing", fmt::join(all, ", "));
+}
+
 // A law that does not hold where it was promised outweighs nothing but a run that failed.
 ExitCode exit_code(const Convergence& study, const RunSpec& spec, const LawPromise& law) {
   const auto failed = [](const StudyRow& row) { return !row.failure.empty(); };
@@ -58,10 +77,13 @@ ExitCode exit_code(const Convergence& study, const RunSpec& spec, const LawPromi
 
 ExitCode converge_case(const ConvergeArguments& arguments) {
   const std::atomic<bool>& stop = stop_on_signal();
-  const RunSpec spec = load_case(arguments.case_argument);
-  const Problem problem = make_problem(spec);
   std::vector<std::string> methods = arguments.methods;
-  for (std::string& name : methods) name = without_blanks(name);
+  for (std::string& name : methods) {
+    name = without_blanks(name);
+    find_method(name);
+  }
+  RunSpec spec = load_case(arguments.case_argument, methods);
+  const Problem problem = make_problem(spec);
   if (methods.empty()) methods = {spec.method};
   for (auto name = methods.begin(); name != methods.end(); ++name)
     if (std::find(methods.begin(), name, *name) != name) throw Error("--methods names {} twice", *name);
@@ -82,6 +104,8 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
   options.stop = &stop;
   options.reference.stop = &stop;
   options.reference.kind = find_reference(arguments.reference);
+  if (const std::string unknown = options_left_out(methods, spec.method_options); !unknown.empty())
+    spec.notes.push_back(unknown);
   const std::string remarks = notes(spec, problem);
   if (!remarks.empty()) print_note(remarks);
 

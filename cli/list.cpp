@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <seiche/backend/backends.hpp>
+#include <seiche/config/custom_case.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/problem/problems.hpp>
@@ -16,6 +17,9 @@ namespace seiche::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr auto what_auto_is =
+    "one of these, chosen by tolerance, stiffness, damping and friction of the case; a run says which and why";
 
 Json methods_json() {
   Json list = Json::array();
@@ -29,12 +33,26 @@ Json methods_json() {
                     {"projection", method.projects() ? Json(to_string(method.projection)) : Json(nullptr)},
                     {"reference", method.reference}});
   }
+  list.push_back({{"name", "auto"},
+                  {"closure", nullptr},
+                  {"propagator", nullptr},
+                  {"composition", nullptr},
+                  {"order", nullptr},
+                  {"law", nullptr},
+                  {"projection", nullptr},
+                  {"reference", what_auto_is}});
+  return list;
+}
+
+std::vector<ProblemEntry> listed_problems() {
+  std::vector<ProblemEntry> list(problems().begin(), problems().end());
+  list.push_back(custom_in_list());
   return list;
 }
 
 Json problems_json() {
   Json list = Json::array();
-  for (const ProblemEntry& problem : problems()) {
+  for (const ProblemEntry& problem : listed_problems()) {
     Json parameters = Json::array();
     for (const Parameter& parameter : problem.parameters) {
       parameters.push_back(
@@ -65,12 +83,12 @@ std::string methods_text() {
                         to_string(method.composition), method.order, method.law,
                         method.projects() ? to_string(method.projection) : "", method.reference);
   }
-  return text;
+  return text + fmt::format("{:<13} {}\n", "auto", what_auto_is);
 }
 
 std::string problems_text() {
   std::string text;
-  for (const ProblemEntry& problem : problems()) {
+  for (const ProblemEntry& problem : listed_problems()) {
     std::vector<std::string> names;
     for (const Parameter& parameter : problem.parameters) names.push_back(parameter.name);
     text += fmt::format("{:<14} {}\n{:14} from {}\n{:14} parameters {}; initial {}\n", problem.name, problem.equation,

@@ -15,15 +15,15 @@ void add_case(CLI::App& command, CaseArgument& argument) {
       ->allow_extra_args(false);
 }
 
-RunSpec load_case(const CaseArgument& argument) {
+RunSpec load_case(const CaseArgument& argument, const std::vector<std::string>& methods) {
   RunSpec spec;
   if (argument.file != "-") {
-    spec = read_case(argument.file, argument.overrides);
+    spec = read_case(argument.file, argument.overrides, methods);
   } else {
     const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-    spec = parse_case(text, "standard input", argument.overrides);
+    spec = parse_case(text, "standard input", argument.overrides, {}, methods);
   }
-  settle_method(spec);
+  if (methods.empty()) settle_method(spec);
   return spec;
 }
 

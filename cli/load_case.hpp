@@ -15,7 +15,8 @@ struct CaseArgument {
 };
 
 void add_case(CLI::App& command, CaseArgument& argument);  // CASE and --set
-RunSpec load_case(const CaseArgument& argument);
+// `methods`, if any, are what will run instead of the method of the case.
+RunSpec load_case(const CaseArgument& argument, const std::vector<std::string>& methods = {});
 
 // What the case and the problem have to say, "; "-separated.
 std::string notes(const RunSpec& spec, const Problem& problem);

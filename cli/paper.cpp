@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 #include <seiche/core/error.hpp>
-#include <seiche/figure/panels.hpp>
+#include <seiche/figure/paper_pictures.hpp>
 #include <seiche/figure/report.hpp>
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/output/progress_bar.hpp>
@@ -18,7 +18,8 @@ namespace seiche::cli {
 namespace {
 
 struct PaperArguments {
-  std::string directory = "out/paper";
+  std::string directory;
+  bool directory_given = false;
   std::string reference = "odeint";
   int threads = 2;
   bool quick = false;
@@ -64,12 +65,17 @@ std::string draw(const PaperResults& results, const std::string& directory) {
   return "";
 }
 
+// A quick run must not take the place of a full one.
+std::string default_directory(bool quick) { return quick ? "out/paper-quick" : "out/paper"; }
+
 ExitCode paper(const PaperArguments& arguments) {
   const std::atomic<bool>& stop = stop_on_signal();
+  const std::string directory = arguments.directory_given ? arguments.directory : default_directory(arguments.quick);
+  if (directory.empty()) throw Error("--out must not be empty");
   PaperOptions options;
   options.quick = arguments.quick;
   options.reference = find_reference(arguments.reference);
-  make_directory(arguments.directory);
+  make_directory(directory);
   StudyProgress progress(arguments.quiet);
   options.threads = arguments.threads;
   options.progress = [&](double done, std::string_view what) { progress(done, what); };
@@ -77,12 +83,12 @@ ExitCode paper(const PaperArguments& arguments) {
   try {
     const PaperResults results = run_paper(options);
     progress.wipe();
-    write_results(results, arguments.directory);
-    const std::string no_figures_because = stop ? "the study was interrupted" : draw(results, arguments.directory);
-    write_report(results, arguments.directory, versions(), no_figures_because);
+    write_results(results, directory);
+    const std::string no_figures_because = stop ? "the study was interrupted" : draw(results, directory);
+    write_report(results, directory, versions(), no_figures_because);
     print_data(arguments.json ? paper_json(results) : verdicts_text(results));
     if (!no_figures_because.empty()) print_note(fmt::format("there are no figures: {}", no_figures_because));
-    if (!arguments.quiet) print_note(fmt::format("{:.1f} s; see {}/report.html", results.seconds, arguments.directory));
+    if (!arguments.quiet) print_note(fmt::format("{:.1f} s; see {}/report.html", results.seconds, directory));
     if (stop) return interrupted;
     return no_figures_because.empty() ? success : computation_failed;
   } catch (const Error& error) {
@@ -97,8 +103,11 @@ ExitCode paper(const PaperArguments& arguments) {
 void add_paper(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<PaperArguments>();
   CLI::App* command = app.add_subcommand("paper", "The paper: every example, method, figure and claim");
-  command->add_option("--out", arguments->directory, "Where data, figures and report.html go; default out/paper")
-      ->type_name("DIR");
+  CLI::Option* out =
+      command
+          ->add_option("--out", arguments->directory,
+                       "Where data, figures and report.html go; default out/paper, with --quick out/paper-quick")
+          ->type_name("DIR");
   command->add_option("--reference", arguments->reference, reference_help);
   command->add_option("--threads", arguments->threads, "Threads of the error runs; timed runs are alone")
       ->type_name("N")
@@ -106,7 +115,10 @@ void add_paper(CLI::App& app, Action& action) {
   command->add_flag("--quick", arguments->quick, "Shorter runs, the same figures and claims");
   command->add_flag("--json", arguments->json, "One JSON document on stdout");
   command->add_flag("--quiet", arguments->quiet, "No progress");
-  command->callback([arguments, &action] { action = [arguments] { return paper(*arguments); }; });
+  command->callback([arguments, out, &action] {
+    arguments->directory_given = out->count() > 0;
+    action = [arguments] { return paper(*arguments); };
+  });
 }
 
 }  // namespace seiche::cli

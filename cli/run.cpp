@@ -1,23 +1,28 @@
 // seiche run: one case, one method, and the files that a run leaves.
 #include "command_line.hpp"
-#include "law_promise.hpp"
 #include "load_case.hpp"
 #include "run_ensemble.hpp"
 #include "stop_signal.hpp"
 #include "versions.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <seiche/config/case_file.hpp>
+#include <seiche/config/kick_stability.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/law.hpp>
+#include <seiche/figure/run_report.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
 #include <seiche/output/progress.hpp>
-#include <seiche/output/snapshots.hpp>
+#include <seiche/output/solution_file.hpp>
 #include <seiche/output/summary.hpp>
+#include <seiche/problem/problems.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
 #include <seiche/study/certificate.hpp>
+#include <seiche/version.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -55,22 +60,43 @@ ExitCode exit_code(const RunReport& report) {
 RunReport integrate(Simulation& simulation, const RunSpec& spec, const LawPromise& law, const std::atomic<bool>& stop,
                     std::span<Observer* const> observers) {
   const auto objection = [&] { return negative_rate(simulation.problem()); };
-  if (spec.tolerance) {
-    const AdaptiveOptions options{.tolerance = *spec.tolerance,
-                                  .t_end = spec.t_end,
-                                  .first_h = spec.h,
-                                  .largest_h = spec.h_max,
-                                  .law = law,
-                                  .objection = objection,
-                                  .stop = &stop};
-    return integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(), options,
-                              observers);
-  }
-  const IntegrateOptions options{.h = spec.h, .t_end = spec.t_end, .law = law, .objection = objection, .stop = &stop};
-  return integrate(simulation.system(), simulation.stepper(), simulation.state(), options, observers);
+  return integrate_either(simulation.system(), simulation.stepper(),
+                          spec.tolerance ? &simulation.adaptive_stepper() : nullptr, simulation.state(),
+                          {.tolerance = spec.tolerance.value_or(0.0),
+                           .t_end = spec.t_end,
+                           .first_h = spec.h,
+                           .largest_h = spec.h_max,
+                           .law = law,
+                           .objection = objection,
+                           .stop = &stop},
+                          observers);
+}
+
+// What solution.h5 says about itself: under the names of the CF conventions where these have one.
+SolutionDescription description(const RunSpec& spec, const Simulation& simulation) {
+  const ProblemEntry& problem = problem_entry(spec);
+  const MethodEntry& method = simulation.method();
+  return {.meanings = problem.meanings,
+          .texts = {{"title", fmt::format("{} by {}", problem.name, method.name)},
+                    {"source", fmt::format("Seiche {} ({})", version_number, version_commit)},
+                    {"references", fmt::format("{}; {}", problem.reference, method.reference)},
+                    {"comment", "Numbers are in the units of the case, whose equation carries none."},
+                    {"problem", problem.name},
+                    {"equation", problem.equation},
+                    {"method", std::string(method.name)},
+                    {"backend", simulation.backend()},
+                    {"case", write_case(spec)},
+                    {"versions", nlohmann::json(versions()).dump()}}};
+}
+
+// Drawing takes longer than many runs: the pictures are left to `seiche plot`.
+void write_page(const std::filesystem::path& directory, bool ledger) {
+  const EnergyHistory history = ledger ? read_energy_history(directory / "energy.csv") : EnergyHistory{};
+  write_run_report(read_run(directory), history, {});
 }
 
 ExitCode run(const RunArguments& arguments) {
+  hdf5_without_cleanup_at_exit();
   RunSpec spec = load_case(arguments.case_argument);
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
   if (arguments.directory_given) spec.output_directory = arguments.directory;
@@ -81,10 +107,13 @@ ExitCode run(const RunArguments& arguments) {
   const std::filesystem::path wisdom = directory / "fftw_wisdom";
   if (spec.measure_plans) use_planning_wisdom(text_of(wisdom));  // a run repeated in its directory plans the same way
   const Problem problem = make_problem(spec);
+  settle_snapshots(spec, problem);
   SimulationOptions simulation_with = simulation_options(spec);
   simulation_with.backend_options.threads = arguments.threads;
   Simulation simulation(problem, simulation_with);
   // Cheap beside a run: what structure leaves open is not looked at here.
+  if (const std::string beyond = spec.tolerance ? "" : beyond_stability(simulation, spec.h); !beyond.empty())
+    spec.notes.push_back(beyond);
   const Certificate certificate = certify(problem, {.method = spec.method,
                                                     .method_options = spec.method_options,
                                                     .t_end = spec.t_end,
@@ -96,18 +125,21 @@ ExitCode run(const RunArguments& arguments) {
   if (!remarks.empty() && !arguments.quiet) print_note(remarks);
 
   make_directory(directory);
+  remove_pictures(directory);
   write_file(directory / "case.toml", write_case(spec));
   if (spec.measure_plans) write_file(wisdom, planning_wisdom());
   const bool modified = simulation.stepper().has_modified_energy();
   EnergyTrace trace(directory / "energy.csv", modified, {.every_steps = spec.energy_every}, spec.ledger);
   if (spec.ledger) simulation.stepper().keep_ledger();
-  Snapshots snapshots(directory / "snapshots.csv", simulation.problem(), *simulation.system().space,
-                      {.every_steps = spec.snapshot_every}, spec.snapshot_interval);
+  SolutionFile solution(directory, simulation.problem(), *simulation.system().space,
+                        {.schedule = {.every_steps = spec.snapshot_every}, .interval = spec.snapshot_interval},
+                        modified, description(spec, simulation));
   Progress progress(stderr, spec.t_end);
-  std::vector<Observer*> observers = {&trace, &snapshots};
+  std::vector<Observer*> observers = {&trace, &solution};
   if (ProgressBar::is_wanted(arguments.quiet)) observers.push_back(&progress);
 
   RunReport report = integrate(simulation, spec, law, stop, observers);
+  const std::string told = report.full();  // the remarks stand above it already
   if (!remarks.empty()) report.message += "; " + remarks;
 
   const RunIdentity identity{.problem = problem.name,
@@ -120,18 +152,27 @@ ExitCode run(const RunArguments& arguments) {
   try {
     write_final_state(directory / "final.txt", simulation.physical());
     write_summary(directory / "summary.json", identity, report);
+    if (spec.report) write_page(directory, spec.ledger);
   } catch (const Error& error) {  // not the user's mistake any more: the directory was writable at the start
     report.status = RunReport::Status::failed;
     report.message += fmt::format("; {}", error.what());
+    print_note(error.what());
   }
   if (arguments.json) print_data(summary_json(identity, report));
   if (!arguments.quiet) {
-    print_lines(report.full());
+    print_lines(told);
     if (law.promised && report.law != LawVerdict::not_promised)
       print_lines(fmt::format("{:<10} {}\n", "theorem", certificate.theorem));
     print_lines(fmt::format("{:<10} {}\n", "files", directory.string()));
-  } else if (report.status == RunReport::Status::failed || report.law == LawVerdict::violated) {
+    if (report.replaced.count > 0)  // again, where a reader's eye ends
+      print_note(fmt::format("{} of {} steps {} replaced, and what followed may be inaccurate", report.replaced.count,
+                             report.steps, report.replaced.count == 1 ? "was" : "were"));
+  } else if (report.status == RunReport::Status::failed || report.law == LawVerdict::violated ||
+             !report.remark_on_replaced().empty()) {
     print_note(report.message);
+  } else if (!problem.friction && !negative_rate(simulation.problem())
+                                       .empty()) {  // mostly a sign typed wrong; of friction it may be the point
+    print_note(fmt::format("{}: it feeds energy, and no energy law is promised", negative_rate(simulation.problem())));
   }
   return exit_code(report);
 }

@@ -1,5 +1,4 @@
 #include "run_ensemble.hpp"
-#include "law_promise.hpp"
 #include "load_case.hpp"
 #include "stop_signal.hpp"
 #include "versions.hpp"
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <seiche/config/case_file.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/law.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/output/atomic_file.hpp>
@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 namespace seiche::cli {
@@ -80,7 +81,7 @@ void write_members(const fs::path& path, const Members& members, const EnsembleR
   for (const std::string& name : members.parameters) header += "," + name;
   header += ",status,steps,t,H_initial,H_final,max_increase";
   if (has_modified) header += ",H_modified_initial,H_modified_final,max_modified_increase";
-  file.write(header + ",law,scalar_iterations,fallbacks,message\n");
+  file.write(header + ",law,scalar_iterations,fallbacks,replaced,message\n");
   for (std::size_t m = 0; m < result.members.size(); ++m) {
     const RunReport& report = result.members[m].report;
     std::string row = fmt::format("{}", m + 1);
@@ -88,8 +89,8 @@ void write_members(const fs::path& path, const Members& members, const EnsembleR
     row += fmt::format(",{},{},{:.17g}", to_string(report.status), report.steps, report.t);
     row += energy_columns(report.energy);
     if (has_modified) row += energy_columns(report.modified);
-    row += fmt::format(",{},{},{},{}\n", to_string(report.law), report.scalar_iterations, report.fallbacks,
-                       csv_text(report.message));
+    row += fmt::format(",{},{},{},{},{}\n", to_string(report.law), report.scalar_iterations, report.fallbacks,
+                       report.replaced.count, csv_text(report.message));
     file.write(row);
   }
   file.commit();
@@ -127,19 +128,21 @@ Json statistics_json(const Statistics& s) {
 }
 
 struct Outcome {
-  std::int64_t succeeded, failed, interrupted, violated, not_promised;
+  std::int64_t succeeded, failed, interrupted, replaced, violated, not_promised;
   std::string message;
 
   explicit Outcome(const EnsembleResult& result)
       : succeeded(of(result, RunReport::Status::success)),
         failed(of(result, RunReport::Status::failed)),
         interrupted(of(result, RunReport::Status::interrupted)),
+        replaced(count(result, holds_replaced)),
         violated(count(result, [](const RunReport& r) { return r.law == LawVerdict::violated; })),
         not_promised(count(result, [](const RunReport& r) { return r.law == LawVerdict::not_promised; })) {
     message = fmt::format("{} of {} members reached the end", succeeded, result.members.size());
     say_first(
         result, failed, "failed", [](const RunReport& r) { return r.status == RunReport::Status::failed; },
         &RunReport::message);
+    say_first(result, replaced, "hold replaced steps", holds_replaced, &RunReport::remark_on_replaced);
     if (interrupted > 0) message += fmt::format("; {} were interrupted", interrupted);
     say_first(
         result, violated, "violated the promised energy law",
@@ -163,14 +166,19 @@ struct Outcome {
     return count(result, [status](const RunReport& r) { return r.status == status; });
   }
 
-  template <class Is>
+  // Of members that failed their message says it.
+  static bool holds_replaced(const RunReport& r) {
+    return r.replaced.count > 0 && r.status != RunReport::Status::failed;
+  }
+
+  template <class Is, class Reason>
   void say_first(const EnsembleResult& result, std::int64_t how_many, const char* what, const Is& is,
-                 std::string RunReport::*reason) {
+                 const Reason& reason) {
     if (how_many == 0) return;
     const auto first = std::find_if(result.members.begin(), result.members.end(),
                                     [&](const MemberResult& member) { return is(member.report); });
     message += fmt::format("; {} {}, the first of them member {}: {}", how_many, what,
-                           first - result.members.begin() + 1, first->report.*reason);
+                           first - result.members.begin() + 1, std::invoke(reason, first->report));
   }
 };
 
@@ -186,10 +194,12 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::int64_t fallbacks = 0;
+  std::int64_t replaced = 0;
   for (const MemberResult& member : result.members) {
     steps += member.report.steps;
     iterations += member.report.scalar_iterations;
     fallbacks += member.report.fallbacks;
+    replaced += member.report.replaced.count;
   }
   Json energy = {{"initial", statistics_json(energies.first().H)}, {"final", statistics_json(energies.last().H)}};
   energy["modified"] = has_modified ? Json{{"initial", statistics_json(energies.first().modified)},
@@ -215,7 +225,7 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
       {"steps", steps},
       {"t", energies.last().t},
       {"energy", energy},
-      {"counts", {{"scalar_iterations", iterations}, {"fallbacks", fallbacks}}},
+      {"counts", {{"scalar_iterations", iterations}, {"fallbacks", fallbacks}, {"replaced", replaced}}},
       {"wall_seconds", result.wall_seconds},
       {"certificate", Json::parse(certificate_json(certificate))},
       {"versions", about}};
@@ -259,15 +269,16 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
   write_file(directory / "case.toml", write_case(spec));
   StatisticsFile energies(directory / "energy.csv", has_modified);
   const EnsembleResult result =
-      run_ensemble(members.list, {.simulation = simulation_options(spec),
-                                  .h = spec.h,
-                                  .t_end = spec.t_end,
-                                  .energy_every = spec.energy_every,
-                                  .threads = options.threads,
-                                  .promise = [&](const Simulation& simulation) { return promise(simulation, spec); },
-                                  .objection = negative_rate,
-                                  .on_record = [&](const EnsembleRecord& record) { energies.write(record); },
-                                  .stop = &stop});
+      run_ensemble(members.list,
+                   {.simulation = simulation_options(spec),
+                    .h = spec.h,
+                    .t_end = spec.t_end,
+                    .energy_every = spec.energy_every,
+                    .threads = options.threads,
+                    .promise = [&](const Simulation& simulation) { return promise_energy_law(simulation, spec.t_end); },
+                    .objection = negative_rate,
+                    .on_record = [&](const EnsembleRecord& record) { energies.write(record); },
+                    .stop = &stop});
   const Outcome outcome(result);
   const std::string backend =
       spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
@@ -283,7 +294,7 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
     print_lines(fmt::format("{:<10} mean {:.9g} → {:.9g}\n{:<10} {} members in {:.3g} s\n{:<10} {}\n", "H",
                             energies.first().H.mean, energies.last().H.mean, "time", result.members.size(),
                             result.wall_seconds, "files", directory.string()));
-  } else if (outcome.failed > 0 || outcome.violated > 0) {
+  } else if (outcome.failed > 0 || outcome.violated > 0 || outcome.replaced > 0) {
     print_note(outcome.message);
   }
   return exit_code(outcome);

@@ -3,7 +3,7 @@
 #include "load_case.hpp"
 
 #include <seiche/core/error.hpp>
-#include <seiche/figure/spectrum_panels.hpp>
+#include <seiche/figure/spectrum_pictures.hpp>
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/study/spectrum.hpp>
 
@@ -24,7 +24,10 @@ ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
   const RunSpec spec = load_case(arguments.case_argument);
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
   if (spec.h == 0)
-    throw Error("{} has a tolerance and no h, and spectrum looks at one step: give --set method.h=1/64", spec.source);
+    throw Error(
+        "{} has a tolerance and no h, and spectrum looks at one step: give --set method.h=…, a number or a fraction such as "
+        "1/64; the report of `seiche run` tells the sizes that the tolerance takes",
+        spec.source);
   const Problem problem = make_problem(spec);
   SimulationOptions options = simulation_options(spec);
   options.backend_options.threads = arguments.threads;

@@ -6,12 +6,14 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/config/library_versions.hpp>
 #include <seiche/core/multiversion.hpp>
+#include <seiche/output/hdf5.hpp>
 #include <seiche/version.hpp>
 
 namespace seiche::cli {
 std::map<std::string, std::string> versions() {
   std::map<std::string, std::string> all = backend_library_versions();
   all.merge(config_library_versions());
+  all["hdf5"] = hdf5_version();
   all["seiche"] = version_number;
   all["git"] = version_commit;
   all["compiler"] = version_compiler;

@@ -1,9 +1,11 @@
 // Everything a program needs: problems, methods, backends, the time loop and its observers.
 //
-// Start here: seiche/config/simulation.hpp puts a problem, a method and a backend together; seiche/core/problem.hpp
-// says what a problem is; seiche/method/methods.hpp and seiche/problem/problems.hpp list what there is.
+// Start here: seiche/solve/solve.hpp is one call for one run; seiche/config/simulation.hpp puts a problem, a method and a
+// backend together, to step oneself; seiche/core/problem.hpp says what a problem is; seiche/method/methods.hpp and
+// seiche/problem/problems.hpp list what there is.
 #pragma once
 
+#include <seiche/config/custom_problem.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
@@ -14,9 +16,11 @@
 #include <seiche/damping/rates.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
-#include <seiche/output/snapshots.hpp>
+#include <seiche/output/solution_file.hpp>
+#include <seiche/output/solution_reader.hpp>
 #include <seiche/potential/bond.hpp>
 #include <seiche/potential/nodal.hpp>
+#include <seiche/potential/own_potential.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/beta_fpu.hpp>
@@ -32,4 +36,5 @@
 #include <seiche/problem/variable_wave.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
+#include <seiche/solve/solve.hpp>
 #include <seiche/version.hpp>

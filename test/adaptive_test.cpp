@@ -2,6 +2,8 @@
 #include "support/convergence.hpp"
 #include "support/paper_cases.hpp"
 
+#include <seiche/config/case_file.hpp>
+#include <seiche/config/custom_problem.hpp>
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
@@ -15,6 +17,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 namespace seiche::test {
 namespace {
@@ -353,6 +356,82 @@ TEST(Adaptive, ABlowUpEndsTheRunWithTheTimeItReached) {
   EXPECT_EQ(report.status, RunReport::Status::failed);
   EXPECT_NEAR(report.t, 12.7, 0.1) << report.message;
   EXPECT_TRUE(simulation.state().z.allFinite());
+}
+
+// H = p²/2 − q⁴/4 is unbounded below, and q is infinite at t ≈ 0.93.
+Problem beyond_the_rim() {
+  return custom_problem({.H = "p^2/2 - q^4/4", .D = {{"0", "0"}, {"0", "0.05"}}, .initial = {{"q", "2"}, {"p", "0"}}});
+}
+
+TEST(Adaptive, AToleranceThatNoStepMeetsIsSaidPerUnitOfTimeAsItIsJudged) {
+  Simulation simulation(beyond_the_rim(), {.method = "crkn6", .variable_steps = true});
+  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                              {.tolerance = 1e-8, .t_end = 10});
+  ASSERT_EQ(report.status, RunReport::Status::failed);
+  const std::regex sentence(
+      "the last one, of h = (\\S+) at t = (\\S+), has an error of (\\S+), which is (\\S+) per unit of time, and tolerance = "
+      "1e-08 allows (\\S+) per unit of time; a larger tolerance may do");
+  std::smatch said;
+  ASSERT_TRUE(std::regex_search(report.message, said, sentence)) << report.message;
+  const auto number = [&](std::size_t i) { return std::stod(said[i]); };
+  EXPECT_NEAR(number(2), report.t, 1e-6);
+  EXPECT_NEAR(number(3) / number(1), number(4), 0.02 * number(4));
+  EXPECT_GT(number(4), number(5));
+  EXPECT_LE(number(5), 1e-8);
+}
+
+// H is flat at rest, and a projection on one of its values moves the state by √round-off there.
+TEST(Adaptive, APendulumComesToRestAtItsTiltedPlaceWhateverTheTolerance) {
+  const RunSpec spec = parse_case(
+      "[problem]\nname = \"custom\"\nH = \"p^2/2 + 1 - cos(q) - q/10\"\nD = { p = 0.3 }\ninitial = { q = 0.5, p = 2 }\n"
+      "[method]\nname = \"egc6\"\ntolerance = 1e-10\n[time]\nend = 150\n",
+      "x.toml", {});
+  const Problem problem = make_problem(spec);
+  for (const char* method : {"egc4", "egc6", "egc8", "crkn6", "etdrk4"}) {
+    for (const double tolerance : {1e-8, 1e-10, 1e-12}) {
+      Simulation simulation(problem, {.method = method, .variable_steps = true});
+      const RunReport report =
+          integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                             {.tolerance = tolerance, .t_end = 150, .law = {true, "damped"}});
+      ASSERT_EQ(report.status, RunReport::Status::success) << method << " " << tolerance << " " << report.message;
+      EXPECT_EQ(report.law, LawVerdict::holds) << method << " " << report.law_reason;
+      EXPECT_NEAR(simulation.physical()[0], std::asin(0.1), 1e-7) << method << " " << tolerance;
+    }
+  }
+}
+
+// An attempt that is taken back is no step of the solution; of one that stays the move is part of its error.
+TEST(Adaptive, AReplacedStepIsNotCountedWhereItIsTakenBackOrItsErrorIsAccepted) {
+  class TakesBack final : public AdaptiveStepper {
+   public:
+    void begin(State&) override {}
+    StepReport step(State& state, double h) override { return attempt(state, h); }
+    StepReport attempt(State&, double h) override {
+      ++attempts;
+      last_h_ = h;
+      return {.replaced = {.count = 1, .why = "it was long", .remedy = "a smaller h"}};
+    }
+    int order() const override { return 4; }
+    std::optional<double> error(const State&) override { return last_h_ > 0.1 ? 1.0 : 1e-12; }
+    EnergyReading energy(const State&) const override { return {.H = 1.0, .modified = 1.0}; }
+    bool has_modified_energy() const override { return false; }
+    void keep_ledger() override {}
+    void undo(State&) override {}
+    void interpolate(const State&, double, Vector&) override {}
+    void forget(State&) override {}
+    void restart(State&) override {}
+    int attempts = 0;
+
+   private:
+    double last_h_ = 0;
+  };
+  Simulation simulation(duffing_case(), {.method = "egc4", .variable_steps = true});
+  TakesBack stepper;
+  const RunReport report = integrate_adaptive(simulation.system(), stepper, simulation.state(),
+                                              {.tolerance = 1e-6, .t_end = 1, .first_h = 0.3, .largest_h = 0.3});
+  ASSERT_EQ(report.status, RunReport::Status::success) << report.message;
+  EXPECT_GT(report.rejected, 0);
+  EXPECT_EQ(report.replaced.count, 0) << report.message;
 }
 
 }  // namespace

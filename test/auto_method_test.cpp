@@ -7,6 +7,8 @@
 #include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/truss.hpp>
+#include <seiche/problem/variable_wave.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/study/reference.hpp>
 
@@ -55,6 +57,28 @@ TEST(AutoMethod, TakesExactFlowsWhereFrictionIsSharp) {
   const Simulation simulation(p, {.method = "auto"});
   EXPECT_EQ(simulation.method().name, "seisav");
   EXPECT_NE(simulation.reason().find("sgn"), std::string::npos) << simulation.reason();
+}
+
+TEST(AutoMethod, KicksWhereMatricesWouldMakeExactFlowsKrylovSpaces) {
+  const SimulationOptions options{.method = "auto", .variable_steps = true, .tolerance = 1e-6, .t_end = 1000};
+  const Problem membrane = variable_wave(
+      {.grid = {.points = {16, 16}, .length = {2.0, 2.0}, .boundary = {Boundary::dirichlet, Boundary::dirichlet}},
+       .alpha = 1.0,
+       .gamma = constant_rate(0.1)});
+  const Simulation kicked(membrane, options);
+  EXPECT_EQ(kicked.backend(), "sparse");
+  EXPECT_EQ(kicked.method_options().linear, LinearTreatment::explicit_kicks) << kicked.reason();
+  EXPECT_NE(kicked.reason().find("Krylov"), std::string::npos) << kicked.reason();
+
+  SimulationOptions of_one_size = options;  // which may be beyond what is stable
+  of_one_size.variable_steps = false;
+  of_one_size.tolerance = 0;
+  EXPECT_EQ(Simulation(membrane, of_one_size).method_options().linear, LinearTreatment::exact);
+
+  // Dashpots between the masses are no multiple of the momenta.
+  const Simulation damped(truss({.panels = 12, .dashpot = 0.2}), options);
+  EXPECT_EQ(damped.backend(), "sparse");
+  EXPECT_EQ(damped.method_options().linear, LinearTreatment::exact) << damped.reason();
 }
 
 TEST(AutoMethod, KeepsStiffDampingOutOfBackwardFlows) {

@@ -314,7 +314,7 @@ TEST(CaseFile, ARateMayChangeFromPointToPoint) {
   EXPECT_EQ(refusal("x*y"), "x.toml: the rate x*y names y, but the grid has 1 axis");
   EXPECT_EQ(refusal("x*z", "points = [4, 4]\n"), "x.toml: the rate x*z names z, but the grid has 2 axes");
   EXPECT_THAT(refusal("1/(x - 0.5)"),
-              HasSubstr("problem.gamma = inf must be a finite number at t = 0, x = 0.5 (j = 5)"));
+              HasSubstr("problem.gamma = inf must be a finite number at t = 0 at x = 0.5 (j = 5)"));
   EXPECT_THAT(refusal("x*log(25 - t)"), HasSubstr("must be a finite number at t = 2"));
   EXPECT_EQ(refusal("x*log(25 - t)", "[time]\nend = 20\n"), "");
   EXPECT_THAT(error_of([] {
@@ -466,7 +466,47 @@ TEST(CaseFile, AToleranceStandsInsteadOfAStepSize) {
   EXPECT_THAT(complaint(minimal + "[method]\ntolerance = 1e-30\n"), HasSubstr("at least 1e-14"));
   EXPECT_THAT(complaint(minimal + "[method]\nh_max = 1\n"), HasSubstr("needs method.tolerance"));
   EXPECT_EQ(parse_case(minimal + "[method]\ntolerance = 1e-3\nh_max = 0.5\n", "x.toml").h_max, 0.5);
-  EXPECT_THAT(complaint(minimal + "[output]\nsnapshot_interval = 0.5\n"), HasSubstr("needs method.tolerance"));
+}
+
+TEST(CaseFile, AnIntervalBetweenSnapshotsIsCountedInStepsOfOneSize) {
+  const auto with = [](const std::string& interval) {
+    return minimal + "[method]\nh = 0.1\n[output]\nsnapshot_interval = " + interval + "\n";
+  };
+  const RunSpec spec = parse_case(with("0.3"), "x.toml");
+  EXPECT_EQ(spec.snapshot_every, 3) << "round-off is no difference";
+  EXPECT_EQ(spec.snapshot_interval, 0);
+  EXPECT_EQ(parse_case(write_case(spec), "again.toml").snapshot_every, 3);
+  EXPECT_EQ(parse_case(with("0.3") + "snapshot_every = 64\n", "x.toml").snapshot_every, 3) << "as with a tolerance";
+  EXPECT_THAT(complaint(with("0.25")),
+              HasSubstr("output.snapshot_interval = 0.25 is no multiple of h = 0.1: write snapshot_every = "));
+  EXPECT_THAT(complaint(with("0.01")), HasSubstr("write snapshot_every = 1, for one every 0.1"));
+}
+
+TEST(CaseFile, WordsOfOtherProgramsAreTakenByTheirMeaningNotTheirLetters) {
+  const auto meant = [](const std::string& section, const std::string& word) {
+    return complaint(minimal + "[" + section + "]\n" + word + " = 0.1\n");
+  };
+  for (const std::string word : {"rtol", "tol", "atol", "rel_tol", "abstol"})
+    EXPECT_THAT(meant("method", word),
+                AllOf(StartsWith("x.toml:4:1: "), HasSubstr("did you mean 'tolerance'? Allowed: name")));
+  for (const std::string word : {"dt", "step", "step_size", "timestep", "first_step"})
+    EXPECT_THAT(meant("method", word), HasSubstr("did you mean 'h'? Allowed: name"));
+  for (const std::string word : {"max_step", "dt_max", "hmax"})
+    EXPECT_THAT(meant("method", word), HasSubstr("did you mean 'h_max'?"));
+  EXPECT_THAT(meant("time", "t_end"), HasSubstr("did you mean 'end'? Allowed: end"));
+  EXPECT_THAT(meant("method", "tmax"), HasSubstr("did you mean 'end' in [time]?"));
+  EXPECT_THAT(complaint("dt = 0.1\n" + minimal), HasSubstr("outside every section; did you mean 'h' in [method]?"));
+  EXPECT_THAT(complaint_of_override("method.dt=0.1"), AllOf(StartsWith("--set method.dt=0.1: "), HasSubstr("'h'?")));
+  EXPECT_THAT(complaint("[problem]\nname = \"oscillator\"\nboundary_conditions = \"periodic\"\n"),
+              testing::Not(HasSubstr("did you mean 'boundary'")))
+      << "a key that this problem does not have";
+}
+
+TEST(CaseFile, AToleranceThatMakesNoSenseIsSaidBeforeWhatNeedsOne) {
+  const std::string about = "method.tolerance = -1 must be > 0";
+  EXPECT_THAT(complaint(minimal + "[output]\nsnapshot_interval = 0.5\n[method]\ntolerance = -1\n"), HasSubstr(about));
+  EXPECT_THAT(complaint(minimal + "[output]\nsnapshot_interval = 0.5\n", {"method.tolerance=-1"}), HasSubstr(about));
+  EXPECT_THAT(complaint(minimal + "[method]\nh_max = 0.5\ntolerance = -1\n"), HasSubstr(about));
 }
 
 }  // namespace

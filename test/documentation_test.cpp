@@ -41,8 +41,8 @@ TEST(Documentation, TheCaseOfTheReadmeRuns) {
   EXPECT_LT(simulation.energy().modified, simulation.problem().initial.squaredNorm() * 1e3);
 }
 
-TEST(Documentation, EveryTestAndFileThatTheMapOfThePaperNamesExists) {
-  const std::string map = text_of("docs/paper_map.md");
+TEST(Documentation, EveryTestAndFileThatTheMapOfThePaperAndTheTheoryNameExists) {
+  const std::string map = text_of("docs/paper_map.md") + text_of("docs/site/theory.md");
   std::string tests;
   for (const auto& entry : std::filesystem::directory_iterator(std::string(SEICHE_SOURCE_DIR) + "/test"))
     if (entry.path().extension() == ".cpp") tests += text_of("test/" + entry.path().filename().string());

@@ -95,6 +95,7 @@ TEST(EnsembleCase, MistakesAreOneSentenceWithTheKey) {
   EXPECT_NE(complaint("members = 2\ngamma = 0.1\n").find("must be { from"), std::string::npos);
   EXPECT_NE(complaint("members = 2\ngamma = { form = 0, to = 1 }\n").find("did you mean 'from'"), std::string::npos);
   EXPECT_NE(complaint("members = 2\ngamma = { from = 0 }\n").find("must be { from"), std::string::npos);
+  EXPECT_NE(complaint("members = 2\ngamma = { from = 1, to = 1 }\n").find("one value and no range"), std::string::npos);
   EXPECT_NE(complaint("members = 2\ngamma = { uniform = [2, 1] }\n").find("≤ the second"), std::string::npos);
   EXPECT_NE(complaint("members = 2\ngamma = { normal = [2, -1] }\n").find("deviation must be ≥ 0"), std::string::npos);
   EXPECT_NE(complaint("members = 2\nkappa = { from = -1, to = 1 }\n").find("kappa"), std::string::npos);
@@ -157,6 +158,22 @@ TEST_F(EnsembleProgram, SaysWhichMembersFailedAndKeepsTheOthers) {
   EXPECT_GT(failed, 0);
   EXPECT_LT(failed, 40);
   EXPECT_EQ(static_cast<std::ptrdiff_t>(members.size()), 41);
+}
+
+// Steps of this size are too long for large waves.
+TEST_F(EnsembleProgram, SaysWhichMembersHoldReplacedSteps) {
+  ASSERT_EQ(run_case("members = 2\nperturb_initial = 0.01\n", "name = \"egc4\"\n"), 0);
+  EXPECT_TRUE(lines("stderr.txt").empty());
+  const std::string large =
+      "--set problem.alpha=1 problem.initial='{u=\"4*sin(pi*x)\",v=\"0\"}' method.h=0.8 time.end=200";
+  ASSERT_EQ(run_case("members = 2\nperturb_initial = 0.01\n", "name = \"egc4\"\n", large), 0);
+  std::ifstream file(directory / "out/summary.json");
+  const nlohmann::json summary = nlohmann::json::parse(file);
+  ASSERT_GT(summary["counts"]["replaced"], 0);
+  const std::string message = summary["message"];
+  EXPECT_NE(message.find("hold replaced steps, the first of them member "), std::string::npos) << message;
+  ASSERT_EQ(lines("stderr.txt").size(), 1U);
+  EXPECT_NE(lines("stderr.txt")[0].find("no solution was found"), std::string::npos) << lines("stderr.txt")[0];
 }
 
 TEST_F(EnsembleProgram, RefusesACaseThatIsWrongBeforeAnythingIsWritten) {

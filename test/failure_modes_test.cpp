@@ -92,6 +92,19 @@ TEST(FailureMode, AnEnergyThatIsUnboundedBelowFailsAtHugeStepsWithTheEnergiesAnd
   }
 }
 
+// Damping that feeds the high modes by 10⁴⁰ in a step: e^{hL}z, which stands for the solution there, has an energy that only z = 0 brings
+// down again.
+TEST(FailureMode, AStepThatLeavesNothingOfTheStateIsNoSolution) {
+  Problem problem = klein_gordon_case(-460, 1.0);
+  for (const std::string& method : collocation) {
+    Simulation simulation(problem, {.method = method});
+    const RunReport report = integrate(simulation.system(), simulation.stepper(), simulation.state(),
+                                       {.h = 0.2, .t_end = 20, .law = {false, "fed"}});
+    EXPECT_EQ(report.status, RunReport::Status::failed) << method;
+    EXPECT_NE(report.message.find("has lost most of the state"), std::string::npos) << method << ": " << report.message;
+  }
+}
+
 TEST(FailureMode, APredictorThatOverflowsIsNeitherTakenNorSilent) {
   Problem problem = duffing_case();
   problem.initial *= 1e70;  // H ~ 1e280: V of a predicted state overflows

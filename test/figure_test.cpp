@@ -1,12 +1,13 @@
-// Every panel is drawn, the report holds every verdict and nothing from elsewhere, and bad numbers break neither.
+// Every picture is drawn, the report holds every verdict and nothing from elsewhere, and bad numbers break neither.
 #include "support/error_of.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/text_of.hpp"
 
 #include <seiche/core/error.hpp>
 #include <seiche/figure/coincide.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/panels.hpp>
+#include <seiche/figure/paper_pictures.hpp>
 #include <seiche/figure/report.hpp>
 #include <seiche/figure/slope_triangle.hpp>
 #include <seiche/method/methods.hpp>
@@ -28,16 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::error_of;
+using test::text_of;
 using testing::HasSubstr;
 using testing::Not;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // Errors of order two, energies that decay: what a study brings.
 ExampleResult example(const std::string& key, const std::string& title) {
@@ -117,8 +114,8 @@ class Figures : public test::InTemporaryDirectory {
   std::string report() const { return text_of(directory / "report.html"); }
 
   void expect_drawn(const PaperResults& paper) const {
-    for (const Panel& panel : paper_panels(paper)) {
-      const fs::path stem = directory / "figures" / panel.plot.stem;
+    for (const CurvePicture& picture : paper_pictures(paper)) {
+      const fs::path stem = directory / "figures" / picture.plot.stem;
       EXPECT_TRUE(text_of(stem.string() + ".png").starts_with("\x89PNG\r\n\x1a\n")) << stem;
       EXPECT_TRUE(text_of(stem.string() + ".pdf").starts_with("%PDF-")) << stem;
     }
@@ -129,7 +126,7 @@ TEST_F(Figures, EveryPanelBecomesAPngAndAPdf) {
   if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   const PaperResults paper = results();
   std::set<std::string> stems;
-  for (const Panel& panel : paper_panels(paper)) stems.insert(panel.plot.stem);
+  for (const CurvePicture& picture : paper_pictures(paper)) stems.insert(picture.plot.stem);
   EXPECT_EQ(stems.size(), 5U * 4 + 1 + 1);
   for (const char* stem : {"klein_gordon_order", "klein_gordon_efficiency", "klein_gordon_energy",
                            "klein_gordon_energy_error", "alpha_fpu_formulations_efficiency", "gkdv_sigma1"}) {
@@ -206,9 +203,9 @@ TEST_F(Figures, DigitsAfterPunctuationStayDigits) {
 
 TEST_F(Figures, ZerosStandOnALineOfTheirOwn) {
   const PaperResults paper = results();
-  const Panel panel = side_panel(paper.side_studies[0]);  // its last curve ends at zero
-  const Plot& plot = panel.plot;
-  EXPECT_THAT(panel.caption, HasSubstr("exactly zero"));
+  const CurvePicture picture = side_picture(paper.side_studies[0]);  // its last curve ends at zero
+  const Plot& plot = picture.plot;
+  EXPECT_THAT(picture.caption, HasSubstr("exactly zero"));
   EXPECT_THAT(plot.y.ticks, HasSubstr("'0'"));
   ASSERT_EQ(plot.series.size(), 3U);
   const double zero = plot.series.back().y.back();
@@ -219,29 +216,29 @@ TEST_F(Figures, ZerosStandOnALineOfTheirOwn) {
   SideStudy without = paper.side_studies[0];
   without.curves.pop_back();
   without.curves.push_back({"SEILM, not a point", {}, {}});
-  const Panel other = side_panel(without);
+  const CurvePicture other = side_picture(without);
   EXPECT_THAT(other.caption, Not(HasSubstr("exactly zero")));
   EXPECT_EQ(other.plot.series.size(), 2U) << "a curve without a point stays out of the legend";
 }
 
 TEST_F(Figures, SideStudiesUseTheWordsOfTheMainAxes) {
   const PaperResults paper = results();
-  EXPECT_EQ(side_panel(paper.side_studies[0]).plot.x_label, example_panels(paper.examples[0])[0].plot.x_label);
+  EXPECT_EQ(side_picture(paper.side_studies[0]).plot.x_label, example_pictures(paper.examples[0])[0].plot.x_label);
 }
 
 TEST_F(Figures, CoincidingCurvesAreNamedAndToldApart) {
   ExampleResult one = results().examples[0];
-  const std::string before = example_panels(one)[0].caption;
+  const std::string before = example_pictures(one)[0].caption;
   EXPECT_THAT(before, Not(HasSubstr("coincide")));
   for (StudyRow& row : one.rows) {
     if (row.method == "seilm") row.error = 1e-3 * row.h * row.h;
     if (row.method == "seavf") row.error = 1.01e-3 * row.h * row.h;
   }
-  const Panel panel = example_panels(one)[0];
-  EXPECT_THAT(panel.caption, HasSubstr("coincide within the width of a line: SEAVF and SEILM."));
-  EXPECT_THAT(panel.caption, HasSubstr("SEAVF is drawn as dashes"));
+  const CurvePicture picture = example_pictures(one)[0];
+  EXPECT_THAT(picture.caption, HasSubstr("coincide within the width of a line: SEAVF and SEILM."));
+  EXPECT_THAT(picture.caption, HasSubstr("SEAVF is drawn as dashes"));
   int dashed = 0;
-  for (const Series& series : panel.plot.series) {
+  for (const Series& series : picture.plot.series) {
     if (series.style.dash != Dash::long_dashed) continue;
     EXPECT_EQ(series.label, "SEAVF");
     EXPECT_EQ(series.layer, coinciding_layer);
@@ -266,7 +263,8 @@ TEST_F(Figures, TheReportHoldsEveryVerdictAndNothingFromElsewhere) {
   }
   EXPECT_THAT(page, Not(HasSubstr("Quick run")));
   if (!have_gnuplot()) return;
-  for (const Panel& panel : paper_panels(paper)) EXPECT_THAT(page, HasSubstr("figures/" + panel.plot.stem + ".pdf"));
+  for (const CurvePicture& picture : paper_pictures(paper))
+    EXPECT_THAT(page, HasSubstr("figures/" + picture.plot.stem + ".pdf"));
   EXPECT_THAT(page, Not(HasSubstr("not drawn")));
 }
 
@@ -275,7 +273,7 @@ TEST_F(Figures, AQuickRunIsMarkedInPageAndFigures) {
   paper.quick = true;
   write_report(paper, directory);
   EXPECT_THAT(report(), HasSubstr("Quick run"));
-  for (const Panel& panel : paper_panels(paper)) EXPECT_THAT(panel.plot.title, HasSubstr("quick"));
+  for (const CurvePicture& picture : paper_pictures(paper)) EXPECT_THAT(picture.plot.title, HasSubstr("quick"));
 }
 
 TEST_F(Figures, FailedAndUnsolvedRunsAreNamed) {

@@ -10,6 +10,7 @@
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/ensemble/ensemble.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/run/adaptive.hpp>
@@ -274,6 +275,35 @@ TEST(Friction, WhatFeedsEnergyIsPromisedNoLawAndTheWitnessIsNamed) {
         EXPECT_NE(h.witness, "");
       }
     EXPECT_EQ(violated, feeds ? 1 : 0) << name;
+  }
+}
+
+// Reversed van der Pol: c = 1 − u² feeds where |u| > 1, as one of the members does.
+TEST(Friction, ThatFeedsOneMemberOfAnEnsembleLeavesTheOthersTheirPromise) {
+  Problem p = oscillator({.omega_squared = 4.0, .alpha = 0.0});
+  p.friction = position_friction(formula("1 - u^2"), p.grid);
+  const auto shared = std::make_shared<const Problem>(p);
+  const auto at = [&](double u) { return EnsembleMember{shared, (Vector(2) << u, 0.0).finished()}; };
+  for (const bool feeds_first : {true, false}) {
+    const std::vector<EnsembleMember> members = {at(feeds_first ? 1.5 : 0.5), at(feeds_first ? 0.5 : 1.5), at(0.4)};
+    const EnsembleResult result =
+        run_ensemble(members, {.simulation = {.method = "seavf"},
+                               .h = 1.0 / 64,
+                               .t_end = 0.25,
+                               .promise =
+                                   [](const Simulation&) {
+                                     return LawPromise{true, "to see who breaks it"};
+                                   },
+                               .objection = [](const Problem& q) { return q.friction->complaint(); }});
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const bool feeds = m == (feeds_first ? 0U : 1U);
+      const RunReport& report = result.members[m].report;
+      EXPECT_EQ(report.law, feeds ? LawVerdict::not_promised : LawVerdict::holds) << m;
+      if (feeds) {
+        EXPECT_NE(report.law_reason.find("feeds energy at t = "), std::string::npos) << report.law_reason;
+      }
+    }
+    EXPECT_EQ(p.friction->fed_at(), "") << "each block of members remembers on its own";
   }
 }
 

@@ -1,19 +1,26 @@
 // Kicks and drifts by differences, in few passes over memory.
+#include "support/falling_energy.hpp"
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
 #include "support/worst.hpp"
 
 #include <seiche/backend/equal_rows.hpp>
+#include <seiche/config/kick_stability.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/method/nystrom_scheme.hpp>
 #include <seiche/problem/beta_fpu.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/sine_gordon.hpp>
+#include <seiche/run/integrate.hpp>
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace seiche::test {
@@ -65,6 +72,14 @@ TEST(EqualRows, HaveTheProductsAndFormsOfTheirMatrix) {
   }
 }
 
+TEST(EqualRows, FormsOfEqualTermsKeepTheirDigits) {
+  const std::optional<EqualRows> rows = EqualRows::of(SparseMatrix(0.3 * identity_matrix(1 << 20)));
+  const Vector x = Vector::Constant(1 << 20, 0.7);
+  const double expected = 0.3 * 0.7 * 0.7 * (1 << 20);
+  EXPECT_NEAR(rows->form(x), expected, 20 * epsilon * expected);
+  EXPECT_NEAR(rows->form_and_magnitude(x).value, expected, 20 * epsilon * expected);
+  EXPECT_NEAR(rows->form_and_magnitude(x).magnitude, expected, 20 * epsilon * expected);
+}
 TEST(EqualRows, GiveUpWhereEveryRowIsOfItsOwnKind) {
   SparseMatrix A = identity_matrix(1000);
   for (Index i = 0; i < 1000; ++i) A.coeffRef(i, i) = 1 + 1e-3 * static_cast<double>(i);
@@ -83,7 +98,7 @@ TEST(EqualRows, ShowANumberThatIsNone) {
 }
 
 // By S, M and ∇V as the backend has them.
-Vector split_by_products(const System& system, double first, std::span<const Kicks::DriftAndKick> stages, Vector z,
+Vector split_by_products(const System& system, std::span<const Kicks::KickAndDrift> stages, double last, Vector z,
                          double& taken) {
   const Index n = z.size() / 2;
   const auto kick = [&](double c) {
@@ -92,13 +107,13 @@ Vector split_by_products(const System& system, double first, std::span<const Kic
     z.tail(n) -= c * g.head(n);
   };
   taken = 0;
-  kick(first);
-  for (const auto& [length, decay, c] : stages) {
+  for (const auto& [c, length, decay] : stages) {
+    kick(c);
     z.head(n) += length * z.tail(n);
     taken += z.tail(n).squaredNorm() * (1 - decay * decay) / 2;
     z.tail(n) *= decay;
-    kick(c);
   }
+  kick(last);
   return z;
 }
 
@@ -118,20 +133,21 @@ TEST(Kicks, AreThoseOfTheMatricesOneByOne) {
   Problem free = klein_gordon_case(0.0, 1.0);
   free.potential = nullptr;
   problems.push_back({"no potential", free});
-  const std::vector<Kicks::DriftAndKick> stages = {{0.02, 0.99, -0.01}, {-0.01, 1.01, 0.02}, {0.03, 0.97, 0.01}};
+  const std::vector<Kicks::KickAndDrift> stages = {{0.01, 0.02, 0.99}, {-0.01, -0.01, 1.01}, {0.02, 0.03, 0.97}};
   for (const auto& [name, problem] : problems) {
     const System system = find_backend("sparse").system(problem, {});
     ASSERT_TRUE(system.make_kicks) << name;
     const std::unique_ptr<Kicks> kicks = system.make_kicks();
     for (std::size_t count = 1; count <= stages.size(); ++count) {
-      const std::span<const Kicks::DriftAndKick> some(stages.data(), count);
+      const std::span<const Kicks::KickAndDrift> some(stages.data(), count);
+      const double last = count < stages.size() ? stages[count].kick : 0.01;
       double taken = 0;
-      const Vector expected = split_by_products(system, 0.01, some, system.initial, taken);
+      const Vector expected = split_by_products(system, some, last, system.initial, taken);
       Vector z(problem.size());
-      const Kicks::Report report = kicks->split(0.01, some, system.initial, z);
+      const Kicks::Report report = kicks->split(some, last, system.initial, z);
       EXPECT_LE(largest(z - expected), 1e-13 * largest(expected)) << name;
       EXPECT_NEAR(report.taken, taken, 1e-12 * expected.squaredNorm()) << name;
-      Vector kicked = split_by_products(system, 0.01, {}, system.initial, taken);
+      Vector kicked = split_by_products(system, {}, 0.01, system.initial, taken);
       EXPECT_NEAR(report.kicked, kicked.tail(kicked.size() / 2).squaredNorm(), 1e-12 * expected.squaredNorm()) << name;
     }
   }
@@ -169,13 +185,7 @@ TEST(Kicks, KeepTheLawOverManyBlocksAtEveryStepSize) {
   options.method_options.linear = LinearTreatment::explicit_kicks;
   for (const double h : {1.0 / 16, 1.0, 10.0}) {
     Simulation simulation(p, options);
-    EnergyReading before = simulation.energy();
-    for (int n = 0; n < 60; ++n) {
-      ASSERT_TRUE(simulation.step(h).solved()) << h;
-      const EnergyReading after = simulation.energy();
-      EXPECT_LE(after.H - before.H, std::max(before.round_off, after.round_off)) << h;
-      before = after;
-    }
+    expect_falling_energy(simulation, h, 60);
   }
 }
 
@@ -191,6 +201,53 @@ TEST(Kicks, GoOnWhereASolutionHasFadedUntilItsSquareUnderflows) {
       EXPECT_GT(simulation.energy().round_off, 0);
     }
   }
+}
+
+// The bound of the scheme itself: an oscillator of frequency one, by kicks that hold all of its force.
+TEST(Kicks, AreBoundedUpToTheStabilityThatIsSaidAndNotAboveIt) {
+  for (const int order : {4, 6}) {
+    const NystromScheme& scheme = nystrom_scheme(order);
+    const auto largest_after = [&](double h, int steps) {
+      double q = 1, p = 0.3, largest = 0;
+      for (int n = 0; n < steps; ++n) {
+        for (std::size_t i = 0; i < scheme.b.size(); ++i) {
+          p -= scheme.b[i] * h * q;
+          if (i < scheme.flows()) q += scheme.a[i] * h * p;
+        }
+        largest = std::max(largest, std::hypot(q, p));
+      }
+      return largest;
+    };
+    const double bound = stability_of_kicks(scheme);
+    EXPECT_LT(largest_after(0.98 * bound, 400), 100) << order;
+    EXPECT_GT(largest_after(1.05 * bound, 400), 1e6) << order;
+  }
+}
+
+TEST(Kicks, BeyondTheirStabilityAreSaidBeforeTheRunAndFailAfterIt) {
+  const Problem p = klein_gordon(
+      {.grid = {.points = {64}, .length = {4.0}}, .kappa = 1.0, .alpha = 1.0, .gamma = constant_rate(0.1)});
+  SimulationOptions options{.method = "crkn4"};
+  options.method_options.linear = LinearTreatment::explicit_kicks;
+  const auto run = [&](double h) {
+    Simulation simulation(p, options);
+    return integrate(simulation.system(), simulation.stepper(), simulation.state(), {.h = h, .t_end = 20 * h});
+  };
+  const Simulation simulation(p, options);
+  EXPECT_EQ(beyond_stability(simulation, 1.0 / 16), "");
+  const RunReport stable = run(1.0 / 16);
+  EXPECT_EQ(stable.status, RunReport::Status::success) << stable.message;
+  EXPECT_EQ(stable.replaced.count, 0);
+  EXPECT_THAT(beyond_stability(simulation, 0.5), testing::HasSubstr("h = 0.5 is beyond the stability of crkn4"));
+  const RunReport unstable = run(0.5);
+  EXPECT_EQ(unstable.status, RunReport::Status::failed);
+  EXPECT_GT(unstable.replaced.count, 2);
+  EXPECT_LE(unstable.replaced.count, unstable.steps);
+  EXPECT_GE(unstable.fallbacks, unstable.replaced.count / 2);
+  EXPECT_THAT(unstable.message,
+              testing::AllOf(testing::HasSubstr(fmt::format("in {} of 20 steps", unstable.replaced.count)),
+                             testing::HasSubstr("a smaller h, or linear = \"exact\"")));
+  EXPECT_EQ(beyond_stability(Simulation(p, {.method = "crkn4"}), 0.5), "");
 }
 
 TEST(Kicks, AreWhatExplicitMethodsRunOnByThemselves) {

@@ -1,4 +1,4 @@
-// Reads every #include of the library and the program and compares it with the table of who may include whom.
+// Reads every #include of the library, the program and the Python module and compares it with the table of who may include whom.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,10 +31,14 @@ const std::map<std::string, Folders> may_include = {
     {"config", {"core", "potential", "damping", "method", "backend", "problem", "output", "run"}},
     {"study", {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config"}},
     {"ensemble", {"core", "problem", "run", "config"}},
+    {"solve", {"core", "run", "config", "study"}},
     {"figure", {"core", "output", "config", "study"}},
     {"cli",
      {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config", "study", "figure",
       "ensemble"}},
+    {"python",
+     {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config", "study", "ensemble",
+      "solve"}},
 };
 
 // Which folders may include a third-party header; the longest prefix decides. fmt is for everybody.
@@ -50,9 +54,11 @@ const std::vector<ThirdParty> third_party = {
     {"ginac/", {"config"}},
     {"cln/", {"config"}},
     {"nlohmann/", {"output", "study", "cli"}},
+    {"hdf5.h", {"output"}},
     {"CLI/", {"cli"}},
+    {"pybind11/", {"python"}},
     {"boost/numeric/odeint", {"study"}},
-    {"boost/math/", {"damping", "study", "method", "run"}},
+    {"boost/math/", {"core", "damping", "study", "method", "run"}},
 };
 
 struct Include {
@@ -77,7 +83,7 @@ std::string folder_of(const fs::path& path) {
 }
 
 bool in_standard_library(const std::string& target) {
-  return target.find('/') == std::string::npos ? target != "fftw3.h" && !target.ends_with(".hpp")
+  return target.find('/') == std::string::npos ? target != "fftw3.h" && target != "hdf5.h" && !target.ends_with(".hpp")
                                                : target.starts_with("sys/");
 }
 
@@ -112,9 +118,14 @@ std::string broken_rule(const Include& include) {
   return owner->prefix + " stays in " + joined(owner->folders);
 }
 
+// CMakeLists.txt leaves these out when it installs.
+const std::set<fs::path> not_installed = {"seiche/config/formula_expression.hpp"};
+
 // Headers are installed, so what they include is what a user of the library must have.
 std::string broken_header_rule(const Include& include) {
-  const bool header = include.file.extension() == ".hpp" && *include.file.begin() == "seiche";
+  const bool header =
+      include.file.extension() == ".hpp" && *include.file.begin() == "seiche" && !not_installed.contains(include.file);
+  if (header && not_installed.contains(include.target)) return "that header is not installed";
   const bool allowed = include.quoted || include.target.starts_with("seiche/") ||
                        include.target.starts_with("Eigen/") || include.target.starts_with("fmt/") ||
                        in_standard_library(include.target);
@@ -159,7 +170,7 @@ std::vector<Include> includes_of(const fs::path& file) {
 
 std::vector<Include> all_includes() {
   std::vector<Include> all;
-  for (const char* folder : {"seiche", "cli"}) {
+  for (const char* folder : {"seiche", "cli", "python"}) {
     for (const fs::path& file : files_below(folder)) {
       if (file.extension() != ".hpp" && file.extension() != ".cpp") continue;
       const std::vector<Include> includes = includes_of(file);
@@ -216,15 +227,17 @@ TEST(Layering, ForbiddenIncludesAreRefused) {
       {"seiche/study/x.cpp", 1, "toml++/toml.h", false},
       {"seiche/core/x.cpp", 1, "ginac/ginac.h", false},
       {"seiche/config/x.cpp", 1, "nlohmann/json.hpp", false},
+      {"seiche/study/x.cpp", 1, "hdf5.h", false},
       {"seiche/config/x.cpp", 1, "CLI/CLI.hpp", false},
       {"seiche/method/x.cpp", 1, "boost/numeric/odeint.hpp", false},
-      {"seiche/core/x.cpp", 1, "boost/math/quadrature/gauss.hpp", false},
+      {"seiche/potential/x.cpp", 1, "boost/math/quadrature/gauss.hpp", false},
       {"seiche/core/x.cpp", 1, "gsl/gsl_math.h", false},
   };
   for (const Include& include : forbidden) {
     EXPECT_NE(broken_rule(include), "") << include.file << " includes " << include.target;
   }
   EXPECT_NE(broken_header_rule({"seiche/output/x.hpp", 1, "nlohmann/json.hpp", false}), "");
+  EXPECT_NE(broken_header_rule({"seiche/output/x.hpp", 1, "hdf5.h", false}), "");
 
   const std::vector<Include> allowed = {
       {"seiche/core/x.hpp", 1, "Eigen/Core", false},

@@ -116,6 +116,7 @@ TEST(Multiplier, TheRobustSolverLeavesNoStepUnresolvedWherePlainNewtonDoes) {
       ASSERT_TRUE(b.solved()) << b.message;
       EXPECT_EQ(b.unresolved, 0);
       fallbacks += b.fallbacks;
+      EXPECT_EQ(b.replaced.count, 0) << "what these fall back to is accurate";
     }
   }
   EXPECT_GT(unresolved_newton, 0);

@@ -6,7 +6,6 @@
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
 #include <seiche/output/progress.hpp>
-#include <seiche/output/snapshots.hpp>
 #include <seiche/output/summary.hpp>
 
 #include <gmock/gmock.h>
@@ -113,30 +112,6 @@ TEST_F(Output, TheEnergyTraceHasAColumnForTheModifiedEnergyOnlyWhereThereIsOne) 
   }
 }
 
-// Coordinates that are not the physical values: z is their double.
-class HalvingSpace : public Space {
- public:
-  Index size() const override { return 4; }
-  Index physical_size() const override { return 4; }
-  void to_physical(const Vector& z, Vector& values) const override { values = z / 2; }
-  void from_physical(const Vector& values, Vector& z) const override { z = 2 * values; }
-};
-
-TEST_F(Output, SnapshotsHoldPhysicalValuesUnderTheNamesOfTheirFields) {
-  Problem problem;
-  problem.fields = {"u", "v"};
-  problem.grid.axes = {{.intervals = 2, .length = 1.0, .boundary = Boundary::periodic}};
-  const HalvingSpace space;
-  Snapshots snapshots(directory / "snapshots.csv", problem, space, {.every_steps = 2});
-  State state{.z = Vector::LinSpaced(4, 2.0, 8.0)};
-  EXPECT_TRUE(snapshots.is_due(state, false));
-  snapshots.observe(state, {});
-  state.n = 1;
-  EXPECT_FALSE(snapshots.is_due(state, false));
-  snapshots.finish({});
-  EXPECT_EQ(lines("snapshots.csv"), (std::vector<std::string>{"t,u_1,u_2,v_1,v_2", "0,1,2,3,4"}));
-}
-
 TEST(Summary, HasTheKeysOfTheInterfaceInTheirOrder) {
   RunReport report;
   report.has_modified_energy = true;
@@ -151,7 +126,8 @@ TEST(Summary, HasTheKeysOfTheInterfaceInTheirOrder) {
       json["energy"].dump(),
       R"({"initial":0.0,"final":0.0,"max_increase":0.0,"modified":{"initial":0.0,"final":0.0,"max_increase":0.0},)"
       R"("law":"not promised"})");
-  EXPECT_EQ(json["counts"].dump(), R"({"gradients":0,"potentials":0,"scalar_iterations":0,"fallbacks":0})");
+  EXPECT_EQ(json["counts"].dump(),
+            R"({"gradients":0,"potentials":0,"scalar_iterations":0,"fallbacks":0,"replaced":0})");
   EXPECT_EQ(json["h"], 0.00390625);
   EXPECT_EQ(json["message"], "said \"so\"\n");
 }

@@ -3,9 +3,12 @@
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/grid_potential.hpp>
+#include <seiche/config/formula_compiler.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/potential/bond.hpp>
 #include <seiche/potential/cosine.hpp>
+#include <seiche/potential/formula_potential.hpp>
+#include <seiche/potential/modulus.hpp>
 #include <seiche/potential/nodal.hpp>
 #include <seiche/potential/polynomials.hpp>
 
@@ -134,6 +137,38 @@ TEST(Potential, CoefficientsAlongALineGiveItsValues) {
       EXPECT_NEAR(sum, V.value(p + x * q), 1e-12 * (1 + V.magnitude(p + x * q)));
     }
   });
+}
+
+// Round-off of equal terms has one sign, and adds up in plain sums: to n/16 ε with eight sums side by side.
+TEST(Potential, SumsOfEqualTermsKeepTheirDigits) {
+  constexpr std::size_t n = 1 << 20;
+  const auto field = [](Index m) { return Grid{.axes = {{m, 1.0, Boundary::periodic}}}; };
+  const auto modulus = std::make_shared<ModulusPotential<Polynomial<2>>>(Polynomial<2>{{0, 0, 0.3}});
+  const auto W = compile_formula("u^4/4 - cos(u)", {"u"});
+  const auto formula = formula_potential({.value = W, .gradient = {differentiate(*W, "u")}}, field(n));
+  for (const std::shared_ptr<const PointwisePotential>& V :
+       {nodal_polynomial({0, 0, 0.1, 0.2, 0.3}), nodal_polynomial({0, 0, 0, 0, 0, 0, 0.7}),
+        std::shared_ptr<const PointwisePotential>(std::make_shared<NodalPotential<Cosine>>(Cosine{})),
+        std::shared_ptr<const PointwisePotential>(modulus), formula}) {
+    const std::vector<double> one(static_cast<std::size_t>(V->fields()), 0.7);
+    const std::vector<double> all(one.size() * n, 0.7), origin(all.size(), 0.0);
+    const double of_one = V->value(one);
+    const auto is_sum = [&](double value, double term) {
+      EXPECT_NEAR(value / (n * term), 1, 20 * epsilon) << V->fields() << " " << V->degree();
+    };
+    is_sum(V->value(all), of_one);
+    is_sum(V->value_and_magnitude(all).value, of_one);
+    is_sum(V->value_and_magnitude(all).magnitude, V->magnitude(one));
+    std::vector<double> gradient(all.size());
+    is_sum(V->value_and_gradient(all, gradient), of_one);
+    gradient = all;
+    is_sum(V->value_and_gradient_in_place(1, 1, gradient), of_one);
+    if (V->degree() == 0) continue;
+    std::vector<double> along(static_cast<std::size_t>(V->degree()) + 1), along_one(along.size());
+    V->along(origin, all, along);
+    V->along(std::vector<double>(one.size(), 0.0), one, along_one);
+    is_sum(along.back(), along_one.back());
+  }
 }
 
 TEST(Potential, OnlyTheSupportOfAGradientIsWritten) {

@@ -1,5 +1,6 @@
 // The energy law as an option, and the methods that need it.
 #include "support/convergence.hpp"
+#include "support/falling_energy.hpp"
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
 #include "support/worst.hpp"
@@ -8,6 +9,7 @@
 #include <seiche/damping/rates.hpp>
 #include <seiche/method/nystrom_scheme.hpp>
 #include <seiche/problem/chain.hpp>
+#include <seiche/problem/sine_gordon.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -214,13 +216,7 @@ TEST(Nystrom, ExplicitKicksHaveTheOrderAndTheLawToo) {
       for (const double step :
            {1.0 / 64, 0.25, 1.0, 10.0}) {  // unstable from somewhere on, and the law holds all the same
         Simulation simulation(problem, {.method = method, .method_options = options});
-        EnergyReading before = simulation.energy();
-        for (int k = 0; k < 200; ++k) {
-          ASSERT_TRUE(simulation.step(step).solved()) << name << " " << method << " " << step;
-          const EnergyReading after = simulation.energy();
-          EXPECT_LE(after.H - before.H, std::max(before.round_off, after.round_off)) << name << " " << method << step;
-          before = after;
-        }
+        expect_falling_energy(simulation, step, 200, name + " " + method);
       }
     }
   }
@@ -231,14 +227,24 @@ TEST(Chin, LetsHFallByItsFormAlone) {
   p.initial *= 3;
   for (const double h : {1.0 / 16, 0.5, 1.0}) {
     Simulation simulation(p, {.method = "chin4", .method_options = with_law(EnergyLaw::none)});
-    EnergyReading before = simulation.energy();
-    for (int n = 0; n < 200; ++n) {
-      ASSERT_TRUE(simulation.step(h).solved()) << h;
-      const EnergyReading after = simulation.energy();
-      EXPECT_LE(after.H - before.H, std::max(before.round_off, after.round_off)) << h;
-      before = after;
-    }
+    expect_falling_energy(simulation, h, 200);
   }
+}
+
+TEST(Chin, CountsWhatItsInnerProjectionsFallBackTo) {
+  Problem p = sine_gordon({.grid = {.points = {40}, .length = {20.0}}, .gamma = constant_rate(0.05)});
+  const auto fallbacks = [&](double h) {
+    Simulation simulation(p, {.method = "chin4"});
+    int count = 0;
+    for (int n = 0; n < 25; ++n) {
+      const StepReport report = simulation.step(h);
+      EXPECT_TRUE(report.solved()) << report.message;
+      count += report.fallbacks;
+    }
+    return count;
+  };
+  EXPECT_EQ(fallbacks(1.0 / 16), 0);
+  EXPECT_GT(fallbacks(8.0), 5);
 }
 
 }  // namespace

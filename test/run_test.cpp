@@ -2,6 +2,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/run/integrate.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace seiche {
@@ -317,12 +319,53 @@ TEST_F(TimeLoop, CountsOfStepsAddUp) {
   EXPECT_EQ(report.potential_counts.gradients, 10);
 }
 
+TEST(RunReport, StepsWithoutASolutionAreSaidAlwaysAndFailARunWhereTheyAreMany) {
+  RunReport report;
+  report.steps = 10'000;
+  report.replaced = {.why = "the scheme left the numbers", .remedy = "a smaller h"};
+  for (const auto& [replaced, is_said, fails] :
+       {std::tuple(0, false, false), {1, true, false}, {5, true, false}, {50, true, false}, {2000, true, true}}) {
+    report.replaced.count = replaced;
+    report.message = "reached t = 1";
+    report.status = Status::success;
+    report.judge_replaced();
+    EXPECT_EQ(report.message != "reached t = 1", is_said) << replaced;
+    EXPECT_EQ(report.status == Status::failed, fails) << replaced;
+    if (is_said) {
+      EXPECT_THAT(report.message, testing::AllOf(HasSubstr(fmt::format("{} of 10000 steps ", replaced)),
+                                                 HasSubstr("the scheme left the numbers"), HasSubstr("a smaller h")));
+    }
+  }
+}
+
+TEST(RunReport, OneStepThatLostMostOfTheStateFailsARun) {
+  RunReport report;
+  report.steps = 1'000'000;
+  report.replaced = {.count = 1, .ruinous = true, .why = "sweeps did not converge", .remedy = "a smaller h"};
+  report.judge_replaced();
+  EXPECT_EQ(report.status, Status::failed);
+  EXPECT_THAT(report.message, HasSubstr("has lost most of the state"));
+}
+
 TEST(RunReport, BriefIsOneLineAndFullHoldsTheMessage) {
   RunReport report;
   report.message = "reached t = 1";
   EXPECT_EQ(report.brief().find('\n'), std::string::npos);
   EXPECT_THAT(report.full(), HasSubstr("reached t = 1"));
   EXPECT_EQ(to_string(LawVerdict::not_promised), "not promised");
+}
+
+TEST(RunReport, OneReplacedStepIsSaidInWords) {
+  RunReport report;
+  report.steps = 12'801;
+  report.replaced = {.count = 1, .why = "sweeps did not converge", .remedy = "a smaller h"};
+  EXPECT_THAT(report.remark_on_replaced(),
+              testing::StartsWith("1 of 12801 steps was replaced, because sweeps did not"));
+  report.replaced.count = 2;
+  EXPECT_THAT(report.remark_on_replaced(), testing::StartsWith("2 of 12801 steps were replaced, because "));
+  report.steps = 0;
+  EXPECT_THAT(report.remark_on_replaced(), testing::StartsWith("in 2 steps no solution was found, because "))
+      << "taken back";
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <seiche/core/eigenpairs.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/field_rates.hpp>
+#include <seiche/damping/formula_frictions.hpp>
+#include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
@@ -20,6 +22,8 @@
 
 #include <cmath>
 #include <complex>
+#include <map>
+#include <sstream>
 
 namespace seiche::test {
 namespace {
@@ -51,6 +55,40 @@ Problem by_matrices(const Problem& grid) {
                                                                  .D = grid.damping.constant.sparse_matrix(grid.grid)});
   for (BlockStencil* block : {&p.S, &p.M, &p.damping.constant}) *block = BlockStencil(grid.field_count());
   return p;
+}
+
+TEST(Spectrum, HoldsTheLinearPartOfAFriction) {
+  const double omega = 2.0, h = 0.25;
+  const double expected = 0.3 + 0.4;
+  Problem quadratic = damped_oscillator(omega, 0.3);
+  quadratic.friction = quadratic_friction(0.4, 0.7);
+  Problem formula = damped_oscillator(omega, 0.3);
+  formula.friction =
+      formula_friction({.formula = compile_formula("0.4*sin(v) + v^3*(1 + u)", {"v", "u", "t", "x", "y", "z"})},
+                       formula.grid);
+  const auto decay = [&](const Problem& p) {
+    const Spectrum s = spectrum(p, {.method = "seavf"}, h);
+    EXPECT_EQ(s.rows.size(), 1U);
+    return s.rows[0].exact_decay;
+  };
+  EXPECT_NEAR(decay(quadratic), expected / 2, 1e-14);
+  EXPECT_NEAR(decay(formula), expected / 2, 1e-14);
+  Problem cubic = damped_oscillator(omega, 0.3);  // no linear part
+  cubic.friction = cubic_friction(1.0);
+  EXPECT_NEAR(decay(cubic), 0.3 / 2, 1e-14);
+  Problem dry = damped_oscillator(omega, 0.3);  // a jump has none
+  dry.friction = dry_friction(0.1);
+  EXPECT_NEAR(decay(dry), 0.3 / 2, 1e-14);
+
+  // Friction that changes from point to point makes a sponge of the linear part.
+  Problem wave = klein_gordon({.grid = {.points = {8}}, .gamma = constant_rate(0.1)});
+  wave.friction = formula_friction({.formula = compile_formula("0.4*v*x", {"v", "u", "t", "x", "y", "z"})}, wave.grid);
+  Problem sponge = klein_gordon({.grid = {.points = {8}}, .gamma = constant_rate(0.1)});
+  sponge.damping.field_rate = formula_space_rate(compile_formula("0.4*x", {"t", "x"}), 1, true)->on(sponge.grid);
+  const Spectrum a = spectrum(wave, {.method = "seavf"}, h);
+  const Spectrum b = spectrum(sponge, {.method = "seavf"}, h);
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i) EXPECT_NEAR(a.rows[i].exact_decay, b.rows[i].exact_decay, 1e-12);
 }
 
 TEST(Spectrum, OfTheDampedOscillatorIsTheClosedFormulaOfTheSplitting) {
@@ -108,8 +146,8 @@ TEST(Spectrum, OfCollocationIsExactOnEveryBackend) {
     for (const BackendEntry& backend : backends_for(problem)) {
       if (problem.size() > 200) continue;
       const Spectrum s = spectrum(problem, {.method = "egc4", .backend = std::string(backend.name)}, 1.0 / 64);
-      // γ(x) is a force of collocation, and not part of its exponential.
-      const double tolerance = problem.damping.field_rate ? 1e-3 : 1e-9;
+      // γ(x), and friction that changes from point to point, is a force of collocation, and not part of its exponential.
+      const double tolerance = problem.damping.field_rate || problem.friction ? 1e-3 : 1e-9;
       for (const SpectrumRow& row : s.rows) {
         EXPECT_NEAR(row.damping_error(), 0, tolerance + row.round_off)
             << name << " " << backend.name << " " << row.mode;
@@ -249,6 +287,30 @@ TEST(EigenPairs, AreMatchedByTheirVectorsAndTheirValues) {
   const std::vector<Index> partner = partners(a, b, a.values);
   for (Index i = 0; i < 2; ++i)
     EXPECT_NEAR(std::abs(b.values[partner[static_cast<std::size_t>(i)]] - 2.0 * a.values[i]), 0, 1e-15);
+}
+
+// With γ this large the slow modes have two rates each and the fast ones a frequency.
+TEST(Spectrum, AShortTableLeavesOutWholeModesAndNoRowOfThoseItShows) {
+  const Problem problem = klein_gordon({.grid = {.points = {200}, .length = {2.0}}, .gamma = constant_rate(30)});
+  const Spectrum s = spectrum(problem, {.method = "seisav"}, 1.0 / 256);
+  std::map<std::string, int> rates, shown;
+  for (const SpectrumRow& row : s.rows) ++rates[row.mode];
+  ASSERT_GT(s.rows.size(), rates.size()) << "no mode has two rates";
+  std::istringstream table(spectrum_table(s));
+  for (std::string line, mode; std::getline(table, line);)
+    if (std::istringstream(line) >> mode && rates.contains(mode)) ++shown[mode];
+  EXPECT_GT(shown.size(), 10U);
+  EXPECT_LT(shown.size(), rates.size());
+  for (const auto& [mode, rows] : shown) EXPECT_EQ(rows, rates[mode]) << "mode " << mode;
+  EXPECT_THAT(spectrum_table(s), HasSubstr(fmt::format("one of {} modes in each", rates.size())));
+}
+
+TEST(Spectrum, WhereNothingIsLinearASentenceStandsForATableOfZeros) {
+  const auto table = [](double gamma) {
+    return spectrum_table(spectrum(damped_oscillator(0.0, gamma), {.method = "seisav"}, 1.0 / 64));
+  };
+  EXPECT_THAT(table(0.0), testing::AllOf(HasSubstr("all its rates are zero"), testing::Not(HasSubstr("phase error"))));
+  EXPECT_THAT(table(0.1), testing::AllOf(HasSubstr("phase error"), testing::Not(HasSubstr("all its rates"))));
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST(NestedRules, TheFinerOneIsExactBeyondTheCoarser) {
   }
 }
 
-DenseOutput constant_force() {
+StepOutput constant_force() {
   const Eigen::MatrixXd C = Eigen::MatrixXd::Ones(1, 1);
   return {.forces = 1, .order = 1, .weights = [C](double theta) { return collocation_weights(C, theta); }};
 }

@@ -43,14 +43,17 @@ class SeicheRun : public Run {
         sweep_(variant.sweep),
         parameter_(parameter),
         simulation_(std::make_unique<Simulation>(problem_, options_)) {
-    if (sweep_ == Sweep::step_size) simulation_->step(parameter);  // builds the propagators
+    if (sweep_ == Sweep::tolerance) return;
+    simulation_->step(parameter);  // builds the propagators
     restart();
   }
 
   // Which steps a run by tolerance takes is not known before: what they need is a part of its cost, and nothing is kept.
   void restart() override {
-    if (sweep_ == Sweep::tolerance) simulation_ = std::make_unique<Simulation>(problem_, options_);
-    simulation_->restart();
+    if (sweep_ == Sweep::tolerance)
+      simulation_ = std::make_unique<Simulation>(problem_, options_);
+    else
+      simulation_->restart();
     gradients_before_ = simulation_->system().potential->counts().gradients;
   }
 

@@ -1,5 +1,6 @@
 #include <seiche/backend/equal_rows.hpp>
 #include <seiche/core/lanes.hpp>
+#include <seiche/core/long_sum.hpp>
 #include <seiche/core/multiversion.hpp>
 
 #include <algorithm>
@@ -11,10 +12,10 @@ namespace {
 using Run = EqualRows::Run;
 using Kind = EqualRows::Kind;
 using Operands = EqualRows::Operands;
-using KickAndDrift = EqualRows::KickAndDrift;
+using KickAndDrift = Kicks::KickAndDrift;
 
 template <class V>
-[[gnu::always_inline]] inline V sizes(const V& x) {
+[[gnu::always_inline]] inline V absolute(const V& x) {
   return x < 0 ? -x : x;
 }
 
@@ -94,11 +95,6 @@ struct Sums {
   [[gnu::always_inline]] inline double total() const { return sum(lanes) + rest; }
 };
 
-template <class V>
-[[gnu::always_inline]] inline V at(const double* p, Index j, const V&) {
-  return load<V>(p + j);
-}
-
 struct Product {
   template <class V>
   [[gnu::always_inline]] static inline void add(V& sum, V&, double a, const V& x) {
@@ -120,8 +116,8 @@ struct Form : Product {
   const double* x;
   Sums total{};
   template <class V>
-  [[gnu::always_inline]] inline void row(Index j, const V& sum, const V& size) {
-    total.add(at(x, j, size) * sum);
+  [[gnu::always_inline]] inline void row(Index j, const V& sum, const V&) {
+    total.add(load<V>(x + j) * sum);
   }
 };
 
@@ -131,13 +127,13 @@ struct FormAndMagnitude {
   template <class V>
   [[gnu::always_inline]] static inline void add(V& sum, V& size, double a, const V& x) {
     sum += a * x;
-    size += sizes(V(a * x));
+    size += absolute(V(a * x));
   }
   template <class V>
   [[gnu::always_inline]] inline void row(Index j, const V& sum, const V& size) {
-    const V here = at(x, j, size);
+    const V here = load<V>(x + j);
     total.add(here * sum);
-    magnitude.add(sizes(here) * size);
+    magnitude.add(absolute(here) * size);
   }
 };
 
@@ -152,8 +148,8 @@ struct Subtract : Product {
   template <class V>
   [[gnu::always_inline]] inline V after(Index j, const V& sum) const {
     V F = sum;
-    if constexpr (has_g) F += at(g, j - g_begin, sum);
-    return at(y, j, sum) - c * F;
+    if constexpr (has_g) F += load<V>(g + (j - g_begin));
+    return load<V>(y + j) - c * F;
   }
   template <class V>
   [[gnu::always_inline]] inline void row(Index j, const V& sum, const V&) const {
@@ -178,7 +174,7 @@ struct SubtractAndDrift : Subtract<has_g> {
   [[gnu::always_inline]] inline void row(Index j, const V& sum, const V&) {
     const V p = this->after(j, sum);
     squares.add(V(p * p));
-    store(x_after + j, V(at(x, j, sum) + length * p));
+    store(x_after + j, V(load<V>(x + j) + length * p));
     store(this->out + j, V(decay * p));
   }
 };
@@ -188,16 +184,40 @@ SEICHE_MULTIVERSION void apply_rows(std::span<const Run> runs, const double* x, 
   visit_runs(runs, x, visit);
 }
 
+// visit(part) for parts of runs, each a block of a long sum.
+template <class Visit>
+[[gnu::always_inline]] inline void for_blocks(std::span<const Run> runs, const Visit& visit) {
+  constexpr Index block = lane_count * 128;
+  for (Run part : runs) {
+    const Index end = part.end;
+    for (; part.begin < end; part.begin = part.end) {
+      part.end = std::min(end, (part.begin / block + 1) * block);
+      visit(std::span<const Run>(&part, 1));
+    }
+  }
+}
+
 SEICHE_MULTIVERSION double form_of_rows(std::span<const Run> runs, const double* x) {
-  Form visit(x);
-  visit_runs(runs, x, visit);
-  return visit.total.total();
+  LongSum total;
+  for_blocks(
+      runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
+        Form visit(x);
+        visit_runs(part, x, visit);
+        total.add(visit.total.total());
+      });
+  return total.total();
 }
 
 SEICHE_MULTIVERSION ValueAndMagnitude form_and_magnitude_of_rows(std::span<const Run> runs, const double* x) {
-  FormAndMagnitude visit{.x = x};
-  visit_runs(runs, x, visit);
-  return {visit.total.total(), visit.magnitude.total()};
+  LongSum total, magnitude;
+  for_blocks(
+      runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
+        FormAndMagnitude visit{.x = x};
+        visit_runs(part, x, visit);
+        total.add(visit.total.total());
+        magnitude.add(visit.magnitude.total());
+      });
+  return {total.total(), magnitude.total()};
 }
 
 }  // namespace
@@ -214,14 +234,19 @@ SEICHE_MULTIVERSION void subtract_rows(std::span<const Run> runs, double c, cons
 
 SEICHE_MULTIVERSION double kick_and_drift(std::span<const Run> runs, const KickAndDrift& factors, const Operands& in,
                                           double* x_after, double* y_after) {
-  if (in.g != nullptr) {
-    SubtractAndDrift<true> visit(factors, in, x_after, y_after);
-    visit_runs(runs, in.x, visit);
-    return visit.squares.total();
-  }
-  SubtractAndDrift<false> visit(factors, in, x_after, y_after);
-  visit_runs(runs, in.x, visit);
-  return visit.squares.total();
+  LongSum squares;
+  for_blocks(
+      runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
+        const auto add = [&](auto visit) __attribute__((always_inline)) {
+          visit_runs(part, in.x, visit);
+          squares.add(visit.squares.total());
+        };
+        if (in.g != nullptr)
+          add(SubtractAndDrift<true>(factors, in, x_after, y_after));
+        else
+          add(SubtractAndDrift<false>(factors, in, x_after, y_after));
+      });
+  return squares.total();
 }
 
 std::optional<EqualRows> EqualRows::of(const SparseMatrix& A, Limit limit) {

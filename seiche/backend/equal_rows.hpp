@@ -1,6 +1,7 @@
 // Sparse matrices most of whose rows are one row shifted, as differences on a grid give.
 #pragma once
 
+#include <seiche/core/kicks.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/sparse_operators.hpp>
 
@@ -29,9 +30,6 @@ class EqualRows {
     const double* y = nullptr;
     Index g_begin = 0;
   };
-  struct KickAndDrift {
-    double kick, length, decay;
-  };
 
   enum class Limit { none, of_gain };
   // Nothing, with a limit, where rows differ so much that a product with the matrix costs less.
@@ -56,7 +54,7 @@ void subtract_rows(std::span<const EqualRows::Run> runs, double c, const EqualRo
 
 // y ← y − kick · F, then x_after ← x + length · y and y_after ← decay · y; returns |y|² from before the last. y_after may be y,
 // x_after is not x.
-double kick_and_drift(std::span<const EqualRows::Run> runs, const EqualRows::KickAndDrift& factors,
+double kick_and_drift(std::span<const EqualRows::Run> runs, const Kicks::KickAndDrift& factors,
                       const EqualRows::Operands& in, double* x_after, double* y_after);
 
 }  // namespace seiche

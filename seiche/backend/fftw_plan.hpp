@@ -18,6 +18,10 @@ struct FreeFftw {
 using FftwBuffer = std::unique_ptr<double[], FreeFftw>;
 FftwBuffer fftw_buffer(std::size_t size);
 
+// (Re, Im) side by side: FFTW's fftw_complex is this array.
+using FftwComplex = double[2];
+inline FftwComplex* pairs(double* p) { return reinterpret_cast<FftwComplex*>(p); }
+
 std::mutex& planner_mutex();  // FFTW's planner keeps global tables; plans run on any thread
 
 class FftwPlan {

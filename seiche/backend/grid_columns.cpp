@@ -15,8 +15,6 @@ using std::numbers::sqrt2;
 
 constexpr Index most_columns = 16;  // of a block: some cache lines side by side
 
-fftw_complex* pairs(double* p) { return reinterpret_cast<fftw_complex*>(p); }
-
 // Blocks of up to most_columns neighbouring columns.
 class Blocks {
  public:
@@ -35,7 +33,7 @@ class Blocks {
   Index width_, per_outer_;
 };
 
-class FourierColumns final : public Columns {
+class FourierColumns final : public ColumnTransform {
  public:
   FourierColumns(const Lines& lines, bool measure)
       : lines_(lines),
@@ -56,7 +54,7 @@ class FourierColumns final : public Columns {
   fftw_plan plan(int count, int sign, unsigned flags) const {
     const int n = static_cast<int>(lines_.length);
     const int stride = static_cast<int>(lines_.inner);
-    fftw_complex* data = pairs(buffer_.get());
+    FftwComplex* data = pairs(buffer_.get());
     return fftw_plan_many_dft(1, &n, count, data, nullptr, stride, 1, data, nullptr, stride, 1, sign, flags);
   }
   void execute(const BatchPlans& plans, double* data, Index block) const {
@@ -70,7 +68,7 @@ class FourierColumns final : public Columns {
   BatchPlans forward_, inverse_;
 };
 
-class RealColumns final : public Columns {
+class RealColumns final : public ColumnTransform {
  public:
   RealColumns(const GridAxis& axis, const Lines& lines, bool measure)
       : lines_(lines),
@@ -130,11 +128,11 @@ double slot_scale(const GridAxis& axis) {
 
 double value_scale(const GridAxis& axis) { return 1 / std::sqrt(2 * static_cast<double>(axis.intervals)); }
 
-std::unique_ptr<Columns> fourier_columns(const Lines& lines, bool measure) {
+std::unique_ptr<ColumnTransform> fourier_columns(const Lines& lines, bool measure) {
   return std::make_unique<FourierColumns>(lines, measure);
 }
 
-std::unique_ptr<Columns> real_columns(const GridAxis& axis, const Lines& lines, bool measure) {
+std::unique_ptr<ColumnTransform> real_columns(const GridAxis& axis, const Lines& lines, bool measure) {
   return std::make_unique<RealColumns>(axis, lines, measure);
 }
 

@@ -31,27 +31,24 @@ class GridKicks final : public Kicks {
     }
   }
 
-  Report split(double first_kick, std::span<const DriftAndKick> stages, const Vector& z, Vector& out) const override {
+  Report split(std::span<const KickAndDrift> stages, double last_kick, const Vector& z, Vector& out) const override {
     double* const p = part(0);
     std::array<double*, 2> others = {part(1), part(2)};
     const double* q = z.data();
     const double* p_before = z.data() + n();
-    double kick = first_kick;
     Report report;
     for (std::size_t i = 0; i < stages.size(); ++i) {
-      const DriftAndKick& stage = stages[i];
       double* const q_after = i + 1 < stages.size() ? others[i % 2] : out.data();
       const double squares = for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
-        return kick_and_drift(block.runs, {kick, stage.length, stage.decay}, {q, g, p_before, g_begin}, q_after, p);
+        return kick_and_drift(block.runs, stages[i], {q, g, p_before, g_begin}, q_after, p);
       });
-      report.taken += squares * (1 - square(stage.decay)) / 2;
+      report.taken += squares * (1 - square(stages[i].decay)) / 2;
       if (i == 0) report.kicked = squares;
       q = q_after;
       p_before = p;
-      kick = stage.kick;
     }
     for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
-      subtract_rows(block.runs, kick, {q, g, p_before, g_begin}, out.data() + n());
+      subtract_rows(block.runs, last_kick, {q, g, p_before, g_begin}, out.data() + n());
       return 0.0;
     });
     return report;

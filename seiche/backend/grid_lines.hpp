@@ -10,9 +10,9 @@ namespace seiche {
 
 // Lines along the last axis, where numbers lie side by side. Unscaled; a transform and its inverse may be executed on
 // several threads at once, with different arrays.
-class Rows {
+class RowTransform {
  public:
-  virtual ~Rows() = default;
+  virtual ~RowTransform() = default;
   virtual Index values() const = 0;  // numbers per row
   virtual Index slots() const = 0;
   virtual Index batch() const = 0;                                                   // rows per call, at most
@@ -21,9 +21,9 @@ class Rows {
 };
 
 // Lines along another axis: `outer` × `length` × `inner` numbers, or pairs of numbers, transformed in place.
-class Columns {
+class ColumnTransform {
  public:
-  virtual ~Columns() = default;
+  virtual ~ColumnTransform() = default;
   virtual Index blocks() const = 0;
   virtual void to_slots(double* data, Index block) const = 0;
   virtual void to_values(double* data, Index block) const = 0;
@@ -39,10 +39,10 @@ struct Lines {
   Index outer, length, inner;
 };
 
-std::unique_ptr<Rows> fourier_rows(Index length, Index rows, bool alone_are_real, bool measure);
-std::unique_ptr<Rows> real_rows(const GridAxis& axis, Index rows, bool measure);
-std::unique_ptr<Rows> sine_row(Index intervals, bool measure);  // one row between two ends where u = 0
-std::unique_ptr<Columns> fourier_columns(const Lines& lines, bool measure);
-std::unique_ptr<Columns> real_columns(const GridAxis& axis, const Lines& lines, bool measure);
+std::unique_ptr<RowTransform> fourier_rows(Index length, Index rows, bool alone_are_real, bool measure);
+std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, Index rows, bool measure);
+std::unique_ptr<RowTransform> sine_row(Index intervals, bool measure);  // one row between two ends where u = 0
+std::unique_ptr<ColumnTransform> fourier_columns(const Lines& lines, bool measure);
+std::unique_ptr<ColumnTransform> real_columns(const GridAxis& axis, const Lines& lines, bool measure);
 
 }  // namespace seiche

@@ -18,10 +18,8 @@ Index batch_of(Index length, Index rows) {
   return std::clamp<Index>(numbers / length, 1, rows);
 }
 
-fftw_complex* pairs(double* p) { return reinterpret_cast<fftw_complex*>(p); }
-
 // â_k = w_k Σ_j u_j e^{−2πijk/N} for k = 0 … N/2.
-class FourierRows final : public Rows {
+class FourierRows final : public RowTransform {
  public:
   FourierRows(Index length, Index rows, bool alone_are_real, bool measure)
       : length_(length),
@@ -81,7 +79,7 @@ class FourierRows final : public Rows {
 };
 
 // Sines, cosines or half-complex coefficients by FFTW's own real transforms.
-class RealRows final : public Rows {
+class RealRows final : public RowTransform {
  public:
   RealRows(const GridAxis& axis, Index rows, bool measure)
       : length_(axis.unknowns()),
@@ -134,11 +132,11 @@ class RealRows final : public Rows {
 
 }  // namespace
 
-std::unique_ptr<Rows> fourier_rows(Index length, Index rows, bool alone_are_real, bool measure) {
+std::unique_ptr<RowTransform> fourier_rows(Index length, Index rows, bool alone_are_real, bool measure) {
   return std::make_unique<FourierRows>(length, rows, alone_are_real, measure);
 }
 
-std::unique_ptr<Rows> real_rows(const GridAxis& axis, Index rows, bool measure) {
+std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, Index rows, bool measure) {
   constexpr Index longest_split = 1 << 18;
   if (axis.boundary == Boundary::dirichlet && rows == 1 && axis.intervals <= longest_split)
     return sine_row(axis.intervals, measure);

@@ -11,7 +11,7 @@ namespace {
 // The last columns of a longer basis cost more than they add to the substep (measured on waves in two dimensions).
 constexpr Index most_columns = 30;
 constexpr double settled = epsilon;
-constexpr double dependent = 1e-15;  // a remainder this small against its vector is round-off
+constexpr double within_round_off = 1e-15;  // a remainder this small against its vector is round-off
 constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -74,7 +74,7 @@ double KrylovTrajectory::append(const Equation& equation) {
     column_.head(m) += products_.head(m);
     rest = next.norm();
   }
-  const bool is_invariant = rest <= dependent * whole || m == n + (equation.unit > 0 ? p : 0);
+  const bool is_invariant = rest <= within_round_off * whole || m == n + (equation.unit > 0 ? p : 0);
   column_[m] = is_invariant ? 0.0 : rest;
   next *= is_invariant ? 0.0 : 1 / rest;
   flow_.append(column_);

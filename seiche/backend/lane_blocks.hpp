@@ -39,7 +39,7 @@ using LaneMask = decltype(Lanes{} < Lanes{});
 
 // m × m, entry (i, j) at [i * m + j]; Scalar: Lanes or ComplexLanes.
 template <class Scalar, int m>
-struct LaneBlock {
+struct ModeBlock {
   std::array<Scalar, static_cast<std::size_t>(m* m)> entries{};
 
   [[gnu::always_inline]] inline Scalar& operator()(int i, int j) { return entries[i * m + j]; }
@@ -55,9 +55,9 @@ struct LaneBlock {
 };
 
 template <class Scalar, int m>
-[[gnu::always_inline]] inline LaneBlock<Scalar, m> operator*(const LaneBlock<Scalar, m>& a,
-                                                             const LaneBlock<Scalar, m>& b) {
-  LaneBlock<Scalar, m> c;
+[[gnu::always_inline]] inline ModeBlock<Scalar, m> operator*(const ModeBlock<Scalar, m>& a,
+                                                             const ModeBlock<Scalar, m>& b) {
+  ModeBlock<Scalar, m> c;
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < m; ++j) {
       Scalar sum = a(i, 0) * b(0, j);
@@ -69,15 +69,15 @@ template <class Scalar, int m>
 }
 
 template <class Scalar, int m>
-[[gnu::always_inline]] inline LaneBlock<Scalar, m> operator*(const Lanes& a, const LaneBlock<Scalar, m>& b) {
-  LaneBlock<Scalar, m> c;
+[[gnu::always_inline]] inline ModeBlock<Scalar, m> operator*(const Lanes& a, const ModeBlock<Scalar, m>& b) {
+  ModeBlock<Scalar, m> c;
   for (int i = 0; i < m * m; ++i) c.entries[i] = a * b.entries[i];
   return c;
 }
 
 // a += x b
 template <class Scalar, int m>
-[[gnu::always_inline]] inline void add_scaled(const Lanes& x, const LaneBlock<Scalar, m>& b, LaneBlock<Scalar, m>& a) {
+[[gnu::always_inline]] inline void add_scaled(const Lanes& x, const ModeBlock<Scalar, m>& b, ModeBlock<Scalar, m>& a) {
   for (int i = 0; i < m * m; ++i) a.entries[i] = a.entries[i] + x * b.entries[i];
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using Block = Eigen::MatrixXcd;
 
-// S, L = SM − D₀ and Q of one mode, real where they can be and of a size known to the compiler where it is common.
+// S, L = SM − D₀ and Q of one mode, real where they can be.
 template <class Matrix>
 struct ModeBlocks {
   Matrix S, L, Q;
@@ -146,14 +146,12 @@ class ModalPhiForms final : public PhiForms {
 
   template <class Matrix>
   void fill(std::span<const PhiEvaluator::Form> forms, const Symbols& symbols, double h) {
-    using Wide = Eigen::Matrix<typename Matrix::Scalar, Matrix::RowsAtCompileTime, Eigen::Dynamic>;
-    using Gram = Eigen::Matrix<typename Matrix::Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-    Wide row(symbols.S.fields(), columns_.size());
+    Matrix row(symbols.S.fields(), columns_.size());
     for (Index k = 0; k < symbols.modes.count(); ++k) {
       const ModeBlocks<Matrix> mode = symbols.blocks<Matrix>(k);
       for (std::size_t l = 0; l < forms.size(); ++l) {
         PhiRowBlocks<Matrix> blocks(forms[l].rows, mode.L, mode.S, h);
-        Gram gram = Gram::Zero(columns_.size(), columns_.size());
+        Matrix gram = Matrix::Zero(columns_.size(), columns_.size());
         for (std::size_t i = 0; i < forms[l].rows.rows.size(); ++i) {
           const std::vector<Matrix>& of_row = blocks.of(forms[l].rows.rows[i]);
           for (Index j = 0; j < columns_.size(); ++j)
@@ -176,16 +174,11 @@ class ModalPhiForms final : public PhiForms {
   ModeForms forms_;
 };
 
-// body<Matrix>() with the type of the blocks.
+// body<Matrix>() with the type of the blocks, where they are not of those that are computed eight at a time.
 template <class Body>
 auto with_block_type(const Symbols& symbols, const Body& body) {
-  const Index m = symbols.S.fields();
-  const auto sized = [&]<class Scalar>() {
-    if (m == 1) return body.template operator()<Eigen::Matrix<Scalar, 1, 1>>();
-    if (m == 2) return body.template operator()<Eigen::Matrix<Scalar, 2, 2>>();
-    return body.template operator()<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>>();
-  };
-  return symbols.are_real() ? sized.template operator()<double>() : sized.template operator()<std::complex<double>>();
+  return symbols.are_real() ? body.template operator()<Eigen::MatrixXd>()
+                            : body.template operator()<Eigen::MatrixXcd>();
 }
 
 class ModalPhi final : public PhiEvaluator {

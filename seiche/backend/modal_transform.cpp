@@ -96,7 +96,7 @@ class ModalTransform final : public FieldTransform {
   }
   void columns_to_values(std::span<double> slots) const {
     for (std::size_t i = columns_.size(); i-- > 0;) {
-      const Columns& columns = *columns_[i];
+      const ColumnTransform& columns = *columns_[i];
       for_blocks(columns.blocks(), threads_, [&](Index block) { columns.to_values(slots.data(), block); });
     }
   }
@@ -107,9 +107,9 @@ class ModalTransform final : public FieldTransform {
   Index slots_ = 0;
   Index batch_count_ = 0;
   double slot_scale_ = 1, value_scale_ = 1;
-  std::unique_ptr<Rows> rows_;
-  std::vector<std::unique_ptr<Columns>> columns_;  // from the last axis but one to the first
-  std::vector<FftwBuffer> values_;                 // of one batch, for each thread
+  std::unique_ptr<RowTransform> rows_;
+  std::vector<std::unique_ptr<ColumnTransform>> columns_;  // from the last axis but one to the first
+  std::vector<FftwBuffer> values_;                         // of one batch, for each thread
   mutable std::vector<double> sums_;
 };
 

@@ -11,8 +11,8 @@ namespace {
 using Arrays = ModeBlockArrays;
 
 template <class Scalar, int m>
-[[gnu::always_inline]] inline LaneBlock<Scalar, m> load_block(const Arrays& blocks, Arrays::Which which, Index first) {
-  LaneBlock<Scalar, m> block;
+[[gnu::always_inline]] inline ModeBlock<Scalar, m> load_block(const Arrays& blocks, Arrays::Which which, Index first) {
+  ModeBlock<Scalar, m> block;
   for (int i = 0; i < m; ++i) {
     for (int j = 0; j < m; ++j) {
       if constexpr (std::is_same_v<Scalar, Lanes>)
@@ -35,7 +35,7 @@ constexpr std::size_t max_lane_columns = 40;
 // The blocks of one row for eight modes: of z, then of each force.
 template <class Scalar, int m>
 struct RowOfBlocks {
-  using Block = LaneBlock<Scalar, m>;
+  using Block = ModeBlock<Scalar, m>;
   Block L, S;
   Lanes size;
   std::array<Block, max_blocks> blocks;
@@ -83,7 +83,7 @@ SEICHE_MULTIVERSION void fill_forms_of(const Arrays& arrays, std::span<const Phi
   std::array<Scalar, max_lane_columns*(max_lane_columns + 1) / 2> gram{};
   for (Index first = 0; first < arrays.padded_modes(); first += lane_count) {
     RowOfBlocks<Scalar, m> row(arrays, h, first);
-    const LaneBlock<Scalar, m> Q = load_block<Scalar, m>(arrays, Arrays::Q, first);
+    const ModeBlock<Scalar, m> Q = load_block<Scalar, m>(arrays, Arrays::Q, first);
     for (std::size_t l = 0; l < forms.size(); ++l) {
       const PhiRows& rows = forms[l].rows;
       const std::size_t triangle = columns.size() * (columns.size() + 1) / 2;
@@ -94,7 +94,7 @@ SEICHE_MULTIVERSION void fill_forms_of(const Arrays& arrays, std::span<const Phi
         std::size_t e = 0;
         for (std::size_t a = 0; a < columns.size(); ++a) {
           // c bᴴ Q of column a
-          const LaneBlock<Scalar, m>& of_a = row.blocks[columns[a].block];
+          const ModeBlock<Scalar, m>& of_a = row.blocks[columns[a].block];
           std::array<Scalar, m> left{};
           for (int k = 0; k < m; ++k) {
             for (int f = 0; f < m; ++f)
@@ -102,7 +102,7 @@ SEICHE_MULTIVERSION void fill_forms_of(const Arrays& arrays, std::span<const Phi
             left[k] = weight * left[k];
           }
           for (std::size_t b = a; b < columns.size(); ++b, ++e) {
-            const LaneBlock<Scalar, m>& of_b = row.blocks[columns[b].block];
+            const ModeBlock<Scalar, m>& of_b = row.blocks[columns[b].block];
             for (int k = 0; k < m; ++k) gram[e] = gram[e] + left[k] * of_b(k, static_cast<int>(columns[b].field));
           }
         }

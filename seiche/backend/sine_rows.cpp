@@ -11,8 +11,6 @@
 namespace seiche {
 namespace {
 
-fftw_complex* pairs(double* p) { return reinterpret_cast<fftw_complex*>(p); }
-
 // One split of S_k = 2 Σ_{0<j<N} x_j sin(πjk/N), with M = N/2. Sines of even k are those of length M of x_j − x_{N−j}. Of odd k,
 // with s_j = x_j + x_{N−j} and s_M = x_M, they are a Fourier sum of length M:
 //   S_{4n+1} = v_n,  S_{4n+3} = −v_{M−1−n},  v_n = Σ_k V_k e^{2πikn/M},  V_0 = 2s_M,  V_k = e^{iπk/2M} (s_{M−k} − i s_k).
@@ -82,7 +80,7 @@ class Split {
 // Half of the numbers leave with each split; the sines of what is left are the Fourier transform of its odd continuation, of
 // twice the length. On the whole line that would take twice the time, and FFTW's own sine transform still more, except on the
 // longest lines (docs/performance.md).
-class SineRows final : public Rows {
+class SineRows final : public RowTransform {
  public:
   SineRows(Index intervals, bool measure) : intervals_(intervals), rest_(intervals) {
     constexpr Index short_enough = 128;
@@ -126,6 +124,8 @@ class SineRows final : public Rows {
 
 }  // namespace
 
-std::unique_ptr<Rows> sine_row(Index intervals, bool measure) { return std::make_unique<SineRows>(intervals, measure); }
+std::unique_ptr<RowTransform> sine_row(Index intervals, bool measure) {
+  return std::make_unique<SineRows>(intervals, measure);
+}
 
 }  // namespace seiche

@@ -26,7 +26,7 @@ SparseMatrix matrix_of(const Problem& problem, const AnyStencil& stencil) {
 }  // namespace
 
 bool has_grid_kicks(const Problem& problem) {
-  if (problem.matrices || !problem.S.is_sparse() || !problem.M.is_sparse()) return false;
+  if (problem.matrices || !problem.M.is_sparse()) return false;
   const std::optional<Momenta> p = momenta(problem);
   return p && p->inverse_mass == 1 && (!problem.potential || problem.potential->fields() == p->count);
 }

@@ -2,6 +2,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/function_ref.hpp>
 #include <seiche/core/momenta.hpp>
+#include <seiche/method/momentum_form.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +85,18 @@ bool stays(const MethodRequest& request, const ProblemRates& rates) {
   return rates.damping == 0 || (request.t_end > 0 && rates.damping * request.t_end <= faded);
 }
 
+// Do kicks by all forces cost less than exact flows? The size of a step of one size is the user's, and may be beyond what is
+// stable.
+bool should_kick(const Problem& problem, const System& system, const MethodRequest& request,
+                 const ProblemRates& rates) {
+  if (!request.by_kicks || request.tolerance <= 0 || !damps_momenta_alike(problem)) return false;
+  if (request.by_krylov) {
+    const MomentumForm form = momentum_form(system);
+    return form.separable && form.rate;
+  }
+  return problem.size() >= many_unknowns && rates.linear <= stiff_kicks * rates.solution && stays(request, rates);
+}
+
 std::string collocation_for(double tolerance) {
   return tolerance > rough_tolerance ? "egc4" : tolerance > fine_tolerance ? "egc6" : "egc8";
 }
@@ -132,13 +145,12 @@ MethodChoice choose_method(const Problem& problem, const System& system, const M
                        system.damping->is_frozen() && !system.damping->touches_potential();
   if (nystrom && rates.damping <= stiff_damping * rates.solution) {
     choice.method = wanted > nystrom_tolerance ? "crkn4" : "crkn6";
-    // The size of a step of one size is the user's, and may be beyond what is stable.
-    if (request.by_kicks && tolerance > 0 && damps_momenta_alike(problem) && problem.size() >= many_unknowns &&
-        rates.linear <= stiff_kicks * rates.solution && stays(request, rates)) {
+    if (should_kick(problem, system, request, rates)) {
       choice.options.linear = LinearTreatment::explicit_kicks;
       choice.reason =
-          fmt::format("{} with linear = \"explicit\" ({}): {}; nothing is stiff, and kicks by all forces cost least",
-                      choice.method, accuracy, seen);
+          fmt::format("{} with linear = \"explicit\" ({}): {}; {}kicks by all forces cost least", choice.method,
+                      accuracy, seen,
+                      request.by_krylov ? "exact flows would take Krylov spaces, and " : "nothing is stiff, and ");
       return choice;
     }
     choice.reason =

@@ -1,7 +1,11 @@
 #include <seiche/config/case_file.hpp>
+#include <seiche/config/case_keys.hpp>
 #include <seiche/config/case_parameters.hpp>
 #include <seiche/config/case_table.hpp>
+#include <seiche/config/custom_case.hpp>
 #include <seiche/config/ensemble_case.hpp>
+#include <seiche/config/method_option_keys.hpp>
+#include <seiche/config/snapshot_steps.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/vector.hpp>
 #include <seiche/problem/problems.hpp>
@@ -19,21 +23,6 @@ namespace {
 
 constexpr std::size_t at_the_end = std::numeric_limits<std::size_t>::max();
 
-std::vector<std::string> section_names() { return {"problem", "method", "backend", "time", "output", "ensemble"}; }
-
-std::vector<std::string> keys_of(const std::string& section, const ProblemEntry* problem) {
-  if (section == "method")
-    return {"name", "h", "tolerance", "h_max", "C", "auxiliary", "scalar_solver", "law", "linear"};
-  if (section == "backend") return {"name", "plan", "exponential", "pade_degree", "lanczos_dimension"};
-  if (section == "time") return {"end"};
-  if (section == "output") return {"directory", "energy_every", "ledger", "snapshot_every", "snapshot_interval"};
-  if (section == "ensemble") return ensemble_keys(problem);
-  std::vector<std::string> keys = {"name", "initial", "friction", "force"};
-  if (problem != nullptr)
-    for (const Parameter& parameter : problem->parameters) keys.push_back(parameter.name);
-  return keys;
-}
-
 CaseValue text_value(const std::string& text) {
   CaseValue value;
   value.kind = CaseValue::Kind::text;
@@ -45,13 +34,15 @@ CaseValue text_value(const std::string& text) {
 class Reader {
  public:
   Reader(std::string_view text, std::string_view name, const std::vector<std::string>& overrides,
-         std::filesystem::path folder)
-      : name_(name), folder_(std::move(folder)), table_(read_case_table(text, name, overrides)) {
+         std::filesystem::path folder, const std::vector<std::string>& methods)
+      : name_(name), folder_(std::move(folder)), methods_(methods), table_(read_case_table(text, name, overrides)) {
     spec_.source = name_;
+    spec_.overrides = overrides;
   }
 
   RunSpec read() {
     find_problem_entry();
+    read_custom();
     refuse_unknown();
     read_time();
     if (problem_ != nullptr) read_problem();
@@ -94,22 +85,78 @@ class Reader {
 
   void find_problem_entry() {
     const bool given = on("problem", "name", [&](const std::string& key, const CaseValue& value) {
-      problem_ = &find_problem(read_name(key, value, problem_names()));
-      spec_.problem = problem_->name;
+      spec_.problem = read_name(key, value, all_problem_names());
+      if (spec_.problem != custom_name) problem_ = &find_problem(spec_.problem);
     });
     if (!given) {
       complain(at_the_end, name_,
                fmt::format("[problem] has no name; write name = \"…\" with one of {}",
-                           fmt::join(problem_names(), ", ")));
+                           fmt::join(all_problem_names(), ", ")));
     }
   }
 
+  // The entry that stands for the list's. Without one, after a complaint, nothing else of [problem] is read.
+  void read_custom() {
+    if (spec_.problem != custom_name) return;
+    CustomProblem custom;
+    const CaseSection& section = *table_.section("problem");
+    std::vector<std::string> of_grid;
+    for (const Parameter& parameter : grid_parameters("", "")) of_grid.push_back(parameter.name);
+    const bool has_grid = std::any_of(section.entries.begin(), section.entries.end(),
+                                      [&](const CaseEntry& entry) { return has(of_grid, entry); });
+    if (has_grid) custom.grid.emplace();
+    const std::size_t complaints = complaints_.size();
+    for (const std::string& key : custom_keys()) {
+      if (complaints_.size() > complaints) break;  // without the names, nothing that follows makes sense
+      on("problem", key, [&](const std::string&, const CaseValue& value) { read_custom_key(custom, key, value); });
+    }
+    if (complaints_.size() > complaints) return;
+    try {
+      spec_.entry = std::make_shared<const ProblemEntry>(custom_entry(custom, has_grid));
+      problem_ = spec_.entry.get();
+      spec_.custom = std::move(custom);
+    } catch (const Error& error) {
+      complain_about_custom(error.what());
+    }
+  }
+
+  // At the key that the sentence begins with.
+  void complain_about_custom(const std::string& sentence) {
+    const CaseValue* at = nullptr;
+    for (const std::string& key : custom_keys())
+      if (sentence.starts_with("problem." + key) && table_.value("problem", key) != nullptr)
+        at = table_.value("problem", key);
+    complain(at != nullptr ? at->order : at_the_end, at != nullptr ? at->place : name_, sentence);
+  }
+
+  // Formulas are tried on a small grid, so that a mistake is said at its key, and before a large one is made.
+  void try_custom() {
+    if (!spec_.custom || !complaints_.empty()) return;
+    try {
+      try_formulas(*spec_.custom, spec_.parameters);
+    } catch (const Error& error) {
+      complain_about_custom(error.what());
+    }
+  }
+
+  void note_unused_parameters() {
+    if (!spec_.custom || !complaints_.empty()) return;  // formulas that cannot be read have been complained about
+    std::vector<std::string> others;
+    if (const auto* data = std::get_if<FormulaData>(&spec_.initial))
+      for (const auto& [field, formula] : data->formulas) others.push_back(formula);
+    if (spec_.drives.friction)
+      for (const auto& [key, formula] : spec_.drives.friction->texts) others.push_back(formula);
+    for (const auto& [field, formula] : spec_.drives.forces) others.push_back(formula);
+    for (const std::string& name : unused_parameters(*spec_.custom, others))
+      spec_.notes.push_back(fmt::format("no formula names the parameter {}", name));
+  }
+
   void refuse_unknown() {
-    const std::vector<std::string> sections = section_names();
+    const std::vector<std::string> sections = case_sections();
     for (const CaseSection& section : table_.sections) {
       const bool known = std::find(sections.begin(), sections.end(), section.name) != sections.end();
       if (!section.is_table) {
-        complain(section.order, section.place, misplaced(section.name, known));
+        complain(section.order, section.place, key_outside_sections(section.name, problem_));
       } else if (!known) {
         complain(section.order, section.place, unknown_name("section", section.name, sections).what());
       } else if (section.name != "problem" || problem_ != nullptr) {
@@ -118,24 +165,14 @@ class Reader {
     }
   }
 
-  std::string misplaced(const std::string& name, bool is_section) const {
-    if (is_section) return fmt::format("{0} must be a section, [{0}]", name);
-    for (const std::string& section : section_names()) {
-      const std::vector<std::string> keys = keys_of(section, problem_);
-      if (name != "name" && std::find(keys.begin(), keys.end(), name) != keys.end())
-        return fmt::format("the key '{}' stands outside every section; it belongs into [{}]", name, section);
-    }
-    return fmt::format("the key '{}' stands outside every section ({})", name, fmt::join(section_names(), ", "));
+  static bool has(const std::vector<std::string>& keys, const CaseEntry& entry) {
+    return std::find(keys.begin(), keys.end(), entry.key) != keys.end();
   }
 
   void refuse_unknown_keys(const CaseSection& section) {
-    const std::vector<std::string> keys = keys_of(section.name, problem_);
-    for (const CaseEntry& entry : section.entries) {
-      if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
-      const std::string where =
-          section.name == "problem" ? fmt::format("[problem] {}", spec_.problem) : fmt::format("[{}]", section.name);
-      complain(entry.value.order, entry.place, unknown_name("key in " + where, entry.key, keys).what());
-    }
+    const std::vector<std::string> keys = case_keys(section.name, problem_);
+    for (const CaseEntry& entry : section.entries)
+      if (!has(keys, entry)) complain(entry.value.order, entry.place, unknown_key(section.name, entry.key, problem_));
   }
 
   void read_time() {
@@ -154,14 +191,45 @@ class Reader {
       });
       if (!given) set_parameter(spec_, parameter, text_value(parameter.default_value));
     }
+    note_short_lists();
     spec_.initial = PresetData{problem_->presets.front()};
     on("problem", "initial", [&](const std::string& key, const CaseValue& value) {
       spec_.initial = read_initial(key, value, *problem_, folder_);
     });
-    on("problem", "friction",
-       [&](const std::string& key, const CaseValue& value) { spec_.drives.friction = read_friction(key, value); });
+    try_custom();  // what the problem lacks comes before how it starts
+    if (spec_.custom && table_.value("problem", "initial") == nullptr)
+      complain(at_the_end, name_,
+               fmt::format(
+                   "[problem] has no initial state; write initial = {{ {} = \"…\" }}, {{ file = \"…\" }}, or \"zero\"",
+                   fmt::join(problem_->fields, " = \"…\", ")));
+    FormulaConstants constants;
+    try {
+      constants = formula_constants(spec_);
+    } catch (const Error&) {  // one of them has a complaint of its own
+    }
+    on("problem", "friction", [&](const std::string& key, const CaseValue& value) {
+      spec_.drives.friction = read_friction(key, value, *problem_, constants);
+    });
     on("problem", "force", [&](const std::string& key, const CaseValue& value) {
-      spec_.drives.forces = read_forces(key, value, *problem_);
+      spec_.drives.forces = read_forces(key, value, *problem_, constants);
+    });
+    note_unused_parameters();
+  }
+
+  // [2.0] on a grid in several dimensions may be all that its author thought of.
+  void note_short_lists() {
+    std::size_t axes = 1;
+    const auto for_lists = [&](const auto& visit) {
+      for (const Parameter& parameter : problem_->parameters) {
+        const CaseValue* value = table_.value("problem", parameter.name);
+        if (parameter.per_axis && value != nullptr && value->kind == CaseValue::Kind::list) visit(parameter, *value);
+      }
+    };
+    for_lists([&](const Parameter&, const CaseValue& list) { axes = std::max(axes, list.entries.size()); });
+    for_lists([&](const Parameter& parameter, const CaseValue& list) {
+      if (list.entries.size() == 1 && axes > 1)
+        spec_.notes.push_back(
+            fmt::format("problem.{} is a list with one entry, and serves all {} axes", parameter.name, axes));
     });
   }
 
@@ -177,45 +245,36 @@ class Reader {
     });
     read_tolerance();
     read_step_size();
-    read_option("C", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
-      if (value.kind == CaseValue::Kind::text && value.text == "auto") return;
-      if (value.kind != CaseValue::Kind::number && value.kind != CaseValue::Kind::text)
-        throw Error("{} = {} must be a number or \"auto\"", key, value.shown());
-      options.C = read_number(key, value);
-    });
-    read_option("auxiliary", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
-      const std::string name = read_name(key, value, {"transport", "frozen", "refresh"});
-      options.auxiliary = name == "frozen"    ? AuxiliaryMode::frozen
-                          : name == "refresh" ? AuxiliaryMode::refresh
-                                              : AuxiliaryMode::transport;
-    });
-    read_option("scalar_solver", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
-      const bool newton = read_name(key, value, {"robust", "newton"}) == "newton";
-      options.scalar_solver = newton ? ScalarSolver::newton : ScalarSolver::robust;
-    });
-    read_option("linear", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
-      const bool kicks = read_name(key, value, {"exact", "explicit"}) == "explicit";
-      options.linear = kicks ? LinearTreatment::explicit_kicks : LinearTreatment::exact;
-    });
-    read_option("law", method, [](MethodOptions& options, const std::string& key, const CaseValue& value) {
-      const std::string name = read_name(key, value, energy_law_names());
-      options.law = name == "interval" ? EnergyLaw::interval : name == "guard" ? EnergyLaw::guard : EnergyLaw::none;
-    });
+    for (const MethodOptionKey& option : method_option_keys()) read_option(option, method);
   }
 
   // Each option is validated alone too, so that the complaint is at the key that caused it.
-  template <class Read>
-  void read_option(const std::string& option, const MethodEntry* method, Read read) {
-    on("method", option, [&](const std::string& key, const CaseValue& value) {
+  void read_option(const MethodOptionKey& option, const MethodEntry* method) {
+    on("method", option.name, [&](const std::string& key, const CaseValue& value) {
       MethodOptions alone;
-      read(alone, key, value);
-      if (spec_.method == "auto" && alone != MethodOptions{})
+      option.read(alone, key, value);
+      if (!methods_.empty())
+        require_one_that_knows(alone);
+      else if (spec_.method == "auto" && alone != MethodOptions{})
         throw Error(
             "{} belongs to one method, and method.name = \"auto\" is yet to choose it: leave {} out, or name a method",
-            key, option);
-      if (method != nullptr) alone.validate(*method);
-      read(spec_.method_options, key, value);
+            key, option.name);
+      else if (method != nullptr)
+        alone.validate(*method);
+      option.read(spec_.method_options, key, value);
     });
+  }
+
+  void require_one_that_knows(const MethodOptions& options) const {
+    std::optional<Error> first;
+    for (const std::string& name : methods_) {
+      try {
+        return options.validate(find_method(name));
+      } catch (const Error& error) {
+        if (!first) first = error;
+      }
+    }
+    throw Error(*first);
   }
 
   void read_tolerance() {
@@ -230,10 +289,14 @@ class Reader {
     on("method", "h_max", [&](const std::string& key, const CaseValue& value) {
       const double h = read_number(key, value);
       if (h <= 0) throw Error("{} = {} must be > 0", key, value.shown());
-      if (!spec_.tolerance)
+      if (!asks_for_tolerance())
         throw Error("{} = {} needs method.tolerance: it bounds steps of variable size", key, value.shown());
       spec_.h_max = h;
     });
+  }
+
+  bool asks_for_tolerance() const {  // be it one that makes no sense: that is said once
+    return table_.value("method", "tolerance") != nullptr;
   }
 
   void read_step_size() {
@@ -245,7 +308,7 @@ class Reader {
       if (spec_.t_end / h > 1e15) throw Error("{} = {} would take {:.3g} steps", key, value.shown(), spec_.t_end / h);
       spec_.h = h;
     };
-    if (on("method", "h", read) || problem_ == nullptr || spec_.tolerance) return;
+    if (on("method", "h", read) || problem_ == nullptr || asks_for_tolerance()) return;
     spec_.h = read_number("method.h", text_value(problem_->default_h));
     if (spec_.h <= spec_.t_end) return;
     spec_.h = spec_.t_end;
@@ -278,7 +341,7 @@ class Reader {
 
   // A step size typed wrong must not fill the disk.
   void refuse_endless_files() {
-    if (spec_.tolerance) return;          // who knows
+    if (asks_for_tolerance()) return;     // who knows
     constexpr double most_records = 1e8;  // some gigabytes of energy.csv
     const double records = spec_.t_end / spec_.h / static_cast<double>(spec_.energy_every);
     if (!(records > most_records)) return;
@@ -302,17 +365,24 @@ class Reader {
     refuse_endless_files();
     on("output", "snapshot_every",
        [&](const std::string& key, const CaseValue& value) { spec_.snapshot_every = read_whole(key, value, 0); });
+    for (const char* key : {"snapshot_every", "snapshot_interval"})
+      spec_.snapshots_given = spec_.snapshots_given || table_.value("output", key) != nullptr;
     on("output", "ledger", [&](const std::string& key, const CaseValue& value) {
       spec_.ledger = read_name(key, value, {"off", "on"}) == "on";
+    });
+    on("output", "report", [&](const std::string& key, const CaseValue& value) {
+      spec_.report = read_name(key, value, {"on", "off"}) == "on";
     });
     on("output", "snapshot_interval", [&](const std::string& key, const CaseValue& value) {
       const double interval = read_number(key, value);
       if (interval < 0) throw Error("{} = {} must be ≥ 0", key, value.shown());
-      if (interval > 0 && !spec_.tolerance)
-        throw Error("{} = {} needs method.tolerance; with steps of one size write snapshot_every", key, value.shown());
       if (interval > 0 && spec_.t_end / interval > 1e7)
         throw Error("{} = {} would make {:.3g} snapshots", key, value.shown(), spec_.t_end / interval);
-      spec_.snapshot_interval = interval;
+      if (interval == 0 || asks_for_tolerance()) {
+        spec_.snapshot_interval = interval;
+      } else if (spec_.h > 0) {
+        spec_.snapshot_every = steps_between_snapshots(key, value, spec_.h);
+      }
     });
   }
 
@@ -330,10 +400,9 @@ class Reader {
         read_ensemble_key(ensemble, entry.key, value, *problem_, folder_);
       });
     }
-    const std::vector<std::string> keys = ensemble_keys(problem_);
-    const bool all_known = std::all_of(section->entries.begin(), section->entries.end(), [&](const CaseEntry& entry) {
-      return std::find(keys.begin(), keys.end(), entry.key) != keys.end();
-    });
+    const std::vector<std::string> keys = case_keys(section->name, problem_);
+    const bool all_known = std::all_of(section->entries.begin(), section->entries.end(),
+                                       [&](const CaseEntry& entry) { return has(keys, entry); });
     const std::string complaint = ensemble_complaint(ensemble);
     if (all_known && complaints_.size() == complaints && !complaint.empty())
       complain(section->order, section->place, complaint);
@@ -341,6 +410,7 @@ class Reader {
 
   std::string name_;
   std::filesystem::path folder_;
+  const std::vector<std::string>& methods_;
   CaseTable table_;
   const ProblemEntry* problem_ = nullptr;
   RunSpec spec_;
@@ -349,19 +419,20 @@ class Reader {
 
 }  // namespace
 
-RunSpec read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+RunSpec read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                  const std::vector<std::string>& methods) {
   if (!std::filesystem::exists(file)) throw Error("the case file {} does not exist", file.string());
   if (std::filesystem::is_directory(file)) throw Error("{} is a folder, not a case file", file.string());
   std::ifstream input(file, std::ios::binary);
   std::ostringstream text;
   if (input.peek() != std::ifstream::traits_type::eof()) text << input.rdbuf();  // nothing to copy is a failure to <<
   if (!input.is_open() || input.bad() || text.fail()) throw Error("the case file {} cannot be read", file.string());
-  return parse_case(text.str(), file.string(), overrides, file.parent_path());
+  return parse_case(text.str(), file.string(), overrides, file.parent_path(), methods);
 }
 
 RunSpec parse_case(std::string_view text, std::string_view name, const std::vector<std::string>& overrides,
-                   const std::filesystem::path& folder) {
-  return Reader(text, name, overrides, folder).read();
+                   const std::filesystem::path& folder, const std::vector<std::string>& methods) {
+  return Reader(text, name, overrides, folder, methods).read();
 }
 
 }  // namespace seiche

@@ -11,12 +11,14 @@
 
 namespace seiche {
 
-// `overrides` are those of --set: "method.h=1/64". They replace what the file says and are checked the same way.
-RunSpec read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+// `overrides` are those of --set: "method.h=1/64". They replace what the file says and are checked the same way. Where `methods`
+// will take the place of the one in the case, each option of [method] must suit one of them, and need not suit that one.
+RunSpec read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                  const std::vector<std::string>& methods = {});
 
 // `name` is how errors call the text; file names in it start at `folder`, or else at the current one.
 RunSpec parse_case(std::string_view text, std::string_view name, const std::vector<std::string>& overrides = {},
-                   const std::filesystem::path& folder = {});
+                   const std::filesystem::path& folder = {}, const std::vector<std::string>& methods = {});
 
 // The case as run, every default filled in; parse_case reads the same RunSpec from it.
 std::string write_case(const RunSpec& spec);

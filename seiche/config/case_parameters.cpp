@@ -1,5 +1,7 @@
 #include <seiche/config/case_parameters.hpp>
+#include <seiche/config/custom_case.hpp>
 #include <seiche/config/formula_compiler.hpp>
+#include <seiche/config/initial_formulas.hpp>
 #include <seiche/config/matrix_market.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/field_rates.hpp>
@@ -18,9 +20,10 @@ void require(const std::string& complaint) {
 }
 
 // Null where the text is no formula in these variables.
-FormulaPointer compiled(const std::string& text, const std::vector<std::string>& variables) {
+FormulaPointer compiled(const std::string& text, const std::vector<std::string>& variables,
+                        const FormulaConstants& constants = {}) {
   try {
-    return compile_formula(text, variables);
+    return compile_formula(text, variables, constants);
   } catch (const Error&) {
     return nullptr;
   }
@@ -65,21 +68,30 @@ std::filesystem::path find_file(std::string_view what, const std::string& name, 
 }
 
 FormulaData read_formulas(std::string_view key, const CaseValue& value, const ProblemEntry& problem) {
+  const FormulaContext context = formula_context(problem, FormulaContext::Kind::initial);
+  const NameAdvice advice = advice_in(context);
+  std::vector<std::string> names = place_variables(context.axes);
+  for (const Parameter& parameter : problem.parameters)
+    if (parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::integer)
+      names.push_back(parameter.name);
   FormulaData data;
   for (const auto& [field, formula] : value.entries) {
     if (formula.kind != CaseValue::Kind::text && formula.kind != CaseValue::Kind::number)
       throw Error("{}.{} = {} must be a formula in quotes, or a number", key, field, formula.shown());
     try {
-      compile_formula(formula.text, initial_variables(problem.name));
+      compile_formula(formula.text, names, {}, advice);
     } catch (const Error& error) {
       throw Error("{}.{}: {}", key, field, error.what());
     }
     data.formulas[field] = formula.text;
   }
-  for (const std::string& field : problem.fields)
-    if (!data.formulas.contains(field))
-      throw Error("{} has no formula for the field {}; write for example {} = \"0\"", key, field, field);
-  return data;
+  std::vector<std::string> missing = problem.fields;
+  std::erase_if(missing, [&](const std::string& field) { return data.formulas.contains(field); });
+  if (missing.empty()) return data;
+  const bool has_zero = std::find(problem.presets.begin(), problem.presets.end(), "zero") != problem.presets.end();
+  throw Error("{} has no formula for the field{} {}; write {} = 0 beside the others{}", key,
+              missing.size() > 1 ? "s" : "", fmt::join(missing, ", "), fmt::join(missing, " = 0, "),
+              has_zero ? ", or initial = \"zero\" for all fields" : "");
 }
 
 // A number or name, checked, and how a case file writes it: 2 and 2.0 are one case.
@@ -106,19 +118,34 @@ std::vector<T> gathered(const std::vector<ParameterValue>& values) {
 
 }  // namespace
 
-SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text) {
+FormulaContext formula_context(const ProblemEntry& problem, FormulaContext::Kind kind) {
+  const bool is_custom = problem.name == custom_name;
+  const bool has_grid = std::any_of(problem.parameters.begin(), problem.parameters.end(),
+                                    [](const Parameter& parameter) { return parameter.name == "length"; });
+  constexpr Index most_axes = 3;  // how many there are is known with the grid
+  return {kind, problem.fields, is_custom && !has_grid ? 0 : most_axes, is_custom};
+}
+
+SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text, const FormulaConstants& constants,
+                                    const NameAdvice& advice) {
   const std::vector<std::string> names = {"t", "x", "y", "z"};
   const auto end = [&](Index axes) { return names.begin() + axes + 1; };
-  if (FormulaPointer formula = compiled(text, {"t"})) return uniform_space_rate(formula_rate(std::move(formula)));
+  if (FormulaPointer formula = compiled(text, {"t"}, constants))
+    return uniform_space_rate(formula_rate(std::move(formula)));
   Index axes = 1;
-  while (axes < 3 && !compiled(text, {names.begin(), end(axes)})) ++axes;
+  while (axes < 3 && !compiled(text, {names.begin(), end(axes)}, constants)) ++axes;
   try {
-    FormulaPointer formula = compile_formula(text, {names.begin(), end(axes)});
-    const bool constant_in_time = compiled(text, {names.begin() + 1, end(axes)}) != nullptr;
+    FormulaPointer formula = compile_formula(text, {names.begin(), end(axes)}, constants, advice);
+    const bool constant_in_time = compiled(text, {names.begin() + 1, end(axes)}, constants) != nullptr;
     return formula_space_rate(std::move(formula), axes, constant_in_time);
   } catch (const Error& error) {
     throw Error("{}: {}", key, error.what());
   }
+}
+
+DampingRate compile_damping_rate(const std::string& key, const std::string& text, const FormulaConstants& constants) {
+  if (FormulaPointer formula = compiled(text, {"t"}, constants)) return formula_rate(std::move(formula));
+  return compile_space_rate(key, text, constants);
 }
 
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/config/case_value.hpp>
+#include <seiche/config/formula_parser.hpp>
 #include <seiche/config/run_spec.hpp>
 #include <seiche/problem/problems.hpp>
 
@@ -15,7 +16,14 @@ void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& v
                    const std::filesystem::path& folder = {});
 
 // A formula in t and as many of x, y, z as it names, which asks the grid for so many axes. Throws Error that names the key.
-SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text);
+SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text,
+                                    const FormulaConstants& constants = {}, const NameAdvice& advice = {});
+// The same, and where it names t alone a rate for all points.
+DampingRate compile_damping_rate(const std::string& key, const std::string& text,
+                                 const FormulaConstants& constants = {});
+
+// What formulas of [problem] are told about names that they do not know.
+FormulaContext formula_context(const ProblemEntry& problem, FormulaContext::Kind kind);
 
 // A preset, { file = "…" }, or a formula for every field. A relative file name starts at `folder`, or else at the
 // current one.

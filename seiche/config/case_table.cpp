@@ -1,10 +1,12 @@
 #include <seiche/config/case_table.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/number_text.hpp>
 
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace seiche {
 namespace {
@@ -60,7 +62,7 @@ CaseValue convert(const toml::node& node, const Source& source) {
   } else if (const auto* real = node.as_floating_point()) {
     value.kind = Kind::number;
     value.number = real->get();
-    value.text = fmt::format("{}", real->get());
+    value.text = number_text(real->get());
   } else if (const auto* boolean = node.as_boolean()) {
     value.kind = Kind::boolean;
     value.text = boolean->get() ? "true" : "false";
@@ -113,6 +115,35 @@ CaseValue override_value(const std::string& text, const Source& source) {
           .order = source.order(toml::source_region{})};
 }
 
+CaseValue empty_table() {
+  CaseValue table;
+  table.kind = Kind::table;
+  table.text = "a table";
+  return table;
+}
+
+// Puts `value` at the end of `path`, key by key, into the table `into`, which `so_far` calls; tables that are not there are made.
+void put_into(CaseValue& into, const std::string& so_far, std::string_view path, const CaseValue& value) {
+  if (into.kind != Kind::table) {
+    const std::string whole = value.kind == Kind::text ? toml_string(value.text) : value.shown();
+    const bool is_inner = std::count(so_far.begin(), so_far.end(), '.') > 1;
+    throw Error("{}: {} = {} is no table, so that nothing can be put into it{}", value.place, so_far, into.shown(),
+                is_inner ? "" : fmt::format("; a whole one is written as {}={{ {} = {} }}", so_far, path, whole));
+  }
+  into.place = value.place;
+  into.order = value.order;
+  const std::size_t dot = path.find('.');
+  const std::string key(path.substr(0, dot));
+  if (key.empty()) throw Error("{}: a key is missing between two dots", value.place);
+  auto entry = std::find_if(into.entries.begin(), into.entries.end(), [&](const auto& e) { return e.first == key; });
+  if (entry == into.entries.end()) entry = into.entries.insert(entry, {key, empty_table()});
+  if (dot == std::string_view::npos) {
+    entry->second = value;
+  } else {
+    put_into(entry->second, so_far + "." + key, path.substr(dot + 1), value);
+  }
+}
+
 void apply_override(CaseTable& table, const std::string& given, std::size_t number) {
   const std::size_t equals = given.find('=');
   const std::string path = trimmed(std::string_view(given).substr(0, equals));
@@ -122,7 +153,8 @@ void apply_override(CaseTable& table, const std::string& given, std::size_t numb
 
   const Source source{.name = "--set " + given, .is_override = true, .override_number = number};
   const std::string name = path.substr(0, dot);
-  CaseEntry entry{.key = path.substr(dot + 1),
+  const std::size_t inner_dot = path.find('.', dot + 1);  // of a key inside a table: problem.D.v
+  CaseEntry entry{.key = path.substr(dot + 1, inner_dot == std::string::npos ? inner_dot : inner_dot - dot - 1),
                   .place = source.name,
                   .value = override_value(trimmed(std::string_view(given).substr(equals + 1)), source)};
   auto section =
@@ -130,6 +162,13 @@ void apply_override(CaseTable& table, const std::string& given, std::size_t numb
   if (section == table.sections.end()) {
     table.sections.push_back({.name = name, .place = source.name, .order = entry.value.order});
     section = std::prev(table.sections.end());
+  }
+  if (inner_dot != std::string::npos) {
+    CaseValue inner = std::exchange(entry.value, {});
+    const auto old = std::find_if(section->entries.begin(), section->entries.end(),
+                                  [&](const CaseEntry& e) { return e.key == entry.key; });
+    entry.value = old != section->entries.end() ? old->value : empty_table();
+    put_into(entry.value, name + "." + entry.key, std::string_view(path).substr(inner_dot + 1), inner);
   }
   std::erase_if(section->entries, [&](const CaseEntry& old) { return old.key == entry.key; });
   section->entries.push_back(std::move(entry));

@@ -1,6 +1,7 @@
 // write_case and example_case: the same layout, the second with every meaning and bound beside its key.
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/case_value.hpp>
+#include <seiche/config/custom_case.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/problem/problems.hpp>
 
@@ -68,59 +69,9 @@ std::string line(const std::string& key, const std::string& value, const std::st
   return fmt::format("{:<34}# {}\n", fmt::format("{} = {}", key, value), comment);
 }
 
-}  // namespace
-
-std::string write_case(const RunSpec& spec) {
-  std::string text = fmt::format("[problem]\nname = {}\n", toml_string(spec.problem));
-  for (const Parameter& parameter : find_problem(spec.problem).parameters) {
-    const auto value = spec.parameter_texts.find(parameter.name);
-    if (value == spec.parameter_texts.end()) throw Error("the case has no parameter {}", parameter.name);
-    text += fmt::format("{} = {}\n", parameter.name, parameter_literal(parameter, value->second));
-  }
-  text += fmt::format("initial = {}\n", initial_text(spec.initial));
-  text += write_drives(spec.drives);
-
-  const MethodOptions& options = spec.method_options;
-  text += fmt::format("\n[method]\nname = {}\n", toml_string(spec.method));
-  if (spec.h > 0) text += fmt::format("h = {}\n", step_size(spec.h));
-  if (spec.tolerance) text += fmt::format("tolerance = {}\n", toml_real(*spec.tolerance));
-  if (spec.h_max > 0) text += fmt::format("h_max = {}\n", toml_real(spec.h_max));
-  text += fmt::format("C = {}\n", options.C ? toml_real(*options.C) : "\"auto\"");
-  text += fmt::format("auxiliary = \"{}\"\n", to_text(options.auxiliary));
-  text += fmt::format("scalar_solver = \"{}\"\n", options.scalar_solver == ScalarSolver::newton ? "newton" : "robust");
-
-  if (options.law) text += fmt::format("law = \"{}\"\n", to_string(*options.law));
-  if (options.linear == LinearTreatment::explicit_kicks) text += "linear = \"explicit\"\n";
-
-  text += fmt::format("\n[backend]\nname = {}\nplan = \"{}\"\n", toml_string(spec.backend),
-                      spec.measure_plans ? "measure" : "estimate");
-  text += fmt::format("exponential = \"{}\"\npade_degree = {}\nlanczos_dimension = {}\n",
-                      spec.sparse.exponential == ExponentialKind::lanczos ? "lanczos" : "pade", spec.sparse.pade_degree,
-                      spec.sparse.lanczos_dimension);
-  text += fmt::format("\n[time]\nend = {}\n", toml_real(spec.t_end));
-  text += fmt::format("\n[output]\ndirectory = {}\nenergy_every = {}\nsnapshot_every = {}\n",
-                      toml_string(spec.output_directory), spec.energy_every, spec.snapshot_every);
-  if (spec.ledger) text += "ledger = \"on\"\n";
-  if (spec.snapshot_interval > 0) text += fmt::format("snapshot_interval = {}\n", toml_real(spec.snapshot_interval));
-  if (spec.ensemble) text += write_ensemble(*spec.ensemble);
-  return text;
-}
-
-std::string example_case(const std::string& problem) {
-  const ProblemEntry& entry = find_problem(problem);
-  std::string text = fmt::format("# {}\n# {}\n\n[problem]\n", entry.equation, entry.reference);
-  text += fmt::format("name = {}\n", toml_string(entry.name));
-  for (const Parameter& parameter : entry.parameters) {
-    text += line(parameter.name, parameter_literal(parameter, parameter.default_value),
-                 parameter.meaning + bounds(parameter));
-  }
-  std::vector<std::string> formulas;
-  for (const std::string& field : entry.fields) formulas.push_back(fmt::format("{} = \"0\"", field));
-  text += line("initial", toml_string(entry.presets.front()),
-               fmt::format("{}; or {{ file = \"z0.txt\" }}; or formulas in x (y, z), j: {{ {} }}",
-                           fmt::join(entry.presets, " | "), fmt::join(formulas, ", ")));
-  text += example_drives();
-
+// [method] and what follows it.
+std::string example_sections(const ProblemEntry& entry) {
+  std::string text;
   text += "\n[method]\n";
   text += line("name", toml_string(entry.default_method), fmt::format("auto | {}", fmt::join(method_names(), " | ")));
   text += line("h", number_or_string(entry.default_h), "step size, time; a number, or a fraction in quotes");
@@ -153,8 +104,73 @@ std::string example_case(const std::string& problem) {
   text += line("energy_every", "1", "steps");
   text += line("snapshot_every", "64", "steps; 0: the first and the last state only");
   text += line("ledger", "\"off\"", "on: columns of energy.csv that say where the change of H comes from");
-  text += line("# snapshot_interval", "0.5", "time between snapshots, with a tolerance; 0: by steps");
+  text += line("report", "\"on\"", "report.html, to which seiche plot adds pictures; off: none");
+  text += line("# snapshot_interval", "0.5", "time between snapshots; 0: by steps; with a tolerance");
+  text +=
+      "#   by default 1024 in all up to 16 unknowns, else 512, fewer of very large states, unless snapshot_every is given\n";
   return text;
+}
+
+}  // namespace
+
+std::string write_case(const RunSpec& spec) {
+  std::string text = fmt::format("[problem]\nname = {}\n", toml_string(spec.problem));
+  if (spec.custom) text += write_custom(*spec.custom, spec.parameter_texts);
+  for (const Parameter& parameter : problem_entry(spec).parameters) {
+    if (spec.custom && spec.custom->parameters.contains(parameter.name)) continue;  // written already
+    const auto value = spec.parameter_texts.find(parameter.name);
+    if (value == spec.parameter_texts.end()) throw Error("the case has no parameter {}", parameter.name);
+    text += fmt::format("{} = {}\n", parameter.name, parameter_literal(parameter, value->second));
+  }
+  text += fmt::format("initial = {}\n", initial_text(spec.initial));
+  text += write_drives(spec.drives);
+
+  const MethodOptions& options = spec.method_options;
+  text += fmt::format("\n[method]\nname = {}\n", toml_string(spec.method));
+  if (spec.h > 0) text += fmt::format("h = {}\n", step_size(spec.h));
+  if (spec.tolerance) text += fmt::format("tolerance = {}\n", toml_real(*spec.tolerance));
+  if (spec.h_max > 0) text += fmt::format("h_max = {}\n", toml_real(spec.h_max));
+  text += fmt::format("C = {}\n", options.C ? toml_real(*options.C) : "\"auto\"");
+  text += fmt::format("auxiliary = \"{}\"\n", to_text(options.auxiliary));
+  text += fmt::format("scalar_solver = \"{}\"\n", options.scalar_solver == ScalarSolver::newton ? "newton" : "robust");
+
+  if (options.law) text += fmt::format("law = \"{}\"\n", to_string(*options.law));
+  if (options.linear == LinearTreatment::explicit_kicks) text += "linear = \"explicit\"\n";
+
+  text += fmt::format("\n[backend]\nname = {}\nplan = \"{}\"\n", toml_string(spec.backend),
+                      spec.measure_plans ? "measure" : "estimate");
+  text += fmt::format("exponential = \"{}\"\npade_degree = {}\nlanczos_dimension = {}\n",
+                      spec.sparse.exponential == ExponentialKind::lanczos ? "lanczos" : "pade", spec.sparse.pade_degree,
+                      spec.sparse.lanczos_dimension);
+  text += fmt::format("\n[time]\nend = {}\n", toml_real(spec.t_end));
+  text += fmt::format("\n[output]\ndirectory = {}\nenergy_every = {}\nsnapshot_every = {}\n",
+                      toml_string(spec.output_directory), spec.energy_every, spec.snapshot_every);
+  if (spec.ledger) text += "ledger = \"on\"\n";
+  if (!spec.report) text += "report = \"off\"\n";
+  if (spec.snapshot_interval > 0) text += fmt::format("snapshot_interval = {}\n", toml_real(spec.snapshot_interval));
+  if (spec.ensemble) text += write_ensemble(*spec.ensemble);
+  return text;
+}
+
+std::string example_case(const std::string& problem) {
+  if (problem == custom_name) return example_custom() + example_drives() + example_sections(custom_in_list());
+  const std::vector<std::string> names = all_problem_names();
+  if (std::find(names.begin(), names.end(), problem) == names.end()) throw unknown_name("problem", problem, names);
+  const ProblemEntry& entry = find_problem(problem);
+  std::string text = fmt::format("# {}\n# {}\n\n[problem]\n", entry.equation, entry.reference);
+  text += fmt::format("name = {}\n", toml_string(entry.name));
+  for (const Parameter& parameter : entry.parameters) {
+    text += line(parameter.name, parameter_literal(parameter, parameter.default_value),
+                 parameter.meaning + bounds(parameter));
+  }
+  std::vector<std::string> formulas;
+  for (const std::string& field : entry.fields) formulas.push_back(fmt::format("{} = \"0\"", field));
+  text += line("initial", toml_string(entry.presets.front()),
+               fmt::format("{}; or {{ file = \"z0.txt\" }}; or formulas in x (y, z), j: {{ {} }}",
+                           fmt::join(entry.presets, " | "), fmt::join(formulas, ", ")));
+  text += example_drives();
+
+  return text + example_sections(entry);
 }
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 #include <seiche/config/case_parameters.hpp>
 #include <seiche/config/drive_case.hpp>
 #include <seiche/config/formula_compiler.hpp>
+#include <seiche/config/friction_names.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/damping/field_rates.hpp>
@@ -50,40 +51,44 @@ const FrictionKind& find_kind(const std::string& name) {
                        [&](const FrictionKind& kind) { return kind.name == name; });
 }
 
-const std::vector<std::string>& friction_variables() {
-  static const std::vector<std::string> names = {"v", "u", "t", "x", "y", "z"};
-  return names;
+double constant(const std::string& text, const FormulaConstants& constants) {
+  return (*compile_formula(text, {}, constants))(std::span<const double>());
 }
 
-double constant(const std::string& text) { return (*compile_formula(text, {}))(std::span<const double>()); }
-
-bool compiles_without(const std::string& text, const std::vector<std::string>& absent) {
+bool compiles_without(const std::string& text, const std::vector<std::string>& absent,
+                      const FormulaConstants& constants) {
   std::vector<std::string> names = friction_variables();
   std::erase_if(names,
                 [&](const std::string& n) { return std::find(absent.begin(), absent.end(), n) != absent.end(); });
   try {
-    compile_formula(text, names);
+    compile_formula(text, names, constants);
     return true;
   } catch (const Error&) {
     return false;
   }
 }
 
-FrictionFormula friction_formula(const std::string& text, const Grid& grid) {
+FrictionFormula friction_formula(const std::string& text, const Grid& grid, const FormulaConstants& constants) {
   constexpr std::array axes = {"x", "y", "z"};
   for (std::size_t a = static_cast<std::size_t>(grid.dimension()); a < axes.size(); ++a)
-    if (!compiles_without(text, {axes[a]}))
-      throw Error("problem.friction: {} names {}, but the grid has {} ax{}", text, axes[a], grid.dimension(),
-                  grid.dimension() == 1 ? "is" : "es");
-  return {.formula = compile_formula(text, friction_variables()),
-          .uses_u = !compiles_without(text, {"u"}),
-          .uses_t = !compiles_without(text, {"t"}),
-          .uses_place = !compiles_without(text, {"x", "y", "z"})};
+    if (!compiles_without(text, {axes[a]}, constants))
+      throw Error("problem.friction: {} names {}, but {}", text, axes[a],
+                  grid.only_numbers
+                      ? std::string("there are no such places")
+                      : fmt::format("the grid has {} ax{}", grid.dimension(), grid.dimension() == 1 ? "is" : "es"));
+  return {.formula = compile_formula(text, friction_variables(), constants),
+          .uses_u = !compiles_without(text, {"u"}, constants),
+          .uses_t = !compiles_without(text, {"t"}, constants),
+          .uses_place = !compiles_without(text, {"x", "y", "z"}, constants)};
 }
 
-FrictionPointer make_friction(const FrictionSpec& spec, const Problem& problem) {
-  const auto number = [&](const char* key) { return constant(spec.texts.at(key)); };
-  const auto formula = [&](const char* key) { return friction_formula(spec.texts.at(key), problem.grid); };
+FrictionPointer make_friction(const FrictionSpec& spec, const Problem& problem, double inverse_mass,
+                              const FormulaConstants& constants) {
+  const auto number = [&](const char* key) { return constant(spec.texts.at(key), constants); };
+  const auto formula = [&](const char* key) {
+    return friction_formula(in_velocity_and_coordinate(spec.texts.at(key), problem.fields, inverse_mass), problem.grid,
+                            constants);
+  };
   if (spec.kind == "quadratic") return quadratic_friction(number("linear"), number("coefficient"));
   if (spec.kind == "cubic") return cubic_friction(number("coefficient"));
   if (spec.kind == "tanh") return saturating_friction(number("coefficient"), number("width"));
@@ -103,11 +108,34 @@ Index obvious_field(const Problem& problem) {
               fmt::join(problem.fields, ", "), problem.fields.back());
 }
 
-std::string literal(const std::string& text) { return is_toml_number(text) ? text : toml_string(text); }
+// Without quotes where it is a number that reads back as the same text: not -0, 0.10 or 1e3.
+std::string literal(const std::string& text) {
+  const bool is_plain = is_toml_number(text) && fmt::format("{}", std::stod(text)) == text && text != "-0";
+  return is_plain ? text : toml_string(text);
+}
+
+// A number, which a text may give by names of parameters.
+double named_number(const std::string& key, const CaseValue& value, const FormulaConstants& constants) {
+  try {
+    return constant(value.text, constants);
+  } catch (const Error& error) {
+    throw Error("{}: {}", key, error.what());
+  }
+}
+
+void check_formula_in_time(const std::string& key, const std::string& text, const FormulaConstants& constants,
+                           const NameAdvice& advice) {
+  try {
+    compile_formula(text, {"t"}, constants, advice);
+  } catch (const Error& error) {
+    throw Error("{}: {}", key, error.what());
+  }
+}
 
 }  // namespace
 
-FrictionSpec read_friction(const std::string& key, const CaseValue& value) {
+FrictionSpec read_friction(const std::string& key, const CaseValue& value, const ProblemEntry& problem,
+                           const FormulaConstants& constants) {
   if (value.kind != CaseValue::Kind::table)
     throw Error("{} = {} must be a table such as {{ kind = \"quadratic\", coefficient = 0.1 }}, with kind one of {}",
                 key, value.shown(), fmt::join(kind_names(), ", "));
@@ -119,6 +147,7 @@ FrictionSpec read_friction(const std::string& key, const CaseValue& value) {
   const CaseValue* given_kind = entry("kind");
   if (given_kind == nullptr)
     throw Error("{} has no kind; write kind = \"…\" with one of {}", key, fmt::join(kind_names(), ", "));
+  const FormulaContext context = formula_context(problem, FormulaContext::Kind::friction);
   FrictionSpec spec{.kind = read_name(key + ".kind", *given_kind, kind_names()), .texts = {}};
   const FrictionKind& kind = find_kind(spec.kind);
   std::vector<std::string> allowed = {"kind"};
@@ -134,7 +163,8 @@ FrictionSpec read_friction(const std::string& key, const CaseValue& value) {
     if (given == nullptr) {
       spec.texts[k.name] = k.default_value;
     } else if (!k.is_formula) {
-      const double number = read_number(name, *given);
+      const double number =
+          given->kind == CaseValue::Kind::text ? named_number(name, *given, constants) : read_number(name, *given);
       if (number < 0 || (k.name == "width" && number == 0))
         throw Error("{} = {} must be {} 0", name, given->shown(), k.name == "width" ? ">" : "≥");
       spec.texts[k.name] = given->text;
@@ -142,11 +172,12 @@ FrictionSpec read_friction(const std::string& key, const CaseValue& value) {
       if (given->kind != CaseValue::Kind::text && given->kind != CaseValue::Kind::number)
         throw Error("{} = {} must be a formula in quotes, or a number", name, given->shown());
       try {
-        compile_formula(given->text, friction_variables());
+        check_friction_names(given->text, problem.fields, constants, context.axes > 0, advice_in(context));
       } catch (const Error& error) {
         throw Error("{}: {}", name, error.what());
       }
-      if (k.name == "coefficient" && !compiles_without(given->text, {"v"}))
+      if (k.name == "coefficient" &&
+          !compiles_without(in_velocity_and_coordinate(given->text, problem.fields, 1), {"v"}, constants))
         throw Error("{} = {} must not name v: it stands before v already; for other laws write kind = \"formula\"",
                     name, given->shown());
       spec.texts[k.name] = given->text;
@@ -156,12 +187,18 @@ FrictionSpec read_friction(const std::string& key, const CaseValue& value) {
 }
 
 std::map<std::string, std::string> read_forces(const std::string& key, const CaseValue& value,
-                                               const ProblemEntry& problem) {
+                                               const ProblemEntry& problem, const FormulaConstants& constants) {
   std::map<std::string, std::string> forces;
+  const FormulaContext context = formula_context(problem, FormulaContext::Kind::force);
+  const NameAdvice advice = advice_in(context);
   const auto add = [&](const std::string& name, const std::string& field, const CaseValue& formula) {
     if (formula.kind != CaseValue::Kind::text && formula.kind != CaseValue::Kind::number)
       throw Error("{} = {} must be a formula in t and x, y, z, such as \"0.3*cos(1.2*t)\"", name, formula.shown());
-    compile_space_rate(name, formula.text);
+    if (context.axes > 0) {
+      compile_space_rate(name, formula.text, constants, advice);
+    } else {
+      check_formula_in_time(name, formula.text, constants, advice);
+    }
     forces[field] = formula.text;
   };
   if (value.kind != CaseValue::Kind::table) {
@@ -176,13 +213,14 @@ std::map<std::string, std::string> read_forces(const std::string& key, const Cas
   return forces;
 }
 
-void add_drives(const DriveSpec& spec, Problem& problem) {
+void add_drives(const DriveSpec& spec, Problem& problem, const FormulaConstants& constants) {
   if (spec.friction) {
-    if (!momenta(problem))
+    const std::optional<Momenta> pairs = momenta(problem);
+    if (!pairs)
       throw Error(
           "problem.friction acts on velocities, and {} has none: its fields are {}, and friction needs q̇ = wp, ṗ = −∂H/∂q",
           problem.name, fmt::join(problem.fields, ", "));
-    problem.friction = make_friction(*spec.friction, problem);
+    problem.friction = make_friction(*spec.friction, problem, pairs->inverse_mass, constants);
   }
   if (spec.forces.empty()) return;
   problem.forces.assign(static_cast<std::size_t>(problem.field_count()), nullptr);
@@ -193,7 +231,7 @@ void add_drives(const DriveSpec& spec, Problem& problem) {
     const auto at = field.empty() ? static_cast<std::size_t>(obvious_field(problem))
                                   : static_cast<std::size_t>(found - problem.fields.begin());
     const std::string key = field.empty() ? "problem.force" : "problem.force." + field;
-    problem.forces[at] = compile_space_rate(key, text)->on(problem.grid);
+    problem.forces[at] = compile_space_rate(key, text, constants)->on(problem.grid);
   }
 }
 
@@ -216,7 +254,8 @@ std::string write_drives(const DriveSpec& spec) {
 std::string example_drives() {
   return "# friction = { kind = \"quadratic\", coefficient = 0.1 }\n"
          "#   on velocities v: quadratic ((linear + coefficient |v|)v), cubic, tanh (with width), dry, isotropic,\n"
-         "#   position (coefficient = \"u^2 - 1\", times v), formula (r = \"0.1*v + sinh(v)\", in v, u, t, x, y, z)\n"
+         "#   position (coefficient = \"u^2 - 1\", times v), formula (r = \"0.1*v + sinh(v)\", in v, u, t, x, y, z);\n"
+         "#   where there is one coordinate q with its momentum p, they may be named so\n"
          "# force = \"0.3*cos(1.2*t)\"         # on the velocity, a formula in t, x, y, z; or { field = \"…\" }\n";
 }
 

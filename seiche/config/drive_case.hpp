@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/config/case_value.hpp>
+#include <seiche/config/formula_parser.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/problem/problems.hpp>
 
@@ -24,14 +25,15 @@ struct DriveSpec {
   bool operator==(const DriveSpec&) const = default;
 };
 
-// { kind = "…", … }. Throws Error with a sentence that names the key, the value and what is allowed.
-FrictionSpec read_friction(const std::string& key, const CaseValue& value);
+// { kind = "…", … }. Formulas may name `constants`, and the fields of `problem` where these are one coordinate and its momentum. Throws Error with a sentence that names the key, the value and what is allowed.
+FrictionSpec read_friction(const std::string& key, const CaseValue& value, const ProblemEntry& problem,
+                           const FormulaConstants& constants);
 // A formula or number, or one for each of some fields.
 std::map<std::string, std::string> read_forces(const std::string& key, const CaseValue& value,
-                                               const ProblemEntry& problem);
+                                               const ProblemEntry& problem, const FormulaConstants& constants);
 
 // Adds them to a problem. Throws Error where the problem has no velocities, or a formula names an axis that is not there.
-void add_drives(const DriveSpec& spec, Problem& problem);
+void add_drives(const DriveSpec& spec, Problem& problem, const FormulaConstants& constants);
 
 std::string write_drives(const DriveSpec& spec);  // the lines of [problem], "" for none
 std::string example_drives();                     // the same as comments, with all that may be written

@@ -39,9 +39,13 @@ ParameterSamples read_samples(const std::string& key, const CaseValue& value) {
   const bool is_range = value.entries.size() == 2 && value.entries[0].first != value.entries[1].first &&
                         std::all_of(value.entries.begin(), value.entries.end(),
                                     [](const auto& e) { return e.first == "from" || e.first == "to"; });
-  if (is_range)
-    return {range, read_number(key + ".from", entry_of(key, value, "from")),
-            read_number(key + ".to", entry_of(key, value, "to"))};
+  if (is_range) {
+    const double from = read_number(key + ".from", entry_of(key, value, "from"));
+    const double to = read_number(key + ".to", entry_of(key, value, "to"));
+    if (from == to)
+      throw Error("{} = {{ from = {}, to = {} }} is one value and no range; write it in [problem]", key, from, to);
+    return {range, from, to};
+  }
   if (value.entries.size() != 1 || value.entries[0].first == "from" || value.entries[0].first == "to")
     throw Error("{} must be {}", key, allowed);
   const auto& [name, entry] = value.entries[0];

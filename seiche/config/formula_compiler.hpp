@@ -2,6 +2,7 @@
 // while compiling; what comes out is a plain program.
 #pragma once
 
+#include <seiche/config/formula_parser.hpp>
 #include <seiche/core/formula.hpp>
 
 #include <string>
@@ -9,8 +10,13 @@
 
 namespace seiche {
 
-// Throws Error that points into the text. Arguments of the formula come in the order of `variables`.
-FormulaPointer compile_formula(const std::string& text, const std::vector<std::string>& variables);
+// Throws Error that points into the text. Arguments of the formula come in the order of `variables`; `constants` become
+// numbers.
+FormulaPointer compile_formula(const std::string& text, const std::vector<std::string>& variables,
+                               const FormulaConstants& constants = {}, const NameAdvice& advice = {});
+
+// What computer algebra has made of formulas in these variables.
+FormulaPointer formula_of(std::string text, const std::vector<std::string>& variables, FormulaProgram program);
 
 // ∂f/∂variable. `formula` must come from compile_formula or differentiate; throws Error for min and max, and where the
 // variable is none of the formula's.

@@ -1,6 +1,8 @@
 #include <seiche/config/formula_parser.hpp>
 #include <seiche/config/formula_text.hpp>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,8 +24,9 @@ struct Part {
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::vector<std::string>& variables)
-      : text_(text), variables_(variables), tokens_(tokenise_formula(text)) {}
+  Parser(std::string_view text, const std::vector<std::string>& variables, const FormulaConstants& constants,
+         const NameAdvice& advice)
+      : text_(text), variables_(variables), constants_(constants), advice_(advice), tokens_(tokenise_formula(text)) {}
 
   ParsedFormula parse() {
     if (token().kind == FormulaToken::Kind::end) throw formula_error(text_, 0, "the formula is empty");
@@ -77,7 +80,11 @@ class Parser {
     if (!token().is('^')) return base;
     const FormulaToken op = take();
     const Descent descent(*this);
+    // Derivatives of towers of powers grow with every floor beyond all bounds.
+    if (++floors_ > highest_tower)
+      throw error(fmt::format("exponents stand in exponents more than {} deep", highest_tower));
     const Part exponent = signed_power();
+    --floors_;
     const double number = program_.back().number;
     // 2, 2.0 and 4/2 are the same exponent: only as a whole number does it make a polynomial.
     if (exponent.constant && number == std::floor(number) && std::abs(number) <= 1e6) {
@@ -124,6 +131,10 @@ class Parser {
     if (variable != variables_.end()) {
       program_.push_back({.kind = Kind::variable, .index = static_cast<int>(variable - variables_.begin())});
       return {.begin = begin, .position = name.position, .degree = 1, .constant = false};
+    }
+    if (const auto constant = constants_.find(std::string(name.text)); constant != constants_.end()) {
+      program_.push_back({.kind = Kind::number, .number = constant->second});
+      return {.begin = begin, .position = name.position, .degree = 0, .constant = true};
     }
     if (name.text == "pi" || name.text == "Pi") {
       program_.push_back({.kind = Kind::number, .number = std::numbers::pi});
@@ -173,18 +184,34 @@ class Parser {
     const FormulaToken& last = tokens_[at_ - 1];
     if (last.kind == FormulaToken::Kind::number && next.kind == FormulaToken::Kind::number)
       throw error(fmt::format("two numbers stand side by side: '{}' and '{}'", last.text, next.text));
+    if (last.kind == FormulaToken::Kind::number && is_unit(next.text) && !is_known(next.text))
+      throw error(
+          fmt::format("units such as {} are none of the language: numbers are in those of the equation", next.text));
     const bool called = last.kind == FormulaToken::Kind::name && next.is('(');
     throw error(called ? fmt::format("{0} is not a function; for a product write {0}*(…)", last.text)
                        : fmt::format("a multiplication sign is missing: write {}*{}", last.text, next.text));
   }
 
+  bool is_known(std::string_view name) const {
+    return std::find(variables_.begin(), variables_.end(), name) != variables_.end() ||
+           constants_.contains(std::string(name)) || find_formula_function(name) != nullptr;
+  }
+
   Error unknown(const FormulaToken& name) const {
     if (name.text == "e") return formula_error(text_, name.position, "there is no 'e'; write exp(1)");
     if (name.text == "ln") return formula_error(text_, name.position, "there is no 'ln'; write log( )");
+    if (name.text == "nan" || name.text == "inf")
+      return formula_error(text_, name.position,
+                           fmt::format("there is no '{}': numbers in formulas are finite", name.text));
     std::vector<std::string> names = variables_;
+    std::erase(names, "");  // arguments that this formula has no name for
+    for (const auto& [constant, value] : constants_) names.push_back(constant);
     names.emplace_back("pi");
     for (const FormulaFunction& function : formula_functions()) names.emplace_back(function.name);
-    return formula_error(text_, name.position, unknown_name("name", name.text, names).what());
+    const std::string said = advice_ ? advice_(name.text, !nearest_name(name.text, names).empty()) : "";
+    if (said.empty()) return formula_error(text_, name.position, unknown_name("name", name.text, names).what());
+    return formula_error(text_, name.position,
+                         fmt::format("unknown name '{}': {}. Allowed: {}", name.text, said, fmt::join(names, ", ")));
   }
 
   Part joined(const Part& left, const Part& right, int degree, const FormulaToken& op) {
@@ -226,16 +253,19 @@ class Parser {
 
   std::string_view text_;
   const std::vector<std::string>& variables_;
+  const FormulaConstants& constants_;
+  const NameAdvice& advice_;
   std::vector<FormulaToken> tokens_;
   std::size_t at_ = 0;
-  int depth_ = 0;
+  int depth_ = 0, floors_ = 0;
   FormulaProgram program_;
 };
 
 }  // namespace
 
-ParsedFormula parse_formula(std::string_view text, const std::vector<std::string>& variables) {
-  return Parser(text, variables).parse();
+ParsedFormula parse_formula(std::string_view text, const std::vector<std::string>& variables,
+                            const FormulaConstants& constants, const NameAdvice& advice) {
+  return Parser(text, variables, constants, advice).parse();
 }
 
 }  // namespace seiche

@@ -1,9 +1,11 @@
 // The grammar of formulas: + - * / ^ with the usual precedence (^ binds to the right and before the sign), functions,
-// pi, and the given variables. Whatever is refused is refused here, with its column.
+// pi, the given variables, and names of numbers. Whatever is refused is refused here, with its column.
 #pragma once
 
-#include <seiche/config/formula_program.hpp>
+#include <seiche/config/name_advice.hpp>
+#include <seiche/core/formula_program.hpp>
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,12 +14,17 @@ namespace seiche {
 
 inline constexpr int highest_degree = 64;
 inline constexpr int deepest_nesting = 60;
+inline constexpr int highest_tower = 4;  // of powers in exponents
 
 struct ParsedFormula {
   FormulaProgram program;  // constants folded
   int degree = 0;          // a bound on the degree in all variables together; −1 if not a polynomial as written
 };
 
-ParsedFormula parse_formula(std::string_view text, const std::vector<std::string>& variables);
+using FormulaConstants = std::map<std::string, double>;
+
+// `advice` is asked about names that are none of these.
+ParsedFormula parse_formula(std::string_view text, const std::vector<std::string>& variables,
+                            const FormulaConstants& constants = {}, const NameAdvice& advice = {});
 
 }  // namespace seiche

@@ -9,7 +9,7 @@
 namespace seiche {
 namespace {
 
-using Kind = FormulaToken::Kind;
+using TokenKind = FormulaToken::Kind;
 
 // Without <cctype>, whose answers depend on the locale.
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -71,7 +71,7 @@ FormulaToken number_token(std::string_view text, std::size_t begin, std::size_t 
     throw formula_error(text, begin, fmt::format("{} is too large or too small for a double", digits));
   if (status != std::errc() || rest != digits.data() + digits.size())
     throw formula_error(text, begin, fmt::format("'{}' is not a number", digits));
-  return {.kind = Kind::number, .text = digits, .position = begin, .value = value};
+  return {.kind = TokenKind::number, .text = digits, .position = begin, .value = value};
 }
 
 }  // namespace
@@ -107,12 +107,12 @@ std::vector<FormulaToken> tokenise_formula(std::string_view text) {
       tokens.push_back(number_token(text, begin, at));
     } else if (is_letter(c)) {
       while (at < text.size() && (is_letter(text[at]) || is_digit(text[at]))) ++at;
-      tokens.push_back({.kind = Kind::name, .text = text.substr(begin, at - begin), .position = begin});
+      tokens.push_back({.kind = TokenKind::name, .text = text.substr(begin, at - begin), .position = begin});
     } else if (text.substr(at, 2) == "**") {
       throw formula_error(text, at, "a power is written with ^, not **");
     } else if (std::string_view("+-*/^(),").find(c) != std::string_view::npos) {
       ++at;
-      tokens.push_back({.kind = Kind::symbol, .text = text.substr(begin, 1), .position = begin});
+      tokens.push_back({.kind = TokenKind::symbol, .text = text.substr(begin, 1), .position = begin});
     } else {
       const std::string_view character = text.substr(at, end_of_character(text, at) - at);
       const bool shows = static_cast<unsigned char>(c) >= 0x20U && c != 0x7F;
@@ -121,7 +121,7 @@ std::vector<FormulaToken> tokenise_formula(std::string_view text) {
       throw formula_error(text, at, fmt::format("the character {} has no meaning here{}", sign, advice(character)));
     }
   }
-  tokens.push_back({.kind = Kind::end, .text = {}, .position = text.size()});
+  tokens.push_back({.kind = TokenKind::end, .text = {}, .position = text.size()});
   return tokens;
 }
 

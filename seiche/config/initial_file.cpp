@@ -1,6 +1,8 @@
 #include <seiche/config/initial_file.hpp>
 #include <seiche/core/error.hpp>
 
+#include <fmt/ranges.h>
+
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -38,8 +40,11 @@ Vector read_initial_file(const std::filesystem::path& file, const Problem& probl
   }
   if (input.bad()) throw Error("{} cannot be read to its end", file.string());
   if (count != z.size())
-    throw Error("{} holds {} numbers but the state has {} ({} field{} × {} unknowns)", file.string(), count, z.size(),
-                problem.field_count(), problem.field_count() == 1 ? "" : "s", problem.grid.unknowns());
+    throw Error("{} holds {} number{} but the state has {} ({})", file.string(), count, count == 1 ? "" : "s", z.size(),
+                problem.grid.unknowns() == 1
+                    ? fmt::format("{}", fmt::join(problem.fields, ", "))
+                    : fmt::format("{} field{} × {} unknowns", problem.field_count(),
+                                  problem.field_count() == 1 ? "" : "s", problem.grid.unknowns()));
   return z;
 }
 

@@ -1,68 +1,16 @@
-#include <seiche/config/formula_compiler.hpp>
+#include <seiche/config/finite_force.hpp>
 #include <seiche/config/initial_file.hpp>
+#include <seiche/config/initial_formulas.hpp>
 #include <seiche/config/run_spec.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/number_text.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace seiche {
 namespace {
-
-bool is_constant_in_formulas(const Parameter& parameter) {
-  return parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::integer;
-}
-
-// Of a parameter per axis, that of the first.
-double constant_in_formulas(const ParameterValues& values, const Parameter& p) {
-  if (p.kind == ParameterKind::real) return p.per_axis ? values.reals(p.name).front() : values.real(p.name);
-  return static_cast<double>(p.per_axis ? values.integers(p.name).front() : values.integer(p.name));
-}
-
-constexpr std::array axis_names = {"x", "y", "z"};
-
-std::string place(const Grid& grid, Index point) {
-  std::string text;
-  for (Index a = 0; a < grid.dimension(); ++a)
-    text +=
-        fmt::format("{}{} = {}", a > 0 ? ", " : "", axis_names[static_cast<std::size_t>(a)], grid.coordinate(point, a));
-  return fmt::format("{} (j = {})", text, point + 1);
-}
-
-std::vector<std::string> variables_of(const std::string& problem, std::size_t dimension) {
-  std::vector<std::string> names(axis_names.begin(), axis_names.begin() + dimension);
-  names.emplace_back("j");
-  for (const Parameter& parameter : find_problem(problem).parameters)
-    if (is_constant_in_formulas(parameter)) names.push_back(parameter.name);
-  return names;
-}
-
-Vector from_formulas(const RunSpec& spec, const FormulaData& data, const Problem& problem) {
-  const Index dimension = problem.grid.dimension();
-  const std::vector<std::string> variables = variables_of(spec.problem, static_cast<std::size_t>(dimension));
-  std::vector<double> arguments(static_cast<std::size_t>(dimension) + 1, 0.0);  // x, y, …, j
-  for (const Parameter& parameter : find_problem(spec.problem).parameters)
-    if (is_constant_in_formulas(parameter)) arguments.push_back(constant_in_formulas(spec.parameters, parameter));
-
-  Vector z(problem.size());
-  Index at = 0;
-  for (const std::string& field : problem.fields) {
-    const auto text = data.formulas.find(field);
-    if (text == data.formulas.end()) throw Error("problem.initial has no formula for the field {}", field);
-    const FormulaPointer formula = compile_formula(text->second, variables);
-    for (Index i = 0; i < problem.grid.unknowns(); ++i) {
-      for (Index a = 0; a < dimension; ++a) arguments[static_cast<std::size_t>(a)] = problem.grid.coordinate(i, a);
-      arguments[static_cast<std::size_t>(dimension)] = static_cast<double>(i + 1);
-      z[at] = (*formula)(arguments);
-      if (!std::isfinite(z[at]))
-        throw Error("problem.initial: {} = {} is {} at {}", field, text->second, z[at], place(problem.grid, i));
-      ++at;
-    }
-  }
-  return z;
-}
 
 // γ(x, t) at every point, and at so many times up to t_end that it takes no second.
 void check_field_rate(const RunSpec& spec, const Parameter& parameter, const Problem& problem) {
@@ -75,39 +23,62 @@ void check_field_rate(const RunSpec& spec, const Parameter& parameter, const Pro
     for (std::size_t j = 0; j < gamma.size(); ++j) {
       const std::string complaint = out_of_bounds(parameter, gamma[j]);
       if (!complaint.empty())
-        throw Error("problem.{} at t = {}, {}", complaint, t, place(problem.grid, static_cast<Index>(j)));
+        throw Error("problem.{} at t = {}{}", complaint, t, place_text(problem.grid, static_cast<Index>(j)));
     }
   }
 }
 
 void check_field_rates(const RunSpec& spec, const Problem& problem) {
   if (!problem.damping.field_rate) return;
-  for (const Parameter& parameter : find_problem(spec.problem).parameters)
+  for (const Parameter& parameter : problem_entry(spec).parameters)
     if (parameter.kind == ParameterKind::rate && spec.parameters.damping_rate(parameter.name).varying)
       check_field_rate(spec, parameter, problem);
 }
 
+// Where the value of the key stands that a complaint begins with: what was given after --set is not in the file.
+std::string blamed(const RunSpec& spec, std::string_view complaint) {
+  const auto given = std::find_if(spec.overrides.rbegin(), spec.overrides.rend(), [&](const std::string& text) {
+    const std::size_t end = text.find('=');
+    std::string key = text.substr(0, text.find_last_not_of(" \t", end - 1) + 1);
+    key =
+        key.substr(0, key.find('.', key.find('.') + 1));  // what is inside a table is complained about as the table is
+    return complaint.starts_with(key) && complaint.find_first_of(" :.,", key.size()) == key.size();
+  });
+  return given == spec.overrides.rend() ? spec.source : "--set " + *given;
+}
+
 }  // namespace
 
-std::vector<std::string> initial_variables(const std::string& problem) {
-  return variables_of(problem, axis_names.size());
+const ProblemEntry& problem_entry(const RunSpec& spec) { return spec.entry ? *spec.entry : find_problem(spec.problem); }
+
+FormulaConstants formula_constants(const RunSpec& spec) {
+  FormulaConstants constants;
+  const ParameterValues& values = spec.parameters;
+  for (const Parameter& p : problem_entry(spec).parameters) {
+    if (p.kind == ParameterKind::real)
+      constants[p.name] = p.per_axis ? values.reals(p.name).front() : values.real(p.name);
+    if (p.kind == ParameterKind::integer)
+      constants[p.name] = static_cast<double>(p.per_axis ? values.integers(p.name).front() : values.integer(p.name));
+  }
+  return constants;
 }
 
 Problem make_problem(const RunSpec& spec) {
   try {
-    const ProblemEntry& entry = find_problem(spec.problem);
+    const ProblemEntry& entry = problem_entry(spec);
     const auto* preset = std::get_if<PresetData>(&spec.initial);
     Problem problem = entry.make(spec.parameters, preset != nullptr ? preset->name : entry.presets.front());
     check_field_rates(spec, problem);
-    add_drives(spec.drives, problem);
+    add_drives(spec.drives, problem, formula_constants(spec));
     if (const auto* data = std::get_if<FileData>(&spec.initial))
       problem.initial = read_initial_file(data->file, problem);
     if (const auto* data = std::get_if<FormulaData>(&spec.initial))
-      problem.initial = from_formulas(spec, *data, problem);
+      problem.initial = initial_from_formulas(data->formulas, formula_constants(spec), problem);
+    require_finite_force(problem);
     return problem;
   } catch (const Error& error) {
     if (spec.source.empty()) throw;
-    throw Error("{}: {}", spec.source, error.what());
+    throw Error("{}: {}", blamed(spec, error.what()), error.what());
   }
 }
 
@@ -129,6 +100,14 @@ void settle_method(RunSpec& spec) {
   spec.method = chosen.method().name;
   spec.method_options = chosen.method_options();
   spec.notes.push_back(fmt::format("method = \"auto\": {}", chosen.reason()));
+}
+
+void settle_snapshots(RunSpec& spec, const Problem& problem) {
+  if (!spec.tolerance || spec.snapshots_given) return;
+  constexpr Index most_numbers = Index{1} << 24U;
+  Index count = problem.size() <= 16 ? 1024 : 512;
+  while (count > 16 && count * problem.size() > most_numbers) count /= 2;
+  spec.snapshot_interval = spec.t_end / static_cast<double>(count);  // exact, for a power of two
 }
 
 }  // namespace seiche

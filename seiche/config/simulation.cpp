@@ -2,6 +2,7 @@
 #include <seiche/config/run_memory.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/law.hpp>
 #include <seiche/core/physical_memory.hpp>
 
 namespace seiche {
@@ -29,19 +30,32 @@ const BackendEntry& choose_backend(const SimulationOptions& options, const Probl
   return automatic_backend(problem, method_options.linear == LinearTreatment::explicit_kicks && kicks_suit(options));
 }
 
-// Is there a backend for kicks that "auto" may take? It runs on one thread, and keeps matrices.
+bool is_sparse(const std::string& backend) { return backend == "sparse"; }
+
+// Is there a backend for kicks that "auto" may take, or is it the one in use? It runs on one thread, and keeps matrices.
 bool may_choose_kicks(const SimulationOptions& options, const Problem& problem, const std::string& backend) {
   constexpr Index most_unknowns = Index{1} << 23;
+  if (is_sparse(backend)) return kicks_suit(options);
   return options.backend == "auto" && kicks_suit(options) && options.backend_options.threads == 1 &&
          problem.size() <= most_unknowns && automatic_backend(problem, true).name != backend;
 }
 
-void require_memory(const MethodEntry& method, const Problem& problem, bool variable_steps) {
-  const double bytes = run_bytes(method, problem, variable_steps);
+void require_memory(const MethodEntry& method, const Problem& problem, bool variable_steps,
+                    const std::string& backend) {
+  const double bytes = run_bytes(method, problem, variable_steps, backend);
   if (bytes > physical_memory())
     throw Error("{} on {} unknowns needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points{}",
                 method.name, problem.size(), bytes, physical_memory(),
                 method.closure == ClosureKind::sav ? "" : ", or seisav, which needs the least");
+}
+
+void require_gradient(const Problem& problem) {
+  if (!problem.potential || problem.initial.size() != problem.size()) return;
+  const Index n = problem.grid.unknowns();
+  const std::string complaint =
+      problem.potential->complaint({problem.initial.data() + problem.potential_field * n,
+                                    static_cast<std::size_t>(problem.potential->fields() * n)});
+  if (!complaint.empty()) throw Error(complaint);
 }
 
 }  // namespace
@@ -50,15 +64,17 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
     : method_(is_automatic(options) ? nullptr : &find_method(options.method)),
       problem_(method_ != nullptr ? as_integrated(*method_, problem) : problem),
       method_options_(options.method_options) {
+  require_gradient(problem_);
   const BackendEntry& backend = choose_backend(options, problem_, method_options_);
   backend_name_ = backend.name;
-  if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps);
+  if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps, backend_name_);
   system_ = backend.system(problem_, options.backend_options);
   if (method_ == nullptr) {
     MethodChoice choice = choose_method(problem_, system_,
                                         {.tolerance = options.tolerance,
                                          .t_end = options.t_end,
-                                         .by_kicks = may_choose_kicks(options, problem_, backend_name_)},
+                                         .by_kicks = may_choose_kicks(options, problem_, backend_name_),
+                                         .by_krylov = is_sparse(backend_name_)},
                                         options.method_options);
     method_ = &find_method(choice.method);
     method_options_ = choice.options;
@@ -69,7 +85,7 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
       system_ = System{};  // before the other takes its memory
       system_ = better.system(problem_, options.backend_options);
     }
-    require_memory(*method_, problem_, options.variable_steps);
+    require_memory(*method_, problem_, options.variable_steps, backend_name_);
   }
   if (options.variable_steps && problem_.friction && problem_.friction->smoothness() == Friction::Smoothness::jump)
     throw Error(
@@ -95,6 +111,12 @@ void Simulation::restart() {
   state_ = State{};
   state_.z = system_.initial;
   stepper_->begin(state_);
+}
+
+LawPromise promise_energy_law(const Simulation& simulation, double t_end) {
+  const std::string objection = simulation.method_options().objection(simulation.method());
+  if (!objection.empty()) return {false, objection};
+  return promise_energy_law(simulation.problem(), t_end);
 }
 
 }  // namespace seiche

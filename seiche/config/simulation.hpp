@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/backend/backends.hpp>
+#include <seiche/core/run_report.hpp>
 #include <seiche/method/methods.hpp>
 
 #include <memory>
@@ -19,7 +20,8 @@ struct SimulationOptions {
   double t_end = 0.0;           // likewise
 };
 
-// Throws Error where the method does not apply to the problem, with the reason.
+// Throws Error where the method does not apply to the problem, with the reason, and where the gradient of an own potential is not
+// that of V.
 class Simulation {
  public:
   explicit Simulation(const Problem& problem, const SimulationOptions& options = {});
@@ -55,5 +57,8 @@ class Simulation {
   AdaptiveStepper* adaptive_ = nullptr;  // the same, where it is one
   State state_;
 };
+
+// Is the energy law of its method promised up to t_end, and why (not)? Options of the method may give it up.
+LawPromise promise_energy_law(const Simulation& simulation, double t_end);
 
 }  // namespace seiche

@@ -6,8 +6,6 @@
 namespace seiche {
 namespace {
 
-constexpr double round_off = 1e-13;
-
 double largest_row_sum(const SparseMatrix& A) {
   const SparseMatrix absolute = A.cwiseAbs();
   return A.rows() == 0 ? 0.0 : Vector(absolute * Vector::Ones(A.cols())).maxCoeff();
@@ -27,8 +25,8 @@ SparseMatrix symmetric_part(const SparseMatrix& A) { return 0.5 * (A + SparseMat
 std::optional<NegativeDirection> negative_direction(const SparseMatrix& A) {
   const double size = largest_row_sum(A);
   if (size == 0) return std::nullopt;
-  const SparseMatrix shifted =
-      A + SparseMatrix(round_off * size * identity_matrix(A.rows()));  // a pivot that should be 0 is now positive
+  const SparseMatrix shifted = A + SparseMatrix(matrix_round_off * size *
+                                                identity_matrix(A.rows()));  // a pivot that should be 0 is now positive
   Eigen::SimplicialLDLT<SparseMatrix> ldlt(shifted);
   if (ldlt.info() != Eigen::Success)
     throw Error("whether a matrix of {} unknowns is positive semidefinite was not decided: LDLᵀ met a pivot 0",
@@ -42,7 +40,7 @@ std::optional<NegativeDirection> negative_direction(const SparseMatrix& A) {
   x.normalize();
   improve(A, size, x);
   const double value = x.dot(A * x);
-  if (value >= -round_off * size) return std::nullopt;
+  if (value >= -matrix_round_off * size) return std::nullopt;
   NegativeDirection direction{value, 0};
   x.cwiseAbs().maxCoeff(&direction.largest);
   return direction;

@@ -31,12 +31,27 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return back[b.size()];
 }
 
+// Of names of one or two letters every other one is near, but for the order, number and case of their letters.
+bool same_letters(std::string_view a, std::string_view b) {
+  const auto has_all = [](std::string_view some, std::string_view all) {
+    return std::all_of(some.begin(), some.end(), [&](char x) {
+      return std::any_of(all.begin(), all.end(), [x](char y) { return lower(x) == lower(y); });
+    });
+  };
+  return has_all(a, b) && has_all(b, a);
+}
+
+std::size_t farthest_help(std::string_view wanted) {
+  return wanted.size() <= 3 ? 1 : std::max<std::size_t>(2, wanted.size() / 2);
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names) {
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, wanted.size() / 2);  // farther is no help
+  std::size_t best_distance = farthest_help(wanted);
   for (const std::string& name : names) {
+    if (wanted.size() <= 2 && !same_letters(wanted, name)) continue;
     const std::size_t distance = edit_distance(wanted, name);
     if (distance < best_distance || (best.empty() && distance == best_distance)) {
       best = name;

@@ -1,6 +1,8 @@
 // A compiled formula: all that the rest of the library sees of computer algebra. config/ compiles text into one.
 #pragma once
 
+#include <seiche/core/formula_program.hpp>
+
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,6 +17,7 @@ class Formula {
  public:
   virtual ~Formula() = default;
   virtual double operator()(std::span<const double> arguments) const = 0;
+  virtual std::span<const Instruction> program() const = 0;
   virtual const std::string& text() const = 0;  // as the user wrote it
   // Coefficients c₀, c₁, … where f is a polynomial of one variable; nothing otherwise.
   virtual const std::optional<std::vector<double>>& polynomial() const = 0;

@@ -32,6 +32,15 @@ class Friction {
   // How often a flow of the user's own raised |v|, and was scaled back.
   virtual std::int64_t corrections() const { return 0; }
   virtual std::string text() const = 0;  // "0.3 |v|v"
+
+  // The same R with a memory of its own for `fed_at` and `corrections`; null where nothing is remembered, and this one may be shared.
+  virtual std::shared_ptr<const Friction> with_own_memory() const { return nullptr; }
+  virtual void forget_fed() const {}  // const as remembering is
+  // A sentence about `fed_at`, or "".
+  std::string complaint() const {
+    const std::string place = fed_at();
+    return place.empty() ? "" : "the friction " + text() + " feeds energy at " + place;
+  }
 };
 
 using FrictionPointer = std::shared_ptr<const Friction>;

@@ -30,6 +30,13 @@ struct GridAxis {
 // Points are numbered with the last axis running fastest.
 struct Grid {
   std::vector<GridAxis> axes = {GridAxis{}};
+  // Points that lie on no grid: the one axis only numbers them. They are at `nodes`, or nowhere if there are none.
+  bool only_numbers = false;
+  std::vector<Place> nodes = {};
+  // What stands between nodes, for pictures: both ends of every bar, as numbers of `nodes` and behind them of `supports`, which
+  // do not move.
+  std::vector<Place> supports = {};
+  std::vector<std::array<Index, 2>> bars = {};
 
   Index dimension() const { return static_cast<Index>(axes.size()); }
   const GridAxis& axis(Index a) const { return axes[static_cast<std::size_t>(a)]; }

@@ -13,15 +13,15 @@ class Kicks {
  public:
   virtual ~Kicks() = default;
 
-  struct DriftAndKick {  // q ← q + length · p, p ← decay · p, and then p ← p − kick · F(q)
-    double length, decay, kick;
+  struct KickAndDrift {  // p ← p − kick · F(q), and then q ← q + length · p, p ← decay · p
+    double kick, length, decay;
   };
   struct Report {
     double taken = 0;   // from ½|p|² by the factors `decay`
     double kicked = 0;  // |p|² after the first kick
   };
-  // out ← (q, p) of z after p ← p − first_kick · F(q) and the stages, of which there is one at least. out is not z.
-  virtual Report split(double first_kick, std::span<const DriftAndKick> stages, const Vector& z, Vector& out) const = 0;
+  // out ← (q, p) of z after the stages, of which there is one at least, and p ← p − last_kick · F(q). out is not z.
+  virtual Report split(std::span<const KickAndDrift> stages, double last_kick, const Vector& z, Vector& out) const = 0;
 };
 
 }  // namespace seiche

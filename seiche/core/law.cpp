@@ -4,6 +4,9 @@
 #include <seiche/core/law_of_damping.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
 
 namespace seiche {
 namespace {
@@ -61,7 +64,44 @@ LawPromise promise_of_stencils(const Problem& problem, double t_end, const Opera
   return promise_given_semidefinite_MD(problem);
 }
 
+struct TimeSpan {
+  double begin, length;
+};
+
+// A short part of a span in which a rate is infinite. `exists`: of its integral over a span; where it does so on all parts of
+// one, that was merely too long for the quadrature.
+template <class Exists>
+std::optional<TimeSpan> around_pole(const Exists& exists, TimeSpan span) {
+  constexpr int halvings = 10;
+  if (exists(span)) return std::nullopt;
+  for (int i = 0; i < halvings; ++i) {
+    span.length /= 2;
+    if (!exists(span)) continue;
+    span.begin += span.length;
+    if (exists(span)) return std::nullopt;
+  }
+  return span;
+}
+
 }  // namespace
+
+void require_finite_rates(const Problem& problem, double t_start, double t_end) {
+  const auto require = [&](const auto& rate, const auto& exists) {
+    if (!rate || rate->is_constant() || !(t_end > t_start)) return;
+    if (const std::optional<TimeSpan> pole = around_pole(exists, {t_start, t_end - t_start}))
+      throw Error(
+          "the rate {} is infinite between t = {:.6g} and {:.6g}, and no solution goes on from there; end the run before",
+          rate->text(), pole->begin, pole->begin + pole->length);
+  };
+  const LinearDamping& damping = problem.damping;
+  require(damping.rate,
+          [&](const TimeSpan& span) { return std::isfinite(damping.rate->integral(span.begin, span.length)); });
+  std::vector<double> integrals(damping.field_rate ? static_cast<std::size_t>(problem.grid.unknowns()) : 0);
+  require(damping.field_rate, [&](const TimeSpan& span) {
+    damping.field_rate->integrals(span.begin, span.length, integrals);
+    return std::all_of(integrals.begin(), integrals.end(), [](double integral) { return std::isfinite(integral); });
+  });
+}
 
 LawPromise promise_energy_law(const Problem& problem, double t_end) {
   return promise_energy_law(problem, t_end, look_at_operators(problem));
@@ -72,6 +112,17 @@ LawPromise promise_energy_law(const Problem& problem, double t_end, const Operat
     return {false, complaint};
   return problem.matrices ? promise_energy_law_of_matrices(problem, t_end, findings)
                           : promise_of_stencils(problem, t_end, findings);
+}
+
+std::string negative_rate(const Problem& problem) {
+  const auto complaint = [](const auto& rate) -> std::string {
+    if (!rate || rate->negative_seen() < 0) return "";
+    return fmt::format("the rate {} is negative at t = {:.6g}", rate->text(), rate->negative_seen());
+  };
+  if (problem.friction)
+    if (const std::string fed = problem.friction->complaint(); !fed.empty()) return fed;
+  const std::string everywhere = complaint(problem.damping.rate);
+  return everywhere.empty() ? complaint(problem.damping.field_rate) : everywhere;
 }
 
 }  // namespace seiche

@@ -1,8 +1,35 @@
 #include <seiche/core/law_of_damping.hpp>
 
-#include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace seiche {
+
+namespace {
+
+// Are all fields that V depends on damped by one rate for all of them and all points, and by nothing else?
+bool shrinks_together(const Problem& problem) {
+  const LinearDamping& damping = problem.damping;
+  if (damping.field_rate || (problem.matrices && problem.has_constant_damping())) return false;
+  std::optional<std::pair<bool, double>> first;  // by γ(t), and by so much beside it
+  for (Index field = 0; field < problem.field_count(); ++field) {
+    if (!problem.potential_depends_on(field)) continue;
+    if (problem.friction && field >= problem.field_count() / 2) return false;
+    double constant = 0;
+    for (Index j = 0; j < problem.field_count() && !problem.matrices; ++j) {
+      const Stencil& entry = damping.constant(field, j);
+      const std::optional<double> factor = entry.factor_of_identity();
+      if (!factor || (j != field && *factor != 0) || *factor < 0) return false;
+      if (j == field) constant = *factor;
+    }
+    const bool by_rate = damping.rate && damping.rate_fields[static_cast<std::size_t>(field)];
+    if (first && *first != std::pair(by_rate, constant)) return false;
+    first = {by_rate, constant};
+  }
+  return true;
+}
+
+}  // namespace
 
 std::string complaint_beyond_linear(const Problem& problem, double t_end) {
   if (problem.has_forces()) return "an external force does work on the system";
@@ -13,14 +40,13 @@ std::string complaint_beyond_linear(const Problem& problem, double t_end) {
 
 LawPromise promise_given_semidefinite_MD(const Problem& problem) {
   if (!problem.damping_moves_potential()) return {true, "sym(MD) ⪰ 0 and V does not depend on the damped fields"};
-  // sym(MD) ⪰ 0 is not enough where damping moves what V depends on. D = γI lets V fall where u·∇V(u) ≥ 0.
-  const LinearDamping& damping = problem.damping;
-  const bool scalar = !problem.has_constant_damping() && !damping.field_rate &&
-                      std::all_of(damping.rate_fields.begin(), damping.rate_fields.end(), [](bool b) { return b; });
-  if (scalar && problem.potential->grows_outward()) return {true, "D = γI and u·∇V(u) ≥ 0 for every u"};
-  return {false,
-          "the damping moves the field that V depends on, and V can rise when it shrinks: the "
-          "energy-compatible damping condition is not guaranteed"};
+  // sym(MD) ⪰ 0 is not enough where damping moves what V depends on. D = γ there lets V fall where u·∇V(u) ≥ 0.
+  if (shrinks_together(problem) && problem.potential->grows_outward())
+    return {true, "D = γI where V depends on u, and u·∇V(u) ≥ 0 for every u"};
+  return {
+      false,
+      "the damping moves the field that V depends on, and the form of V does not show that it falls when that shrinks: "
+      "the energy-compatible damping condition is not guaranteed"};
 }
 
 }  // namespace seiche

@@ -1,3 +1,4 @@
+#include <seiche/core/definiteness.hpp>
 #include <seiche/core/operator_findings.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -9,8 +10,6 @@
 
 namespace seiche {
 namespace {
-
-constexpr double round_off = 1e-13;  // relative to the largest entry
 
 using Block = Eigen::MatrixXcd;
 using PairBlock = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 2>;  // not on the heap
@@ -62,7 +61,7 @@ class Scan {
     found.mode = modes[at_];
     found.vector = Eigen::SelfAdjointEigenSolver<Block>(Block(0.5 * (block_ + block_.adjoint()))).eigenvectors().col(0);
     for (std::size_t i = 0; i < values_.size(); ++i) {
-      if (std::abs(values_[i]) > round_off * size_) continue;
+      if (std::abs(values_[i]) > matrix_round_off * size_) continue;
       if (found.zeros++ == 0) found.first_zero = modes[static_cast<Index>(i) / fields_];
     }
     return found;
@@ -123,7 +122,7 @@ OperatorFindings look_at_matrices(const Problem& problem) {
 
 }  // namespace
 
-bool SmallestEigenvalue::is_nonnegative() const { return value >= -round_off * size; }
+bool SmallestEigenvalue::is_nonnegative() const { return value >= -matrix_round_off * size; }
 
 OperatorFindings look_at_operators(const Problem& problem) {
   if (problem.matrices) return look_at_matrices(problem);

@@ -1,3 +1,4 @@
+#include <seiche/core/definiteness.hpp>
 #include <seiche/core/operator_hypotheses.hpp>
 
 #include <fmt/ranges.h>
@@ -10,7 +11,8 @@ namespace {
 
 using Block = Eigen::MatrixXcd;
 
-constexpr double round_off = 1e-13;  // relative to the largest entry
+// Few degrees of freedom have no waves: all of them are one block.
+bool has_modes(const Problem& problem) { return !problem.grid.only_numbers; }
 
 std::string text_of(const Mode& mode, const Grid& grid) {
   std::vector<Index> k(mode.k.begin(), mode.k.begin() + grid.dimension());
@@ -19,7 +21,7 @@ std::string text_of(const Mode& mode, const Grid& grid) {
 
 // "mode k = (3), z = (u: 0.98, v: 0.2)"
 std::string witness(const Problem& problem, const SmallestEigenvalue& s) {
-  std::string text = text_of(s.mode, problem.grid) + ", |z| = (";
+  std::string text = has_modes(problem) ? text_of(s.mode, problem.grid) + ", |z| = (" : "|z| = (";
   for (Index f = 0; f < problem.field_count(); ++f)
     text += fmt::format("{}{}: {:.3g}", f > 0 ? ", " : "", problem.fields[static_cast<std::size_t>(f)],
                         std::abs(s.vector[f]));
@@ -42,9 +44,10 @@ Hypothesis semidefinite(const Problem& problem, std::string name, const Semidefi
   }
   const SmallestEigenvalue& s = *seen.over_modes;
   if (!seen.holds()) return {std::move(name), Grade::violated, meaning + " fails", s.value, witness(problem, s)};
-  std::string text =
-      fmt::format("{}: the smallest eigenvalue over all modes is {:.6g}", meaning, std::max(s.value, 0.0));
-  if (s.zeros > 0) text += fmt::format("; {} vanish, the first at {}", s.zeros, text_of(s.first_zero, problem.grid));
+  std::string text = fmt::format("{}: the smallest eigenvalue{} is {:.6g}", meaning,
+                                 has_modes(problem) ? " over all modes" : "", std::max(s.value, 0.0));
+  if (s.zeros > 0 && has_modes(problem))
+    text += fmt::format("; {} vanish, the first at {}", s.zeros, text_of(s.first_zero, problem.grid));
   return {std::move(name), Grade::verified, std::move(text), std::max(s.value, 0.0)};
 }
 
@@ -54,7 +57,9 @@ Hypothesis hypothesis_of_S(const Problem& problem, const OperatorFindings& findi
   const std::string name = "sym(S) ⪯ 0";
   if (findings.S_is_skew)
     return {name, Grade::by_structure,
-            problem.matrices ? "S is skew: Sᵀ = −S entry by entry" : "S is skew: S + Sᴴ = 0 exactly, on every mode"};
+            problem.matrices     ? "S is skew: Sᵀ = −S entry by entry"
+            : has_modes(problem) ? "S is skew: S + Sᴴ = 0 exactly, on every mode"
+                                 : "S is skew: S + Sᵀ = 0 exactly"};
   return semidefinite(problem, name, findings.minus_S, "S dissipates: −sym(S) ⪰ 0");
 }
 
@@ -100,7 +105,7 @@ Hypothesis hypothesis_of_commuting(const Problem& problem) {
     }
     if (damping.field_rate) largest = size;  // γ(x, t) and a difference operator do not
   }
-  if (largest <= round_off * size)
+  if (largest <= matrix_round_off * size)
     return {name, Grade::verified, "the constant part of D and its rate commute: exp(−∫D) is the exact flow"};
   return {name, Grade::violated,
           "the constant part of D and its rate do not commute: the damping flow is of order two, and each factor of it "

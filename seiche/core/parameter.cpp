@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/number_text.hpp>
 #include <seiche/core/parameter.hpp>
 
 #include <cmath>
@@ -26,7 +27,7 @@ DampingRate ParameterValues::damping_rate(const std::string& name) const {
 }
 
 std::string out_of_bounds(const Parameter& p, double value) {
-  if (!std::isfinite(value)) return fmt::format("{} = {} must be a finite number", p.name, value);
+  if (!std::isfinite(value)) return fmt::format("{} = {} must be a finite number", p.name, number_text(value));
   const bool low = p.minimum_excluded ? value <= p.minimum : value < p.minimum;
   if (low) return fmt::format("{} = {} must be {} {}", p.name, value, p.minimum_excluded ? ">" : "≥", p.minimum);
   if (value > p.maximum) return fmt::format("{} = {} must be ≤ {}", p.name, value, p.maximum);

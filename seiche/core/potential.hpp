@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace seiche {
@@ -34,6 +35,8 @@ class PointwisePotential {
   virtual Index fields() const { return 1; }  // how many consecutive fields u holds
   // Is V = Σ_j W(u_j)? Then parts of u may be given one at a time, on several threads.
   virtual bool is_local() const { return false; }
+  // What speaks against V, or "": a gradient that is not its own where it begins, at u, or nearby. Asked before a run.
+  virtual std::string complaint(std::span<const double> /*u*/) const { return ""; }
   virtual double value(std::span<const double> u) const = 0;
   virtual ValueAndMagnitude value_and_magnitude(
       std::span<const double> u) const = 0;  // V and Σ|V_j|, or the sizes of the terms of V_j

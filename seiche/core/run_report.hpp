@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/potential.hpp>
+#include <seiche/core/replaced_steps.hpp>
 
 #include <cstdint>
 #include <string>
@@ -36,16 +37,23 @@ struct RunReport {
   std::string law_reason;
   Potential::Counts potential_counts;
   std::int64_t scalar_iterations = 0;
-  std::int64_t fallbacks = 0;
+  std::int64_t fallbacks = 0;  // times a solver left its first choice; most of them cost no accuracy
+  ReplacedSteps replaced;
   std::int64_t unresolved = 0;
   std::int64_t rejected = 0;        // steps tried and taken back, with variable steps
   std::vector<double> events = {};  // times at which events were met
   double wall_seconds = 0.0;
 
+  // Steps that were replaced: how many, why, what that means and what helps; "" where there are none.
+  std::string remark_on_replaced() const;
+  // More than one step in ten was replaced, or one by next to nothing: what has come out is no solution of the equation.
+  bool lacks_solution() const { return replaced.ruinous || 10 * replaced.count > steps; }
+  void judge_replaced();      // puts that remark into `message`; a run that lacks a solution has failed
   std::string brief() const;  // one line
   std::string full() const;   // a paragraph for a terminal
 };
 
+std::string counted_steps(std::int64_t count);    // "1 step", "2 steps"
 std::string to_string(RunReport::Status status);  // "success", "failed", "interrupted"
 std::string to_string(LawVerdict verdict);        // "holds", "violated", "not promised"
 

@@ -1,9 +1,9 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/line_modes.hpp>
 #include <seiche/core/physical_memory.hpp>
 #include <seiche/core/stencil.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -11,19 +11,16 @@
 namespace seiche {
 namespace {
 
-// sin(π p / q), exact where it is 0 or ±1.
-double sin_pi(Index p, Index q) {
-  p %= 2 * q;
-  if (p < 0) p += 2 * q;
-  const double sign = p < q ? 1.0 : -1.0;
-  if (p >= q) p -= q;
-  if (2 * p > q) p = q - p;
-  if (2 * p == q) return sign;
-  return sign * std::sin(std::numbers::pi * static_cast<double>(p) / static_cast<double>(q));
-}
-
 // Coefficients of a central difference, by offset.
 std::map<Index, double> taps(int order, Discretisation discretisation, double dx) {
+  if (order == 4) {
+    std::map<Index, double> product;
+    for (const auto& [i, a] : taps(2, discretisation, dx))
+      for (const auto& [j, b] : taps(2, discretisation, dx)) product[i + j] += a * b;
+    for (auto& [offset, c] : product)
+      if (offset < 0) c = product.at(-offset);  // symmetric to the last bit
+    return product;
+  }
   if (order == 3) {
     std::map<Index, double> product;
     for (const auto& [i, a] : taps(1, discretisation, dx))
@@ -68,19 +65,6 @@ Reflected locate(Index i, const GridAxis& axis) {
   return j < n ? Reflected{j - 1, 1.0} : Reflected{2 * n - j - 1, -1.0};
 }
 
-// Orthonormal real modes of one axis as columns, in the order of Modes for an axis that is not periodic.
-Eigen::MatrixXd line_modes(const GridAxis& axis) {
-  const Index n = axis.unknowns();
-  const Index N = axis.intervals;
-  Eigen::MatrixXd modes(n, n);
-  for (Index k = 0; k < n; ++k)
-    for (Index j = 0; j < n; ++j)
-      modes(j, k) =
-          axis.boundary == Boundary::dirichlet ? sin_pi((j + 1) * (k + 1), N) : sin_pi((2 * j + 1) * k + N, 2 * N);
-  modes.colwise().normalize();
-  return modes;
-}
-
 // A SparseMatrix counts its entries by int, and is put together from triplets that stand beside it.
 void require_entries(double entries) {
   constexpr double most = std::numeric_limits<int>::max();
@@ -104,7 +88,19 @@ Stencil Stencil::identity(double factor) {
 
 Stencil Stencil::laplacian(const Grid& grid, Discretisation discretisation) {
   Stencil s;
-  for (Index a = 0; a < grid.dimension(); ++a) s.terms_.push_back({a, 2, discretisation, grid.axis(a).dx(), 1.0});
+  for (Index a = 0; a < grid.dimension(); ++a) s += second_derivative(grid, a, discretisation);
+  return s;
+}
+
+Stencil Stencil::second_derivative(const Grid& grid, Index axis, Discretisation discretisation) {
+  Stencil s;
+  s.terms_.push_back({axis, 2, discretisation, grid.axis(axis).dx(), 1.0});
+  return s;
+}
+
+Stencil Stencil::fourth_derivative(const Grid& grid, Index axis, Discretisation discretisation) {
+  Stencil s;
+  s.terms_.push_back({axis, 4, discretisation, grid.axis(axis).dx(), 1.0});
   return s;
 }
 
@@ -118,6 +114,12 @@ Stencil Stencil::odd_derivative(const Grid& grid, Index axis, int order, Discret
 
 Stencil Stencil::derivative(const Grid& grid, Index axis, Discretisation discretisation) {
   return odd_derivative(grid, axis, 1, discretisation);
+}
+
+Stencil Stencil::multiplier(const Grid& grid, WaveFunction f, Parity parity) {
+  Stencil s;
+  s.multipliers_.push_back({std::make_shared<FourierMultiplier>(grid, std::move(f), parity), 1.0});
+  return s;
 }
 
 Stencil Stencil::third_derivative(const Grid& grid, Index axis, Discretisation discretisation) {
@@ -136,33 +138,52 @@ Stencil& Stencil::operator+=(const Stencil& other) {
       same->factor += term.factor;
     }
   }
-  std::erase_if(terms_, [](const Term& t) { return t.factor == 0; });
+  for (const Multiplier& multiplier : other.multipliers_) {
+    const auto same = std::find_if(multipliers_.begin(), multipliers_.end(),
+                                   [&](const Multiplier& m) { return m.function == multiplier.function; });
+    if (same == multipliers_.end()) {
+      multipliers_.push_back(multiplier);
+    } else {
+      same->factor += multiplier.factor;
+    }
+  }
+  drop_what_vanishes();
   return *this;
 }
 
 Stencil& Stencil::operator*=(double factor) {
   identity_ *= factor;
   for (Term& term : terms_) term.factor *= factor;
-  std::erase_if(terms_, [](const Term& t) { return t.factor == 0; });
+  for (Multiplier& multiplier : multipliers_) multiplier.factor *= factor;
+  drop_what_vanishes();
   return *this;
 }
 
+void Stencil::drop_what_vanishes() {
+  const auto vanishes = [](const auto& term) { return term.factor == 0; };
+  std::erase_if(terms_, vanishes);
+  std::erase_if(multipliers_, vanishes);
+}
+
 std::optional<double> Stencil::factor_of_identity() const {
-  return terms_.empty() ? std::optional(identity_) : std::nullopt;
+  return terms_.empty() && multipliers_.empty() ? std::optional(identity_) : std::nullopt;
 }
 
 bool Stencil::is_symmetric() const {
-  return std::all_of(terms_.begin(), terms_.end(), [](const Term& t) { return t.order == 2; });
+  return std::all_of(terms_.begin(), terms_.end(), [](const Term& t) { return t.order % 2 == 0; }) &&
+         std::all_of(multipliers_.begin(), multipliers_.end(),
+                     [](const Multiplier& m) { return m.function->parity() == Parity::even; });
 }
 
 bool Stencil::is_sparse() const {
-  return std::none_of(terms_.begin(), terms_.end(),
-                      [](const Term& t) { return t.discretisation == Discretisation::spectral; });
+  return multipliers_.empty() && std::none_of(terms_.begin(), terms_.end(), [](const Term& t) {
+           return t.discretisation == Discretisation::spectral;
+         });
 }
 
 // With θ = 2πk/period the phase from point to point and s = sin(θ/2):
 //   second derivative  −4s²/Δx²,  −4s²(1 + s²/3)/Δx²,  −κ²;      first  i sin θ/Δx,  i sin θ (1 + 2s²/3)/Δx,  iκ
-// and the third is their product.
+// the third is their product, and the fourth the square of the second.
 std::complex<double> Stencil::symbol(const Term& term, Index k, Index period) {
   if (term.order == 3) {
     const auto of_order = [&](int order) {
@@ -170,6 +191,8 @@ std::complex<double> Stencil::symbol(const Term& term, Index k, Index period) {
     };
     return term.factor * of_order(1) * of_order(2);
   }
+  if (term.order == 4)
+    return term.factor * square(symbol({term.axis, 2, term.discretisation, term.dx, 1.0}, k, period).real());
   if (2 * k > period) k -= period;
   const double kappa = 2 * std::numbers::pi * static_cast<double>(k) / (static_cast<double>(period) * term.dx);
   const double s2 = square(sin_pi(k, period));
@@ -195,6 +218,7 @@ std::complex<double> Stencil::symbol(const Mode& mode) const {
     const auto a = static_cast<std::size_t>(term.axis);
     sum += symbol(term, mode.k[a], mode.period[a]);
   }
+  for (const Multiplier& multiplier : multipliers_) sum += multiplier.factor * multiplier.function->symbol(mode);
   return sum;
 }
 
@@ -239,15 +263,15 @@ Eigen::MatrixXd Stencil::matrix(const Grid& grid) const {
       for (Index j = 0; j < line.cols(); ++j) a(i, i + (j - here) * stride) += line(here, j);
     }
   }
+  for (const Multiplier& multiplier : multipliers_) a += multiplier.factor * multiplier.function->matrix(grid);
   return a;
 }
 
 SparseMatrix Stencil::sparse_matrix(const Grid& grid) const {
+  if (!is_sparse()) throw Error("spectral derivatives couple every point with every other and have no sparse matrix");
   const Index n = grid.unknowns();
   double per_row = identity_ != 0 ? 1 : 0;
-  for (const Term& term : terms_)
-    if (term.discretisation != Discretisation::spectral)
-      per_row += static_cast<double>(taps(term.order, term.discretisation, term.dx).size());
+  for (const Term& term : terms_) per_row += static_cast<double>(taps(term.order, term.discretisation, term.dx).size());
   require_entries(per_row * static_cast<double>(n));
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&entries](Index i, Index j, double value) {
@@ -256,8 +280,6 @@ SparseMatrix Stencil::sparse_matrix(const Grid& grid) const {
   if (identity_ != 0)
     for (Index i = 0; i < n; ++i) add(i, i, identity_);
   for (const Term& term : terms_) {
-    if (term.discretisation == Discretisation::spectral)
-      throw Error("spectral derivatives couple every point with every other and have no sparse matrix");
     const GridAxis& axis = grid.axis(term.axis);
     Index stride = 1;
     for (Index b = grid.dimension() - 1; b > term.axis; --b) stride *= grid.axis(b).unknowns();

@@ -42,6 +42,7 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   scalar_iterations += other.scalar_iterations;
   fallbacks += other.fallbacks;
   unresolved += other.unresolved;
+  replaced += other.replaced;
   ledger += other.ledger;
   return *this;
 }

@@ -1,13 +1,13 @@
 // A method: one row of the method table.
 #pragma once
 
+#include <seiche/core/replaced_steps.hpp>
 #include <seiche/core/state.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace seiche {
 
@@ -40,11 +40,12 @@ std::span<const LedgerPart> ledger_parts();
 struct StepReport {
   enum class Status { solved, failed };
   Status status = Status::solved;
-  int scalar_iterations = 0;  // Newton or fixed-point sweeps
-  int fallbacks = 0;          // times a solver left its first choice
-  int unresolved = 0;         // scalar equations whose root was not found (plain Newton only)
-  std::string message = {};   // set on failure: what, with the numbers
-  StepLedger ledger = {};     // filled where the stepper keeps one
+  int scalar_iterations = 0;    // Newton or fixed-point sweeps
+  int fallbacks = 0;            // times a solver left its first choice
+  int unresolved = 0;           // scalar equations whose root was not found (plain Newton only)
+  ReplacedSteps replaced = {};  // itself, where that is so in some part of it
+  std::string message = {};     // set on failure: what, with the numbers
+  StepLedger ledger = {};       // filled where the stepper keeps one
 
   bool solved() const { return status == Status::solved; }
   StepReport& operator+=(const StepReport& other);

@@ -30,6 +30,8 @@ class FormulaFriction : public Friction {
   FormulaFriction(FrictionFormula formula, const Grid& grid) : f_(std::move(formula)) {
     for (Index j = 0; j < grid.unknowns(); ++j) places_.push_back(grid.place(j));
   }
+  FormulaFriction(const FormulaFriction& other) : Friction(other), f_(other.f_), places_(other.places_) {}  // fed_ anew
+  FormulaFriction& operator=(const FormulaFriction&) = delete;
 
   void force(double t, std::span<const double> q, std::span<const double> v, std::span<double> r) const override {
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -43,6 +45,8 @@ class FormulaFriction : public Friction {
     const double t = fed_.load(std::memory_order_relaxed);
     return std::isnan(t) ? "" : fmt::format("t = {:.6g}", t);
   }
+
+  void forget_fed() const override { fed_.store(nan, std::memory_order_relaxed); }
 
   std::string feeds_at(double t_end) const override {
     constexpr std::size_t most_places = 16, most_tries = 1U << 21U, least_times = 64;
@@ -105,6 +109,7 @@ class PositionFriction final : public FormulaFriction {
     }
   }
   std::string text() const override { return fmt::format("({})·v", formula_text()); }
+  FrictionPointer with_own_memory() const override { return std::make_shared<PositionFriction>(*this); }
 
  private:
   std::vector<double> speeds_to_try() const override { return {1.0}; }  // the sign is that of c
@@ -124,6 +129,7 @@ class VelocityFriction final : public FormulaFriction {
     }
   }
   std::string text() const override { return formula_text(); }
+  FrictionPointer with_own_memory() const override { return std::make_shared<VelocityFriction>(*this); }
 
  private:
   double rate(double t, double u, double v, const Place& place) const override { return formula(t, u, v, place); }

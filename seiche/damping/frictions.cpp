@@ -146,6 +146,8 @@ class OwnFlow final : public Friction {
   }
   std::int64_t corrections() const override { return corrections_.load(std::memory_order_relaxed); }
   std::string text() const override { return own_.text; }
+  FrictionPointer with_own_memory() const override { return std::make_shared<OwnFlow>(own_); }
+  void forget_fed() const override { fed_.store(std::numeric_limits<double>::quiet_NaN(), std::memory_order_relaxed); }
 
  private:
   static double squares(std::span<const double> v) {

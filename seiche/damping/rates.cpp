@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/number_text.hpp>
 #include <seiche/damping/adaptive_integral.hpp>
 #include <seiche/damping/rates.hpp>
 
@@ -75,7 +76,7 @@ class FormulaRate final : public Rate {
 }  // namespace
 
 RatePointer constant_rate(double gamma) {
-  if (!std::isfinite(gamma)) throw Error("a damping rate must be a finite number, not {}", gamma);
+  if (!std::isfinite(gamma)) throw Error("a damping rate must be a finite number, not {}", number_text(gamma));
   return std::make_shared<ConstantRate>(gamma);
 }
 

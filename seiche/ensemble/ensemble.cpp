@@ -152,6 +152,7 @@ class Run {
     report.scalar_iterations = at.scalar_iterations;
     report.fallbacks = at.fallbacks;
     report.unresolved = at.unresolved;
+    report.replaced = at.replaced;
     books_[static_cast<std::size_t>(member)].write_to(report);
     if (!at.running) {
       report.status = RunReport::Status::failed;
@@ -160,11 +161,12 @@ class Run {
       report.status = RunReport::Status::interrupted;
       report.message = fmt::format("stopped at t = {:.9g} (step {}) of {:.9g}", report.t, report.steps, grid_.end);
     } else {
-      report.message = fmt::format("reached t = {:.9g} in {} steps", report.t, report.steps);
+      report.message = fmt::format("reached t = {:.9g} in {}", report.t, counted_steps(report.steps));
     }
+    report.judge_replaced();
     const Simulation* simulation = block_of(member).simulation(member % lanes);
     if (report.law != LawVerdict::not_promised && options_.objection && simulation != nullptr) {
-      const std::string reason = options_.objection(simulation->problem());
+      const std::string reason = at.fed.empty() ? options_.objection(simulation->problem()) : at.fed;
       if (!reason.empty()) report.law = LawVerdict::not_promised;
       if (!reason.empty()) report.law_reason = reason;
     }

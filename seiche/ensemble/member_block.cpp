@@ -18,6 +18,9 @@ void MemberBlock::start(Index member, const EnsembleMember& from, const Simulati
     if (!simulation) {
       Problem problem = *from.problem;
       problem.initial = from.initial;
+      // Blocks run beside each other, and what one's members meet is not the others'.
+      if (problem.friction)
+        if (FrictionPointer own = problem.friction->with_own_memory()) problem.friction = std::move(own);
       simulation = std::make_unique<Simulation>(problem, options);
       s = simulation->state();
     } else {
@@ -55,12 +58,22 @@ bool MemberBlock::step_alone(Index member, std::int64_t n, double t, double h) {
     report.message = error.what();
   }
   MemberStatus& status = status_of(member);
+  remember_fed(stepper_of(member), status);
   status.scalar_iterations += report.scalar_iterations;
   status.fallbacks += report.fallbacks;
   status.unresolved += report.unresolved;
+  status.replaced += report.replaced;
   if (report.solved()) return true;
   fail(member, fmt::format("step {} failed after t = {:.9g}: {}", n, t, report.message));
   return false;
+}
+
+// What the friction of a simulation has met since it was asked last was met by this member: others may share it.
+void MemberBlock::remember_fed(const Simulation& simulation, MemberStatus& status) {
+  const FrictionPointer& friction = simulation.problem().friction;
+  if (!friction) return;
+  if (status.fed.empty()) status.fed = friction->complaint();
+  friction->forget_fed();
 }
 
 void MemberBlock::fail(Index member, std::string message) {

@@ -25,6 +25,8 @@ struct MemberStatus {
   std::int64_t steps = 0;  // taken, and the time they led to, by a member that failed
   double t = 0.0;
   std::int64_t scalar_iterations = 0, fallbacks = 0, unresolved = 0;
+  ReplacedSteps replaced;
+  std::string fed;  // by its friction: where first, in a sentence
 };
 
 // One member after the other by its ordinary stepper: every method on every problem.
@@ -62,6 +64,7 @@ class MemberBlock {
   MemberStatus& status_of(Index member) { return statuses_[static_cast<std::size_t>(member)]; }
 
  private:
+  static void remember_fed(const Simulation& simulation, MemberStatus& status);
   void start(Index member, const EnsembleMember& from, const SimulationOptions& options);
 
   std::map<const Problem*, std::unique_ptr<Simulation>> by_problem_;

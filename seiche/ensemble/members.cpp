@@ -52,7 +52,7 @@ double sample(const ParameterSamples& samples, std::int64_t member, std::int64_t
 }
 
 const Parameter& find_parameter(const RunSpec& spec, const std::string& name) {
-  for (const Parameter& parameter : find_problem(spec.problem).parameters)
+  for (const Parameter& parameter : problem_entry(spec).parameters)
     if (parameter.name == name) return parameter;
   throw Error("the problem {} has no parameter {}", spec.problem, name);
 }

@@ -105,11 +105,14 @@ AxisWithZero with_zero_line(const Axis& axis) {
   return result;
 }
 
-Axis axis_from_zero(double high) {
-  // Steps of 1, 2 or 5 times a power of ten, as gnuplot's.
-  const double rough = high / 5;
+double tick_step(double length, int ticks) {
+  const double rough = length / ticks;
   const double decade = std::pow(10.0, std::floor(std::log10(rough)));
-  const double step = decade * (rough < 2 * decade ? 1 : rough < 5 * decade ? 2 : 5);
+  return decade * (rough < 2 * decade ? 1 : rough < 5 * decade ? 2 : 5);
+}
+
+Axis axis_from_zero(double high) {
+  const double step = tick_step(high, 5);  // as gnuplot's
   const double round = std::ceil(high / step) * step;
   return axis_between(false, 0, round <= 1.03 * high ? round : high);
 }

@@ -30,6 +30,8 @@ struct AxisWithZero {
 AxisWithZero with_zero_line(const Axis& axis);
 // From zero to `high`, or to a round number that lies only a little beyond.
 Axis axis_from_zero(double high);
+// 1, 2 or 5 times a power of ten, so that a linear axis of this length has about so many ticks.
+double tick_step(double length, int ticks);
 // Labels 2⁻ⁿ if all values are powers of two, otherwise as fitted_axis.
 Axis step_size_axis(std::span<const double> step_sizes);
 

@@ -1,4 +1,4 @@
-// Curves that lie on top of each other in a panel: named in words, and drawn so that each is seen.
+// Curves that lie on top of each other in a picture: named in words, and drawn so that each is seen.
 #pragma once
 
 #include <seiche/figure/plot.hpp>
@@ -17,5 +17,9 @@ std::string coincidence_sentence(const Plot& plot, const std::vector<std::vector
 
 // Of each group the thin solid lines become dashes over the thick one; returns a sentence that says so, or "".
 std::string separate(Plot& plot, const std::vector<std::vector<std::size_t>>& groups);
+
+// The same for lines of equal rank: of each group the first becomes a wide line, and the others narrower dashes on it.
+// References stay what they are.
+std::string nest(Plot& plot, const std::vector<std::vector<std::size_t>>& groups);
 
 }  // namespace seiche

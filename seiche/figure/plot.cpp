@@ -9,52 +9,19 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace seiche {
 namespace {
 
 // Inches.
-constexpr double panel_width = axes_left + axes_width + axes_right;
+constexpr double picture_width = axes_left + axes_width + axes_right;
 constexpr double left = axes_left;
 constexpr double right = axes_right;
-constexpr double top = 0.22;
 constexpr double below_axis = 0.35;  // tick labels and the axis label
 constexpr double bottom_margin = 0.05;
 
-constexpr double dots_per_inch = 300;
-constexpr double pngcairo_dots_per_inch = 96;  // what its font sizes and line widths suppose
-constexpr double font_size = 7;
-
-std::string terminals(const std::string& stem, double height, const std::string& plot_command) {
-  // The scales of pdfcairo are those that make both files look the same.
-  constexpr double scale = dots_per_inch / pngcairo_dots_per_inch;
-  return fmt::format(
-      "set terminal pngcairo enhanced size {:.0f},{:.0f} font 'DejaVu Sans,7' fontscale {:.4f} linewidth {:.4f} "
-      "pointscale {:.4f} background rgb 'white'\nset output {}\n{}"
-      "set terminal pdfcairo enhanced size {}in,{:.4f}in font 'DejaVu Sans,7' fontscale 0.75 linewidth 1.5 pointscale 0.75\n"
-      "set output {}\nreplot\nset output\n",
-      panel_width * dots_per_inch, height * dots_per_inch, scale, scale, scale, gnuplot_file(stem + ".png"),
-      plot_command, panel_width, height, gnuplot_file(stem + ".pdf"));
-}
-
-// Above the left end of the axes; a long one begins further left.
-std::string title_script(const std::string& title, double y) {
-  constexpr double edge = 0.16;
-  const double widest = panel_width - edge - right;
-  const double size = font_size * std::min(1.0, widest / text_width(title, font_size));
-  const double x = std::clamp(panel_width - right - text_width(title, size), edge, left);
-  return fmt::format("set label {} at screen {:.5f},{:.5f} left font ',{:.2f}'\n", gnuplot_text(title), x / panel_width,
-                     y, size);
-}
-
-std::string axis_script(char name, const Axis& axis) {
-  std::string text;
-  if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
-  text += fmt::format("set {}range [{:.10g}:{:.10g}]\n", name, axis.low, axis.high);
-  text += fmt::format("set {}tics {}\n", name, axis.ticks);
-  if (!axis.logarithmic) text += fmt::format("set m{}tics 2\n", name);
-  return text;
-}
+constexpr double title_size = 7;
 
 // Data blocks $name…, and the parts of the plot command that draw them; "" if nothing of it can be shown.
 struct Drawing {
@@ -66,12 +33,13 @@ void append_point(std::string& text, double x, double y) {
   fmt::format_to(std::back_inserter(text), "{:.7g} {:.7g}\n", x, y);
 }
 
-Drawing drawing(const Plot& plot, const Series& series, const std::string& block) {
+Drawing drawing(const Plot& plot, const Series& series, const std::string& block, const Theme& theme) {
   Drawing result;
   const auto shown = [&](std::size_t i) { return plot.x.shows(series.x[i]) && plot.y.shows(series.y[i]); };
   std::string line;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    if (shown(i)) append_point(line, series.x[i], series.y[i]);
+    if (shown(i) && !series.only_markers) append_point(line, series.x[i], series.y[i]);
+    if (series.pairs && i % 2 == 1) line += '\n';  // ends a line
   }
   std::string marks;
   for (const std::size_t i : series.marked) {
@@ -84,7 +52,8 @@ Drawing drawing(const Plot& plot, const Series& series, const std::string& block
   if (!marks.empty() && series.style.marker != Marker::none) {
     result.data += fmt::format("${}m << EOD\n{}EOD\n", block, marks);
     if (series.style.filled) {
-      result.markers += fmt::format("${}m using 1:2 with points lc rgb 'white' {}, ", block, gnuplot_rim(series.style));
+      result.markers +=
+          fmt::format("${}m using 1:2 with points lc rgb '{}' {}, ", block, theme.paper, gnuplot_rim(series.style));
     }
     result.markers += fmt::format("${}m using 1:2 with points lc rgb '{}' lw {} {}, ", block, series.style.colour,
                                   std::min(series.style.width, 0.65), gnuplot_marker(series.style));
@@ -94,32 +63,58 @@ Drawing drawing(const Plot& plot, const Series& series, const std::string& block
 
 }  // namespace
 
+std::string frame_script(const Theme& theme) {
+  return fmt::format(
+      "set border 15 lw 0.5 lc rgb '{0}' front\nset tics in scale 0.55,0.3 font ',6.3' textcolor rgb '{1}'\n"
+      "set grid xtics ytics lt 1 lc rgb '{2}' lw 0.4 back\nset clip two\nset minussign\n"
+      "set xtics mirror offset 0,0.35\nset ytics mirror offset 0.45,0\n",
+      theme.dark ? theme.ink : "#202020", theme.ink, theme.grid);
+}
+
+// A long title begins further left.
+std::string title_script(const std::string& title, double y, double width, const Theme& theme) {
+  constexpr double edge = 0.16;
+  const double widest = width - edge - right;
+  const double size = title_size * std::min(1.0, widest / text_width(title, title_size));
+  const double x = std::clamp(width - right - text_width(title, size), edge, left);
+  return fmt::format("set label {} at screen {:.5f},{:.5f} left font ',{:.2f}' textcolor rgb '{}'\n",
+                     gnuplot_text(title), x / width, y, size, theme.ink);
+}
+
+std::string axis_script(char name, const Axis& axis) {
+  std::string text;
+  if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
+  text += fmt::format("set {}range [{:.10g}:{:.10g}]\n", name, axis.low, axis.high);
+  text += fmt::format("set {}tics {}\n", name, axis.ticks);
+  if (!axis.logarithmic) text += fmt::format("set m{}tics 2\n", name);
+  return text;
+}
+
 void mark_all(Series& series) {
   series.marked.resize(series.x.size());
   std::iota(series.marked.begin(), series.marked.end(), std::size_t{0});
 }
 
-std::string plot_script(const Plot& plot) {
-  const Legend legend(plot.series, plot.legend_room, panel_width);
+std::string plot_script(Plot plot, const Rendering& rendering) {
+  const Theme& theme = *rendering.theme;
+  for (Series& series : plot.series) series.style.colour = theme.colour(series.style.colour);
+  const Legend legend(plot.series, plot.legend_room, picture_width);
   const double axes_bottom = bottom_margin + legend.height() + below_axis;
-  const double height = axes_bottom + axes_height + top;
+  const double height = axes_bottom + axes_height + axes_top;
 
   std::string script = "reset\nset encoding utf8\nunset key\n";
-  script += fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n", left / panel_width,
-                        1 - right / panel_width);
+  script += fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n", left / picture_width,
+                        1 - right / picture_width);
   script += fmt::format("set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n", axes_bottom / height,
-                        1 - top / height);
-  script +=
-      "set border 15 lw 0.5 lc rgb '#202020' front\nset tics in scale 0.55,0.3 font ',6.3'\n"
-      "set grid xtics ytics lt 1 lc rgb '#DEDEDE' lw 0.4 back\nset clip two\n"
-      "set xtics mirror offset 0,0.35\nset ytics mirror offset 0.45,0\n";
+                        1 - axes_top / height);
+  script += frame_script(theme);
   script += axis_script('x', plot.x) + axis_script('y', plot.y);
-  script += title_script(plot.title, 1 - 0.5 * top / height);
-  script += fmt::format("set label {} at screen {:.5f},{:.5f} center font ',7'\n", plot.x_label,
-                        (left + axes_width / 2) / panel_width, (axes_bottom - 0.245) / height);
-  script += fmt::format("set label {} at screen {:.5f},{:.5f} center rotate by 90 font ',7'\n", plot.y_label,
-                        0.09 / panel_width, (axes_bottom + axes_height / 2) / height);
-  script += legend.script(bottom_margin + legend.height(), height);
+  script += title_script(plot.title, 1 - 0.5 * axes_top / height, picture_width, theme);
+  script += fmt::format("set label {} at screen {:.5f},{:.5f} center font ',7' textcolor rgb '{}'\n", plot.x_label,
+                        (left + axes_width / 2) / picture_width, (axes_bottom - 0.245) / height, theme.ink);
+  script += fmt::format("set label {} at screen {:.5f},{:.5f} center rotate by 90 font ',7' textcolor rgb '{}'\n",
+                        plot.y_label, 0.09 / picture_width, (axes_bottom + axes_height / 2) / height, theme.ink);
+  script += legend.script(bottom_margin + legend.height(), height, theme);
   if (plot.slope_two) {
     if (const auto triangle = clear_slope_triangle(plot, axes_width, axes_height)) script += triangle->script();
   }
@@ -129,14 +124,14 @@ std::string plot_script(const Plot& plot) {
   std::stable_sort(drawn.begin(), drawn.end(), [](const Series* a, const Series* b) { return a->layer < b->layer; });
   std::vector<Drawing> drawings;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    drawings.push_back(drawing(plot, *drawn[i], fmt::format("s{}", i)));
+    drawings.push_back(drawing(plot, *drawn[i], fmt::format("s{}", i), theme));
     script += drawings.back().data;
   }
-  // Markers over all lines, small ones over large ones.
+  // Markers over all lines, small ones over large ones, those of references over all.
   std::vector<std::size_t> order(drawn.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return drawn[a]->style.size > drawn[b]->style.size; });
+  const auto rank = [&](std::size_t i) { return std::pair(drawn[i]->layer == reference_layer, -drawn[i]->style.size); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   std::string command;
   for (const Drawing& one : drawings) command += one.line;
   for (const std::size_t i : order) command += drawings[i].markers;
@@ -146,7 +141,7 @@ std::string plot_script(const Plot& plot) {
   } else {
     command.resize(command.size() - 2);  // the last comma
   }
-  return script + terminals(plot.stem, height, "plot " + command + "\n");
+  return script + rendered(rendering, plot.stem, picture_width, height, "plot " + command + "\n");
 }
 
 }  // namespace seiche

@@ -1,7 +1,8 @@
-// One panel, from curves and axes to gnuplot commands: sizes, margins, legend and slope triangle are decided here.
+// One picture, from curves and axes to gnuplot commands: sizes, margins, legend and slope triangle are decided here.
 #pragma once
 
 #include <seiche/figure/axis.hpp>
+#include <seiche/figure/rendering.hpp>
 #include <seiche/figure/style.hpp>
 
 #include <cstddef>
@@ -13,6 +14,7 @@ namespace seiche {
 // Of the axes area, and the margins beside it; inches.
 inline constexpr double axes_width = 2.72;
 inline constexpr double axes_height = 1.78;
+inline constexpr double axes_top = 0.22;
 inline constexpr double axes_left = 0.58;
 inline constexpr double axes_right = 0.10;
 
@@ -27,6 +29,9 @@ struct Series {
   std::vector<double> x, y;
   std::vector<std::size_t> marked = {};  // the points with a marker
   int layer = 0;                         // higher ones are drawn later
+  bool only_markers = false;             // no line between them
+  bool pairs = false;                    // two points each are a line of their own
+  std::string literal = {};              // of the label for gnuplot, where it is more than plain text
 };
 
 struct Plot {
@@ -36,11 +41,17 @@ struct Plot {
   Axis x, y;
   std::vector<Series> series;   // in the order of the legend
   bool slope_two = false;       // a triangle of slope 2, where it is clear of the curves
-  std::size_t legend_room = 0;  // for at least so many entries, so that panels side by side have one height
+  std::size_t legend_room = 0;  // for at least so many entries, so that pictures side by side have one height
 };
 
-// Draws <stem>.png and <stem>.pdf in the working directory.
-std::string plot_script(const Plot& plot);
+// Draws <stem>.png and <stem>.pdf in the working directory, or what else is asked for.
+std::string plot_script(Plot plot, const Rendering& rendering = {});
+
+// What pictures of all kinds share: frame, ticks and grid in the colours of the theme; range and ticks of an axis x or y; a title
+// above the left end of the axes, at a height `y` of a picture `width` wide.
+std::string frame_script(const Theme& theme);
+std::string axis_script(char name, const Axis& axis);
+std::string title_script(const std::string& title, double y, double width, const Theme& theme);
 
 void mark_all(Series& series);
 

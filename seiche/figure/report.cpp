@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/panels.hpp>
+#include <seiche/figure/paper_pictures.hpp>
 #include <seiche/figure/report.hpp>
 #include <seiche/figure/report_style.hpp>
 #include <seiche/figure/report_tables.hpp>
@@ -44,17 +44,17 @@ std::string links(const Page& page, const std::vector<std::string>& files) {
   return text.empty() ? "" : "<p>" + text + "</p>\n";
 }
 
-std::string figure(const Page& page, const Panel& panel) {
-  const std::string stem = panel.plot.stem;
-  const std::string caption = "<figcaption>" + html_text(panel.caption) + "</figcaption></figure>\n";
+std::string figure(const Page& page, const CurvePicture& picture) {
+  const std::string stem = picture.plot.stem;
+  const std::string caption = "<figcaption>" + html_text(picture.caption) + "</figcaption></figure>\n";
   try {
     const PngPicture png = read_png(page.directory / "figures" / (stem + ".png"));
     return fmt::format(
         "<figure><a href=\"figures/{0}.pdf\" title=\"{0}.pdf\"><img src=\"{1}\" width=\"{2}\" height=\"{3}\" alt=\"{4}\">"
         "</a>{5}",
-        html_escaped(stem), png.data_uri, png.width, png.height, html_escaped(panel.plot.title), caption);
+        html_escaped(stem), png.data_uri, png.width, png.height, html_escaped(picture.plot.title), caption);
   } catch (const Error&) {
-    return "<figure><div class=\"missing\">" + html_escaped(panel.plot.title) + ": not drawn</div>" + caption;
+    return "<figure><div class=\"missing\">" + html_escaped(picture.plot.title) + ": not drawn</div>" + caption;
   }
 }
 
@@ -137,11 +137,11 @@ std::string how_measured(const PaperResults& results) {
 
 std::string example_section(const Page& page, const ExampleResult& example) {
   std::string text =
-      fmt::format("<h2 id=\"{}\">{}</h2>\n<p class=\"parameters\">{}</p>\n<div class=\"panels\">\n",
+      fmt::format("<h2 id=\"{}\">{}</h2>\n<p class=\"parameters\">{}</p>\n<div class=\"pictures\">\n",
                   html_escaped(example.key), html_escaped(example.title), html_escaped(example.parameters));
-  for (const Panel& panel : example_panels(example, page.results.quick)) text += figure(page, panel);
+  for (const CurvePicture& picture : example_pictures(example, page.results.quick)) text += figure(page, picture);
   if (example.key == "alpha_fpu_dissipative") {
-    if (const auto panel = formulations_panel(page.results)) text += figure(page, *panel);
+    if (const auto picture = formulations_picture(page.results)) text += figure(page, *picture);
   }
   text += "</div>\n<h3>Errors and orders</h3>\n" + error_table(example);
   text += "<details><summary>Energy, cost and solver of each run</summary>\n" + record_table(example) + "</details>\n";
@@ -151,10 +151,10 @@ std::string example_section(const Page& page, const ExampleResult& example) {
 
 std::string side_section(const Page& page) {
   if (page.results.side_studies.empty()) return "";
-  std::string text = "<h2 id=\"studies\">Further studies</h2>\n<div class=\"panels\">\n";
+  std::string text = "<h2 id=\"studies\">Further studies</h2>\n<div class=\"pictures\">\n";
   std::vector<std::string> files;
   for (const SideStudy& study : page.results.side_studies) {
-    text += figure(page, side_panel(study, page.results.quick));
+    text += figure(page, side_picture(study, page.results.quick));
     files.push_back("data/" + study.key + ".csv");
   }
   return text + "</div>\n" + links(page, files);

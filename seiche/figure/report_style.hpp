@@ -60,7 +60,7 @@ tr.group th { background: var(--tint); font-size: .95rem; padding-top: .5rem; }
 .bad { color: var(--fails); }
 .notes { font-size: .88rem; padding-left: 1.2rem; }
 .swatch { background: #fff; border-radius: 3px; vertical-align: -3px; margin-right: .5rem; padding: 0 1px; }
-.panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 1.2rem; align-items: start;
+.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 1.2rem; align-items: start;
   margin: 1rem 0; }
 figure { margin: 0; max-width: 34rem; }
 figure a { display: block; background: #fff; border: 1px solid var(--line); border-radius: .5rem; padding: .6rem; }
@@ -79,8 +79,22 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace
   --link: #000; --holds: #0a6644; --fails: #a8261a; --depends: #7a5600; --holds-tint: #fff; --fails-tint: #fff;
   --depends-tint: #fff; }
   body { font-size: 10pt; } main { max-width: none; padding: 0; } nav, details { display: none; }
-  .panels { grid-template-columns: 1fr 1fr; } figure, tr { break-inside: avoid; } h2, h3 { break-after: avoid; }
+  .pictures { grid-template-columns: 1fr 1fr; } figure, tr { break-inside: avoid; } h2, h3 { break-after: avoid; }
   .scroll { overflow: visible; } .numbers { font-size: 7pt; } }
+)css";
+
+// What the report of a single run adds.
+inline constexpr std::string_view run_report_style = R"css(
+.drawn { background: #fff; border: 1px solid var(--line); border-radius: .5rem; padding: .6rem; }
+.on-dark { display: none; }
+@media (prefers-color-scheme: dark) { .drawn { background: #15181c; }
+  .on-dark { display: block; } .on-light { display: none; } }
+.drawn video { width: 100%; }
+figure .files a, figure.film figcaption a { display: inline; background: none; border: 0; padding: 0; margin-left: .3rem; }
+pre { background: var(--tint); border-radius: .5rem; padding: .8rem 1rem; overflow-x: auto; max-width: 46rem; }
+pre code { background: none; padding: 0; }
+.certificate th[scope=row] { font-weight: 600; width: 14rem; }
+.certificate td:nth-child(2) { width: 13rem; }
 )css";
 
 }  // namespace seiche

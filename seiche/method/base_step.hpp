@@ -25,16 +25,17 @@ class BaseStep {
 
   // z ← ẑ, the solution at t + h from s.z at t. False, with z anything, where ẑ is no solution.
   virtual bool compute(const State& s, double t, double h, Vector& z) = 0;
-  virtual std::string_view failure() const = 0;  // what has happened then
+  virtual std::string_view failure() const = 0;  // what has happened then; a literal
+  virtual std::string_view remedy() const { return "a smaller h"; }
+
+  // Of the step just computed, where a projection is a part of it: how often that found nothing better than bisection, and did
+  // it move anything far?
+  virtual int fallbacks() const { return 0; }
+  virtual bool moved_far() const { return false; }
 
   virtual StepDissipation::Kind dissipation_kind() const = 0;
-  // Of the step just computed, where the kind is not `none`.
-  virtual StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z) = 0;
-  // The same for those who profit from H(z).
-  virtual StepDissipation::Amount dissipated_on_the_way_to(const State& s, double t, double h, const Vector& z,
-                                                           double /*H*/) {
-    return dissipated(s, t, h, z);
-  }
+  // Of the step just computed to z with H = H(z), where the kind is not `none`.
+  virtual StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double H) = 0;
 
   // The step just computed will be taken: s is still as before it but for what this changes, and never z, t and n.
   // Not resolved: e^{hL}z was taken instead of ẑ.

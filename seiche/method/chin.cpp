@@ -27,6 +27,8 @@ class Chin final : public BaseStep {
     const double kappa = 1 / (1 + h * h * gamma_ * gamma_ / 72);
     inner_.z = s.z;
     damping_ = 0;
+    fallbacks_ = 0;
+    moved_far_ = false;
     damp(t, h / 6);
     if (!conserve(t, kappa * h / 2)) return false;
     damp(t, 2 * h / 3);
@@ -37,8 +39,10 @@ class Chin final : public BaseStep {
   }
 
   std::string_view failure() const override { return "the flow without damping found no point of its energy"; }
+  int fallbacks() const override { return fallbacks_; }
+  bool moved_far() const override { return moved_far_; }
   StepDissipation::Kind dissipation_kind() const override { return kind_; }
-  StepDissipation::Amount dissipated(const State&, double, double, const Vector&) override {
+  StepDissipation::Amount dissipated(const State&, double, double, const Vector&, double) override {
     return {.fine = damping_, .coarse = damping_, .negative = kind_ == StepDissipation::Kind::general};
   }
 
@@ -53,7 +57,10 @@ class Chin final : public BaseStep {
   bool conserve(double t, double h) {
     const double H = system_.energy(inner_.z);
     if (!hamiltonian_->compute(inner_, t, h, end_)) return false;
-    if (!projection_.project(end_, [H](double) { return EnergyTarget{H, H}; }).admissible) return false;
+    const EnergyProjection::Outcome outcome = projection_.project(end_, [H](double) { return EnergyTarget{H, H}; });
+    fallbacks_ += outcome.by_bisection ? 1 : 0;
+    if (!outcome.admissible) return false;
+    moved_far_ = moved_far_ || projection_.moved_far(outcome, end_);
     inner_.z.swap(end_);
     return inner_.z.allFinite();
   }
@@ -64,6 +71,8 @@ class Chin final : public BaseStep {
   std::unique_ptr<BaseStep> hamiltonian_;
   EnergyProjection projection_;
   double gamma_ = 0, damping_ = 0;
+  int fallbacks_ = 0;
+  bool moved_far_ = false;
   State inner_;
   Vector end_;
 };

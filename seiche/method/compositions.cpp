@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/number_text.hpp>
 #include <seiche/method/compositions.hpp>
 
 #include <cmath>
@@ -14,7 +15,8 @@ class Composed : public Stepper {
 
   void begin(State& s) override {
     const double H = closure_->energy(s).H;
-    if (!std::isfinite(H)) throw Error("the energy of the initial state is not a finite number (H = {})", H);
+    if (!std::isfinite(H))
+      throw Error("the energy of the initial state is not a finite number (H = {})", number_text(H));
     closure_->begin(s);
   }
 

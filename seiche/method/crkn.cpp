@@ -5,6 +5,8 @@
 #include <seiche/method/nystrom_scheme.hpp>
 
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace seiche {
 namespace {
@@ -26,7 +28,7 @@ class Nystrom : public BaseStep {
 
   std::string_view failure() const override { return "the Runge–Kutta–Nyström splitting left the numbers"; }
   StepDissipation::Kind dissipation_kind() const override { return kind_; }
-  StepDissipation::Amount dissipated(const State&, double, double, const Vector&) override {
+  StepDissipation::Amount dissipated(const State&, double, double, const Vector&, double) override {
     return {.fine = taken_, .coarse = taken_, .negative = kind_ == StepDissipation::Kind::general};
   }
 
@@ -125,10 +127,12 @@ class ExactFlows final : public OneByOne {
   Vector work_;
 };
 
-// The drifts u += length · ∇T(v), v *= decay of a step without exponentials.
-class DriftTable {
+constexpr std::string_view remedy_of_kicks = "a smaller h, or linear = \"exact\"";
+
+// The kicks by all forces and the drifts u += length · ∇T(v), v *= decay of a step without exponentials.
+class ExplicitStages {
  public:
-  explicit DriftTable(const MomentumForm& form) {
+  ExplicitStages(const MomentumForm& form, const NystromScheme& scheme) : scheme_(scheme) {
     if (!form.separable)
       throw Error(
           "linear = \"explicit\" needs H = T(v) + U(u), with S that couples u and v alone; use linear = \"exact\"");
@@ -137,26 +141,40 @@ class DriftTable {
     gamma_ = *form.rate;
   }
 
-  struct Drift {
-    double length, decay;
-  };
-  Drift over(double t) const { return {gamma_ == 0 ? t : -std::expm1(-gamma_ * t) / gamma_, std::exp(-gamma_ * t)}; }
+  // All but the last kick. Made anew where h is another than before.
+  const std::vector<Kicks::KickAndDrift>& at(double h) {
+    if (h == h_) return stages_;
+    h_ = h;
+    stages_.clear();
+    for (std::size_t i = 0; i < scheme_.flows(); ++i) {
+      const double t = scheme_.a[i] * h;
+      const double length = gamma_ == 0 ? t : -std::expm1(-gamma_ * t) / gamma_;
+      stages_.push_back({scheme_.b[i] * h, length, std::exp(-gamma_ * t)});
+    }
+    return stages_;
+  }
 
  private:
-  double gamma_ = 0;
+  const NystromScheme& scheme_;
+  double gamma_ = 0, h_ = 0;
+  std::vector<Kicks::KickAndDrift> stages_;
 };
 
 class Drifts final : public OneByOne {
  public:
-  Drifts(const System& system, const PhiEvaluator& phi, int order) : OneByOne(system, phi, order), table_(form()) {
+  Drifts(const System& system, const PhiEvaluator& phi, int order)
+      : OneByOne(system, phi, order), stages_(form(), scheme()) {
     for (Vector* v : {&Mz_, &momenta_}) v->setZero(system.space->size());
   }
 
+  std::string_view remedy() const override { return remedy_of_kicks; }
+
  private:
-  void prepare(double h) override { h_ = h; }
+  void prepare(double h) override { of_h_ = stages_.at(h); }
 
   double flow(std::size_t i, Vector& z) override {
-    const auto [length, decay] = table_.over(scheme().a[i] * h_);
+    const double length = of_h_[i].length;
+    const double decay = of_h_[i].decay;
     const Potential::Support u = form().positions;
     if (form().canonical) {
       const double twice_T = dissipates() ? z.tail(u.size).squaredNorm() : 0;
@@ -182,8 +200,8 @@ class Drifts final : public OneByOne {
     return kick_by_gradient(h, z);
   }
 
-  DriftTable table_;
-  double h_ = 0;
+  ExplicitStages stages_;
+  std::span<const Kicks::KickAndDrift> of_h_;
   Vector Mz_, momenta_;
 };
 
@@ -191,19 +209,13 @@ class Drifts final : public OneByOne {
 class FewPasses final : public Nystrom {
  public:
   FewPasses(const System& system, const PhiEvaluator& phi, int order)
-      : Nystrom(system, phi, order), table_(form()), kicks_(system.make_kicks()) {}
+      : Nystrom(system, phi, order), stages_(form(), scheme()), kicks_(system.make_kicks()) {}
+
+  std::string_view remedy() const override { return remedy_of_kicks; }
 
   bool compute(const State& s, double, double h, Vector& z) override {
     const std::vector<double>& b = scheme().b;
-    if (h != h_) {
-      h_ = h;
-      stages_.clear();
-      for (std::size_t i = 0; i < scheme().flows(); ++i) {
-        const auto [length, decay] = table_.over(scheme().a[i] * h);
-        stages_.push_back({length, decay, b[i + 1] * h});
-      }
-    }
-    const Kicks::Report report = kicks_->split(b[0] * h, stages_, s.z, z);
+    const Kicks::Report report = kicks_->split(stages_.at(h), b.back() * h, s.z, z);
     set_taken(report.taken);
     // |p| and |p − b₀hF| bound b₀h|F|. That is looser than |zⁿ| + h|F|, and costs no pass of its own.
     const double before = std::sqrt(squared_norm(s.z));
@@ -211,10 +223,8 @@ class FewPasses final : public Nystrom {
   }
 
  private:
-  DriftTable table_;
+  ExplicitStages stages_;
   std::unique_ptr<Kicks> kicks_;
-  double h_ = 0;
-  std::vector<Kicks::DriftAndKick> stages_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/number_text.hpp>
 #include <seiche/method/directed_multiplier.hpp>
 
 #include <cmath>
@@ -40,9 +41,9 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
   if (depth == 0) {
     report.status = StepReport::Status::failed;
     report.message = fmt::format(
-        "the directed multiplier was not found in a substep of h = {:.6g} (λ = {:.3g}, |λd| = "
+        "the directed multiplier was not found in a substep of h = {:.6g} (λ = {}, |λd| = "
         "{:.3g}, |ḡ − ĝ| = {:.3g}, |ḡ| = {:.3g}); a smaller h will do",
-        h, root.x, correction, equation_.gradient_gap(), equation_.mean_gradient_norm());
+        h, number_text(root.x, 3), correction, equation_.gradient_gap(), equation_.mean_gradient_norm());
     return report;
   }
   ++report.fallbacks;

@@ -196,16 +196,12 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   std::string_view failure() const override { return "the collocation equations were not solved"; }
   StepDissipation::Kind dissipation_kind() const override { return dissipation_.kind(); }
 
-  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z) override {
-    if (dissipation_.follows_energies()) return dissipated_on_the_way_to(s, t, h, z, system_.energy(z));
+  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double H) override {
+    if (dissipation_.follows_energies())
+      return dissipation_.measure(t, h, s.z, forces_, dissipation_.energies(s.z, s.energy), dissipation_.energies(z, H),
+                                  energies_);
     return dissipation_.measure(t, h, s.z, forces_,
                                 dissipation_.kind() == StepDissipation::Kind::general ? &coarse_ : nullptr);
-  }
-  StepDissipation::Amount dissipated_on_the_way_to(const State& s, double t, double h, const Vector& z,
-                                                   double H) override {
-    if (!dissipation_.follows_energies()) return dissipated(s, t, h, z);
-    return dissipation_.measure(t, h, s.z, forces_, dissipation_.energies(s.z, s.energy), dissipation_.energies(z, H),
-                                energies_);
   }
 
   // The forces before the step are left in forces_.
@@ -221,7 +217,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   bool may_save_sweeps_;  // by a map that is worth less than a sweep
   NonlinearForce force_;
   GaussRule rule_;
-  DenseOutput output_;
+  StepOutput output_;
   StepDissipation dissipation_;
   Projected projected_;
   ContinuousExtension extension_;

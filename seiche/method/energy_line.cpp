@@ -30,9 +30,12 @@ EnergyLine::EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLine
 }
 
 void EnergyLine::prepare_ray() {
+  if (!polynomial_) {  // slope() takes the gradient, if anybody asks
+    scratch_.d = z_;
+    return;
+  }
   K_ = system_.linear->quadratic_energy(z_);
   slope_ = Slope{2 * K_, std::abs(2 * K_)};
-  if (!polynomial_) return;
   system_.potential->along_ray(z_, scratch_.V);
   for (std::size_t k = 1; k < scratch_.V.size(); ++k) {
     slope_->value += static_cast<double>(k) * scratch_.V[k];
@@ -80,8 +83,9 @@ EnergyLine::Parts EnergyLine::at(double lambda) const {
     scratch_.trial = z_ + lambda * scratch_.d;
   const Vector& at = lambda == 0 ? z_ : scratch_.trial;
   parts.K = system_.linear->quadratic_energy(at);
-  parts.V = system_.potential->value(at);
-  parts.size = std::abs(parts.V);
+  const ValueAndMagnitude V = system_.potential->value_and_magnitude(at);
+  parts.V = V.value;
+  parts.size = V.magnitude;  // and not |V|, in which terms may cancel
   return parts;
 }
 

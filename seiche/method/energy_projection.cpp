@@ -1,3 +1,4 @@
+#include <seiche/core/squared_norm.hpp>
 #include <seiche/method/energy_projection.hpp>
 
 #include <algorithm>
@@ -9,6 +10,7 @@ namespace {
 constexpr int max_secants = 8;
 constexpr double max_lambda = 0.9;
 constexpr int max_bisections = 60;
+constexpr double blurred = 1e-13;     // moves relative to z that round-off in H may ask for
 constexpr double least_slope = 0.05;  // relative to its terms: below, H hardly changes along the line
 
 }  // namespace
@@ -35,6 +37,13 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
       return outcome;
     }
     const EnergyLine::Slope slope = line.slope();
+    // Near rest H is flat: to mend round-off in H, z would move by far more than its own.
+    if (std::abs(start.H() - aim.H) <= start.loss() && start.H() <= aim.cap + start.loss() &&
+        start.loss() > blurred * std::abs(slope.value)) {
+      outcome.admissible = true;
+      outcome.H = aim.H;
+      return outcome;
+    }
     const bool conditioned = std::abs(slope.value) >= least_slope * slope.size;
     if (!conditioned && aim.H < aim.cap && start.H() <= aim.cap) {
       outcome.admissible = true;
@@ -48,7 +57,7 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
   }
   outcome.by_bisection = true;
   outcome.H = std::min(start.H(), aim.cap);
-  outcome.admissible = start.H() <= aim.cap + start.round_off();  // below what it should be: safe all the same
+  outcome.admissible = start.H() <= aim.cap + start.loss();  // below what it should be: safe all the same
   if (outcome.admissible) return outcome;
 
   // H falls from H(z) > goal to H(Πz) or H(0) ≤ goal: there is a root between (intermediate value theorem).
@@ -56,6 +65,11 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
   for (const Direction direction : {Direction::casimir_free, Direction::ray})
     if (bisect(EnergyLine(system_, phi_, scratch_, z, direction), goal, z, outcome)) break;
   return outcome;
+}
+
+bool EnergyProjection::moved_far(const Outcome& outcome, const Vector& z) const {
+  if (std::abs(outcome.computed - outcome.H) <= 0.01 * std::abs(outcome.H - rest_)) return false;  // saves the norm
+  return squared_norm(z) < square(10 * outcome.displacement);
 }
 
 // z from `here` on its line to where H is what it should be; false, with z as it was, if the secant iteration does not find it.

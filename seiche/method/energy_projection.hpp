@@ -30,6 +30,8 @@ class EnergyProjection {
   // converges, to a point with H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if H(0) > cap and
   // H(z) > cap.
   Outcome project(Vector& z, Wanted wanted);
+  // Was z, which came out of it, moved by more than a tenth of its length? Moves of accurate steps are of the size of their error.
+  bool moved_far(const Outcome& outcome, const Vector& z) const;
 
  private:
   bool solve(EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z, Outcome& outcome);

@@ -9,8 +9,7 @@ namespace {
 class ExponentialRungeKutta final : public BaseStep {
  public:
   ExponentialRungeKutta(const System& system, const PhiEvaluator& phi, const ExponentialTableau& tableau)
-      : system_(system),
-        tableau_(tableau),
+      : tableau_(tableau),
         phi_(phi),
         force_(system),
         output_{.forces = tableau.C.cols(),
@@ -39,14 +38,10 @@ class ExponentialRungeKutta final : public BaseStep {
 
   std::string_view failure() const override { return "the exponential Runge–Kutta scheme left the numbers"; }
   StepDissipation::Kind dissipation_kind() const override { return dissipation_.kind(); }
-  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z) override {
-    if (dissipation_.follows_energies()) return dissipated_on_the_way_to(s, t, h, z, system_.energy(z));
+  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double H) override {
+    if (dissipation_.follows_energies())
+      return dissipation_.measure(t, h, s.z, used(), dissipation_.energies(s.z, s.energy), dissipation_.energies(z, H));
     return dissipation_.measure(t, h, s.z, used());
-  }
-  StepDissipation::Amount dissipated_on_the_way_to(const State& s, double t, double h, const Vector& z,
-                                                   double H) override {
-    if (!dissipation_.follows_energies()) return dissipated(s, t, h, z);
-    return dissipation_.measure(t, h, s.z, used(), dissipation_.energies(s.z, s.energy), dissipation_.energies(z, H));
   }
 
  private:
@@ -73,11 +68,10 @@ class ExponentialRungeKutta final : public BaseStep {
     return std::span<const Vector>(forces_).subspan(static_cast<std::size_t>(tableau_.first_used));
   }
 
-  const System& system_;
   const ExponentialTableau& tableau_;
   const PhiEvaluator& phi_;
   NonlinearForce force_;
-  DenseOutput output_;
+  StepOutput output_;
   StepDissipation dissipation_;
   StepCache<Tables> cache_;
   std::vector<Vector> forces_;

@@ -1,9 +1,7 @@
+#include <seiche/core/gauss_rule.hpp>
 #include <seiche/method/gauss.hpp>
 
-#include <boost/math/special_functions/legendre.hpp>
-
 #include <cmath>
-#include <vector>
 
 namespace seiche {
 namespace {
@@ -25,16 +23,10 @@ LongMatrix inverse_of_powers(const Eigen::VectorXd& nodes) { return powers(nodes
 }  // namespace
 
 GaussRule::GaussRule(int s) : nodes(s), weights(s) {
-  const std::vector<long double> zeros = boost::math::legendre_p_zeros<long double>(s);  // those ≥ 0
-  const auto set = [&](int i, long double x) {
-    const long double slope = boost::math::legendre_p_prime<long double>(s, x);
-    nodes[i] = static_cast<double>((1 + x) / 2);
-    weights[i] = static_cast<double>(1 / ((1 - x * x) * slope * slope));
-  };
-  const int upper = static_cast<int>(zeros.size());
-  for (int i = 0; i < upper; ++i) {
-    set(s - upper + i, zeros[static_cast<std::size_t>(i)]);
-    set(upper - 1 - i, -zeros[static_cast<std::size_t>(i)]);
+  Eigen::Index i = 0;
+  for (const GaussNode& node : gauss_rule(s)) {
+    nodes[i] = node.place;
+    weights[i++] = node.weight;
   }
 }
 

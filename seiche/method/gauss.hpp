@@ -1,11 +1,11 @@
-// Gauss–Legendre quadrature on [0, 1], and polynomials through its nodes.
+// Gauss–Legendre rules as vectors, rules that hold them, and polynomials through their nodes.
 #pragma once
 
 #include <Eigen/Dense>
 
 namespace seiche {
 
-// ∫₀¹ f ≈ Σ weights_i f(nodes_i), exact for polynomials of degree 2s − 1.
+// ∫₀¹ f ≈ Σ weights_i f(nodes_i): core/gauss_rule.
 struct GaussRule {
   explicit GaussRule(int s);
   Eigen::VectorXd nodes;  // increasing

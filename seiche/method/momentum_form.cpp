@@ -6,7 +6,7 @@
 namespace seiche {
 namespace {
 
-constexpr double none = 1e-13;  // relative to the vector: what is left of it by round-off
+constexpr double vanishing = 1e-13;  // relative to the vector: what is left of it by round-off
 
 class Probe {
  public:
@@ -42,8 +42,8 @@ class Probe {
     return out;
   }
 
-  bool in_momenta(const Vector& z) const { return part_in_positions(z) <= none * z.norm(); }
-  bool in_positions(const Vector& z) const { return part_in_momenta(z) <= none * z.norm(); }
+  bool in_momenta(const Vector& z) const { return part_in_positions(z) <= vanishing * z.norm(); }
+  bool in_positions(const Vector& z) const { return part_in_momenta(z) <= vanishing * z.norm(); }
 
  private:
   Vector applied(void (LinearPart::*apply)(const Vector&, Vector&) const, const Vector& z) const {
@@ -68,7 +68,7 @@ std::optional<double> rate_of(const System& system, const Probe& probe) {
   if (probe.D(probe.with_positions()).norm() > 0) return std::nullopt;
   const Vector Dv = probe.D(v);
   const double rate = Dv.dot(v) / v.squaredNorm();
-  if (!((Dv - rate * v).norm() <= none * Dv.norm())) return std::nullopt;
+  if (!((Dv - rate * v).norm() <= vanishing * Dv.norm())) return std::nullopt;
   return rate;
 }
 

@@ -1,6 +1,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/method/nystrom_scheme.hpp>
 
+#include <cmath>
+
 namespace seiche {
 namespace {
 
@@ -33,6 +35,27 @@ const NystromScheme& nystrom_scheme(int order) {
   if (order == 4) return four;
   if (order == 6) return six;
   throw Error("there are Nyström splittings of order 4 and 6, and none of order {}", order);
+}
+
+// A step is a map of (q, p/ω) with determinant one: its powers are bounded as long as |trace| ≤ 2.
+double stability_of_kicks(const NystromScheme& scheme) {
+  constexpr double spacing = 0.01, largest = 100, resonance = 5e-5;
+  const auto half_trace = [&](double x) {
+    double trace = 0;
+    for (const bool first : {true, false}) {
+      double q = first ? 1 : 0;
+      double p = first ? 0 : 1;
+      for (std::size_t i = 0; i < scheme.b.size(); ++i) {
+        p -= scheme.b[i] * x * q;
+        if (i < scheme.flows()) q += scheme.a[i] * x * p;
+      }
+      trace += first ? q : p;
+    }
+    return trace / 2;
+  };
+  double x = spacing;
+  while (x < largest && std::abs(half_trace(x)) <= 1 + resonance) x += spacing;
+  return x - spacing;
 }
 
 }  // namespace seiche

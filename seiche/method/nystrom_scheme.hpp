@@ -21,4 +21,8 @@ struct NystromScheme {
 // other order.
 const NystromScheme& nystrom_scheme(int order);
 
+// The largest x = hω up to which an oscillator of frequency ω, its force in the kicks, stays bounded: before it there are
+// resonances narrower than a hundredth, whose growth no run will see.
+double stability_of_kicks(const NystromScheme& scheme);
+
 }  // namespace seiche

@@ -1,4 +1,6 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/number_text.hpp>
+#include <seiche/core/squared_norm.hpp>
 #include <seiche/method/energy_interval.hpp>
 #include <seiche/method/projected.hpp>
 
@@ -27,7 +29,7 @@ Projected::Projected(const System& system, const PhiEvaluator& phi, BaseStep& ba
 void Projected::begin(State& s) {
   s.energy = system_.energy(s.z);
   if (!std::isfinite(s.energy))
-    throw Error("the energy of the initial state is not a finite number (H = {})", s.energy);
+    throw Error("the energy of the initial state is not a finite number (H = {})", number_text(s.energy));
 }
 
 EnergyReading Projected::energy(const State& s) const {
@@ -94,9 +96,9 @@ void Projected::fail(StepReport& report, const State& s, double h, Taken taken, 
                                  halvings > 0 ? fmt::format(", nor in {} halvings of it", halvings) : "");
   else
     report.message = fmt::format(
-        "no point near the solution has an energy H ≤ {:.9g} in the step from t = {:.6g} with h = {:.6g}{}: H(0) = {:.6g}",
+        "no point near the solution has an energy H ≤ {:.9g} in the step from t = {:.6g} with h = {:.6g}{}: H(0) = {}",
         s.energy, s.t, h, halvings > 0 ? fmt::format(", nor after {} halvings of it", halvings) : "",
-        projection_.energy_of_rest());
+        number_text(projection_.energy_of_rest(), 6));
 }
 
 // One step; s stays as it was where it is not taken. t and n are the caller's.
@@ -106,13 +108,14 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   if (!strict && may_flow_freely_) free_.at(h, make_free);  // now: later steps of this length are to allocate nothing
   const StepDissipation::Kind kind = base_.dissipation_kind();
   bool resolved = base_.compute(s, t, h, z_);
+  report.fallbacks += base_.fallbacks();
   StepDissipation::Amount amount;
   // The guard asks whether H may rise, and a nonnegative form says no.
   const bool asked = law_ == EnergyLaw::interval || kind == StepDissipation::Kind::general || keeps_ledger_;
   EnergyProjection::Outcome outcome;
   if (resolved) {
     outcome = projection_.project(z_, [&](double computed) {
-      if (asked && kind != StepDissipation::Kind::none) amount = base_.dissipated_on_the_way_to(s, t, h, z_, computed);
+      if (asked && kind != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, computed);
       return energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount, kind);
     });
     resolved = std::isfinite(outcome.computed);  // ẑ may be finite where its energy is none
@@ -130,19 +133,34 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   }
   report.scalar_iterations += outcome.iterations;
   report.fallbacks += outcome.by_bisection ? 1 : 0;
-  if (!outcome.admissible) return Taken::inadmissible;
+  if (!outcome.admissible || !std::isfinite(outcome.computed)) return Taken::inadmissible;
+  if (!resolved)
+    note_replaced(report, s, base_.failure());
+  else if (base_.moved_far() || projection_.moved_far(outcome, z_))
+    note_replaced(
+        report, s,
+        "what the scheme gave was moved by more than a tenth of its length to have an energy that the law allows");
   finish(s, t, h, resolved, amount, outcome, report);
   return Taken::whole;
 }
 
+// s is still as it was before the step, and z_ what it is to become.
+void Projected::note_replaced(StepReport& report, const State& s, std::string_view why) const {
+  constexpr double least = 0.1;
+  const bool ruinous = squared_norm(z_) < square(least) * squared_norm(s.z);
+  report.replaced = {.count = 1, .ruinous = report.replaced.ruinous || ruinous, .why = why, .remedy = base_.remedy()};
+}
+
 Projected::Taken Projected::take_without_law(State& s, double t, double h, StepReport& report) {
-  if (!base_.compute(s, t, h, z_)) return Taken::unresolved;
+  const bool resolved = base_.compute(s, t, h, z_);
+  report.fallbacks += base_.fallbacks();
+  if (!resolved) return Taken::unresolved;
   StepDissipation::Amount amount;
   EnergyProjection::Outcome outcome;
   if (keeps_ledger_) {
     s.energy = system_.energy(s.z);
-    if (base_.dissipation_kind() != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_);
     outcome.H = outcome.computed = system_.energy(z_);
+    if (base_.dissipation_kind() != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, outcome.H);
   }
   finish(s, t, h, true, amount, outcome, report);
   return Taken::whole;

@@ -48,6 +48,7 @@ class Projected {
   Taken take_without_law(State& s, double t, double h, StepReport& report);
   void finish(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
               const EnergyProjection::Outcome& outcome, StepReport& report);
+  void note_replaced(StepReport& report, const State& s, std::string_view why) const;
   bool take_halves(State& s, double t, double h, int depth, StepReport& report);
   void fail(StepReport& report, const State& s, double h, Taken taken, int halvings) const;
 

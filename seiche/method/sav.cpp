@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/number_text.hpp>
 #include <seiche/method/sav.hpp>
 
 #include <algorithm>
@@ -72,8 +73,8 @@ void SavClosure::kick(State& s, double t, double h) {
 
 StepReport left_the_numbers(double v_mid, double t, double h) {
   return {.status = StepReport::Status::failed,
-          .message =
-              fmt::format("the solution left the numbers: V(ẑ) = {} at t = {:.6g} with h = {:.6g}", v_mid, t, h)};
+          .message = fmt::format("the solution left the numbers: V(ẑ) = {} at t = {:.6g} with h = {:.6g}",
+                                 number_text(v_mid), t, h)};
 }
 
 // Where V + C or r² has become small against the energy, C and r² rise together: H̃ does not change. A large positive

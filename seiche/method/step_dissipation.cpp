@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-PhiRows DenseOutput::at(const Eigen::VectorXd& thetas, PhiRows::Outputs outputs) const {
+PhiRows StepOutput::at(const Eigen::VectorXd& thetas, PhiRows::Outputs outputs) const {
   PhiRows rows{.rows = {}, .forces = forces, .order = order, .kind = kind, .outputs = outputs};
   for (const double theta : thetas) rows.rows.push_back({theta, weights(theta)});
   return rows;
@@ -26,7 +26,7 @@ bool StepDissipation::follow_energies(const System& system) {
          system.make_undamped_phi()->dissipation().is_zero;
 }
 
-StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, Rules rules)
+StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, StepOutput output, Rules rules)
     : system_(system),
       phi_(phi),
       output_(std::move(output)),

@@ -12,7 +12,7 @@
 namespace seiche {
 
 // The dense output of a method: its solution at θ = (t − tₙ)/h as a sum of φ-functions of the forces of the step.
-struct DenseOutput {
+struct StepOutput {
   Index forces = 0;
   Index order = 0;
   PhiRows::Forces kind = PhiRows::Forces::gradients;
@@ -28,7 +28,7 @@ class StepDissipation {
     NestedRules nested;  // where Q is known from energies
   };
   // `system` and `phi` outlive it.
-  StepDissipation(const System& system, const PhiEvaluator& phi, DenseOutput output, Rules rules);
+  StepDissipation(const System& system, const PhiEvaluator& phi, StepOutput output, Rules rules);
 
   // How Q can be known.
   enum class Kind {
@@ -82,7 +82,7 @@ class StepDissipation {
 
   const System& system_;
   const PhiEvaluator& phi_;
-  DenseOutput output_;
+  StepOutput output_;
   Rules rules_;
   Kind kind_;
   bool needs_gradient_, follows_energies_;

@@ -38,7 +38,7 @@ class StrangExact final : public BaseStep {
   StepDissipation::Kind dissipation_kind() const override { return kind_; }
 
   // By the values of Q at both ends, which is all that is known.
-  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z) override {
+  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double) override {
     StepDissipation::Amount amount;
     add_end(t, s.z, h / 2, amount);
     add_end(t + h, z, h / 2, amount);

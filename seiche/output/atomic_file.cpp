@@ -15,29 +15,36 @@ Error cannot_write(const std::filesystem::path& path, int error_number) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
+PartialPath::PartialPath(std::filesystem::path path) : path_(std::move(path)), temporary_(path_) {
   temporary_ += ".partial";
-  file_.reset(std::fopen(temporary_.c_str(), "wb"));
-  if (!file_) throw cannot_write(path_, errno);
-  std::setvbuf(file_.get(), nullptr, _IOFBF, 1 << 16);
 }
 
-AtomicFile::~AtomicFile() {
-  if (!file_) return;
-  file_.reset();
+PartialPath::~PartialPath() {
+  if (committed_) return;
   std::error_code ignored;
   std::filesystem::remove(temporary_, ignored);
 }
 
-void AtomicFile::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) throw cannot_write(path_, errno);
-}
-
-void AtomicFile::commit() {
-  if (std::fflush(file_.get()) != 0) throw cannot_write(path_, errno);
+void PartialPath::commit() {
   std::error_code error;
   std::filesystem::rename(temporary_, path_, error);
   if (error) throw cannot_write(path_, error.value());
+  committed_ = true;
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path)
+    : path_(std::move(path)), file_(std::fopen(path_.temporary().c_str(), "wb")) {
+  if (!file_) throw cannot_write(path_.path(), errno);
+  std::setvbuf(file_.get(), nullptr, _IOFBF, 1 << 16);
+}
+
+void AtomicFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) throw cannot_write(path_.path(), errno);
+}
+
+void AtomicFile::commit() {
+  if (std::fflush(file_.get()) != 0) throw cannot_write(path_.path(), errno);
+  path_.commit();
   file_.reset();
 }
 

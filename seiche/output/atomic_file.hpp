@@ -8,13 +8,27 @@
 
 namespace seiche {
 
+// The temporary name, for whoever writes the file; without commit, the temporary is removed at the end.
+class PartialPath {
+ public:
+  explicit PartialPath(std::filesystem::path path);
+  ~PartialPath();
+  PartialPath(const PartialPath&) = delete;
+  PartialPath& operator=(const PartialPath&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& temporary() const { return temporary_; }
+  void commit();  // throws Error where it cannot be renamed
+
+ private:
+  std::filesystem::path path_, temporary_;
+  bool committed_ = false;
+};
+
 // Every failure throws Error with the path and the reason of the operating system.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
-  ~AtomicFile();  // without commit, the temporary is removed and an earlier file stays as it was
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
+  explicit AtomicFile(std::filesystem::path path);  // without commit, an earlier file stays as it was
 
   void write(std::string_view text);  // buffered; memory does not grow with the file
   void commit();
@@ -23,7 +37,7 @@ class AtomicFile {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::filesystem::path path_, temporary_;
+  PartialPath path_;
   std::unique_ptr<std::FILE, Close> file_;
 };
 

@@ -41,7 +41,8 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                    {{"gradients", report.potential_counts.gradients},
                     {"potentials", report.potential_counts.values},
                     {"scalar_iterations", report.scalar_iterations},
-                    {"fallbacks", report.fallbacks}}},
+                    {"fallbacks", report.fallbacks},
+                    {"replaced", report.replaced.count}}},
                   {"wall_seconds", number(report.wall_seconds)},
                   {"versions", versions}};
   if (!run.certificate.empty()) summary["certificate"] = Json::parse(run.certificate);

@@ -15,9 +15,7 @@ class ChainPotential final : public PointwisePotential {
   ChainPotential(W bond, W ground, Boundary boundary) : bonds_(bond, boundary), ground_(ground) {}
 
   double value(std::span<const double> u) const override {
-    double sum = bonds_.value(u);
-    for (const double x : u) sum += ground_.value(x);
-    return sum;
+    return bonds_.value(u) + sum_points(u.size(), [&](std::size_t j) { return ground_.value(u[j]); });
   }
 
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {

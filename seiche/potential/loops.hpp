@@ -2,14 +2,17 @@
 #pragma once
 
 #include <seiche/core/lanes.hpp>
+#include <seiche/core/long_sum.hpp>
 #include <seiche/core/multiversion.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/vector.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <span>
 
 namespace seiche {
 
@@ -32,21 +35,70 @@ class LaneSums {
   std::array<double, 8> sums_{};
 };
 
-// visit(j, lane) for every point j, where `lane` is the one of LaneSums that its number goes to.
+// visit(j, lane) for the points from `begin` on, where `lane` is the one of LaneSums that its number goes to.
 template <class Visit>
-[[gnu::always_inline]] inline void for_points(std::size_t n, const Visit& visit) {
-  std::size_t j = 0;
-  for (; j + 8 <= n; j += 8)
+[[gnu::always_inline]] inline void for_points(std::size_t begin, std::size_t end, const Visit& visit) {
+  std::size_t j = begin;
+  for (; j + 8 <= end; j += 8)
     for (std::size_t lane = 0; lane < 8; ++lane) visit(j + lane, lane);
-  for (std::size_t lane = 0; j < n; ++j, ++lane) visit(j, lane);
+  for (std::size_t lane = 0; j < end; ++j, ++lane) visit(j, lane);
+}
+
+// visit(begin, end) for each block of a long sum.
+template <class Visit>
+[[gnu::always_inline]] inline void for_blocks(std::size_t n, const Visit& visit) {
+  for (std::size_t begin = 0; begin < n; begin += LongSum::block) visit(begin, std::min(begin + LongSum::block, n));
 }
 
 // Σ_j f(j), where f may write to place j.
 template <class F>
 [[gnu::always_inline]] inline double sum_points(std::size_t n, const F& f) {
-  LaneSums sums;
-  for_points(n, [&](std::size_t j, std::size_t lane) { sums[lane] += f(j); });
-  return sums.total();
+  LongSum all;
+  for_blocks(
+      n, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+        LaneSums sums;
+        for_points(begin, end, [&](std::size_t j, std::size_t lane) { sums[lane] += f(j); });
+        all.add(sums.total());
+      });
+  return all.total();
+}
+
+// Σ_j f(j) and Σ_j size(j, f(j)).
+template <class F, class Size>
+[[gnu::always_inline]] inline ValueAndMagnitude sum_points_and_sizes(std::size_t n, const F& f, const Size& size) {
+  LongSum values, magnitudes;
+  for_blocks(
+      n, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+        LaneSums of_block, sizes;
+        for_points(begin, end, [&](std::size_t j, std::size_t lane) {
+          const double value = f(j);
+          of_block[lane] += value;
+          sizes[lane] += size(j, value);
+        });
+        values.add(of_block.total());
+        magnitudes.add(sizes.total());
+      });
+  return {values.total(), magnitudes.total()};
+}
+
+// coefficients[k] ← Σ_j of what add(j, into) adds to into[k].
+template <class Add>
+void sum_coefficients(std::size_t n, std::span<double> coefficients, const Add& add) {
+  constexpr std::size_t most = 65;  // degree 64, the highest of a single field
+  if (coefficients.size() > most) {
+    std::fill(coefficients.begin(), coefficients.end(), 0.0);
+    for (std::size_t j = 0; j < n; ++j) add(j, coefficients.data());
+    return;
+  }
+  std::array<LongSum, most> all{};
+  std::array<double, most> of_block{};
+  constexpr std::size_t block = LongSum::block / lane_count;  // one after the other here
+  for (std::size_t begin = 0; begin < n; begin += block) {
+    std::fill_n(of_block.begin(), coefficients.size(), 0.0);
+    for (std::size_t j = begin; j < std::min(begin + block, n); ++j) add(j, of_block.data());
+    for (std::size_t k = 0; k < coefficients.size(); ++k) all[k].add(of_block[k]);
+  }
+  for (std::size_t k = 0; k < coefficients.size(); ++k) coefficients[k] = all[k].total();
 }
 
 // The size of the terms of W(u), or |W(u)| where they are not known.
@@ -60,11 +112,16 @@ template <class W>
 template <class W, class F>
 [[gnu::always_inline]] inline double sum_lanes(std::size_t n, const F& f) {
   if constexpr (TakesLanes<W>) {
-    Lanes sums{};
-    std::size_t j = 0;
-    for (; j + lane_count <= n; j += lane_count) sums += f(j, Lanes{});
-    for (int lane = 0; j < n; ++j, ++lane) sums[lane] += f(j, 0.0);
-    return sum(sums);
+    LongSum all;
+    for_blocks(
+        n, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+          Lanes sums{};
+          std::size_t j = begin;
+          for (; j + lane_count <= end; j += lane_count) sums += f(j, Lanes{});
+          for (int lane = 0; j < end; ++j, ++lane) sums[lane] += f(j, 0.0);
+          all.add(sum(sums));
+        });
+    return all.total();
   } else {
     return sum_points(
         n, [&](std::size_t j) __attribute__((always_inline)) { return f(j, 0.0); });
@@ -81,13 +138,9 @@ SEICHE_MULTIVERSION double sum_values(const W& w, const double* u, std::size_t n
 template <class W>
 SEICHE_MULTIVERSION ValueAndMagnitude sum_values_and_magnitudes(const W& w, const double* u, std::size_t n) {
   const W local = w;
-  LaneSums values, magnitudes;
-  for_points(n, [&](std::size_t j, std::size_t lane) {
-    const double value = local.value(u[j]);
-    values[lane] += value;
-    magnitudes[lane] += size_of(local, u[j], value);
-  });
-  return {values.total(), magnitudes.total()};
+  return sum_points_and_sizes(
+      n, [&](std::size_t j) __attribute__((always_inline)) { return local.value(u[j]); },
+      [&](std::size_t j, double value) __attribute__((always_inline)) { return size_of(local, u[j], value); });
 }
 
 template <class W>

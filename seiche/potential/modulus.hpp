@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/potential.hpp>
+#include <seiche/potential/loops.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
@@ -22,28 +23,24 @@ class ModulusPotential final : public PointwisePotential {
   Index fields() const override { return 2; }
 
   double value(std::span<const double> u) const override {
-    double sum = 0;
-    for (std::size_t j = 0; j < u.size() / 2; ++j) sum += w_.value(density(u, j));
-    return sum;
+    return sum_points(u.size() / 2, [&](std::size_t j) { return w_.value(density(u, j)); });
   }
 
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
-    ValueAndMagnitude sum;
-    for (std::size_t j = 0; j < u.size() / 2; ++j) sum += w_.value(density(u, j));
-    return sum;
+    return sum_points_and_sizes(
+        u.size() / 2, [&](std::size_t j) { return w_.value(density(u, j)); },
+        [](std::size_t, double value) { return std::abs(value); });
   }
 
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {
     const std::size_t n = u.size() / 2;
-    double sum = 0;
-    for (std::size_t j = 0; j < n; ++j) {
+    return sum_points(n, [&](std::size_t j) {
       const double rho = density(u, j);
       const double slope = 2 * w_.slope(rho);
-      sum += w_.value(rho);
       gradient[j] = slope * u[j];
       gradient[n + j] = slope * u[n + j];
-    }
-    return sum;
+      return w_.value(rho);
+    });
   }
 
   void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override {
@@ -62,13 +59,14 @@ class ModulusPotential final : public PointwisePotential {
 
   // |ψ + xφ|² = ρ + 2σx + τx², put into W by Horner's rule.
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
-    std::fill(coefficients.begin(), coefficients.end(), 0.0);
     if constexpr (requires { W::degree; }) {
       const std::size_t n = p.size() / 2;
-      for (std::size_t j = 0; j < n; ++j) {
+      sum_coefficients(n, coefficients, [&](std::size_t j, double* into) {
         const double sigma = p[j] * q[j] + p[n + j] * q[n + j];
-        add_composition(density(p, j), 2 * sigma, density(q, j), coefficients);
-      }
+        add_composition(density(p, j), 2 * sigma, density(q, j), into);
+      });
+    } else {
+      std::fill(coefficients.begin(), coefficients.end(), 0.0);
     }
   }
 
@@ -78,7 +76,7 @@ class ModulusPotential final : public PointwisePotential {
  private:
   static double density(std::span<const double> u, std::size_t j) { return square(u[j]) + square(u[u.size() / 2 + j]); }
 
-  void add_composition(double c0, double c1, double c2, std::span<double> out) const {
+  void add_composition(double c0, double c1, double c2, double* out) const {
     std::array<double, 2 * W::degree + 1> sum{};
     for (std::size_t i = W::degree + 1; i-- > 0;) {
       for (std::size_t k = sum.size(); k-- > 0;)

@@ -45,9 +45,10 @@ class NodalPotential final : public PointwisePotential {
   }
 
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
-    std::fill(coefficients.begin(), coefficients.end(), 0.0);
     if constexpr (requires { W::degree; }) {
-      for (std::size_t j = 0; j < p.size(); ++j) w_.add_along(p[j], q[j], coefficients.data());
+      sum_coefficients(p.size(), coefficients, [&](std::size_t j, double* into) { w_.add_along(p[j], q[j], into); });
+    } else {
+      std::fill(coefficients.begin(), coefficients.end(), 0.0);
     }
   }
 

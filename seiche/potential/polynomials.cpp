@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/bond.hpp>
+#include <seiche/potential/modulus.hpp>
 #include <seiche/potential/nodal.hpp>
 #include <seiche/potential/polynomials.hpp>
 
@@ -33,6 +34,10 @@ Pointer bond_polynomial(const std::vector<double>& c, Boundary boundary) {
   return with_degree(c, [boundary](auto w) -> Pointer {
     return std::make_shared<BondPotential<decltype(w)>>(w, boundary);
   });
+}
+
+Pointer modulus_polynomial(const std::vector<double>& c) {
+  return with_degree(c, [](auto w) -> Pointer { return std::make_shared<ModulusPotential<decltype(w)>>(w); });
 }
 
 std::vector<double> monomial(double c, int d) {

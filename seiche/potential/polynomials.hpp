@@ -15,6 +15,9 @@ inline constexpr int max_polynomial_degree = 16;
 std::shared_ptr<const PointwisePotential> nodal_polynomial(const std::vector<double>& c);
 std::shared_ptr<const PointwisePotential> bond_polynomial(const std::vector<double>& c, Boundary boundary);
 
+// V = Σ_j W(u_j² + v_j²) of two fields with W(ρ) = Σ c_i ρⁱ.
+std::shared_ptr<const PointwisePotential> modulus_polynomial(const std::vector<double>& c);
+
 // c uᵈ as coefficients.
 std::vector<double> monomial(double c, int d);
 

@@ -60,6 +60,7 @@ ProblemEntry alpha_fpu_entry() {
       .equation = "u_tt − βu_xxt − (1 + εu_xᵏ)u_xx + m²u + γu_t = 0, u = 0 at both ends",
       .reference = "Li, Li, Shang, Xu, Example 2; Macías-Díaz (2009)",
       .fields = {"u", "v"},
+      .meanings = {"displacement", "velocity"},
       .parameters =
           {
               {.name = "length",

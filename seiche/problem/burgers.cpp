@@ -68,6 +68,7 @@ ProblemEntry burgers_entry() {
       .equation = "u_t + αuu_x + εu_xxx − νu_xx + γu = 0, periodic, with H = ½∫u²",
       .reference = "Burgers (1948); Korteweg, de Vries (1895)",
       .fields = {"u"},
+      .meanings = {"velocity"},
       .parameters =
           {
               {.name = "length",

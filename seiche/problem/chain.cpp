@@ -63,6 +63,7 @@ ProblemEntry chain_entry() {
           "d_j = u_{j+1} − u_j",
       .reference = "Li, Li, Shang, Xu, section 1; Born, von Kármán (1912)",
       .fields = {"u", "p"},
+      .meanings = {"displacement", "momentum"},
       .parameters =
           {
               {.name = "points",

@@ -30,6 +30,7 @@ ProblemEntry gkdv_entry() {
       .equation = "u_t + εu_xxx + ∂_x(σu^{k+1}) + μu = 0, periodic",
       .reference = "Li, Li, Shang, Xu, Example 3; Ali et al. (2017)",
       .fields = {"u"},
+      .meanings = {"elevation"},
       .parameters =
           {
               {.name = "length",

@@ -49,6 +49,7 @@ ProblemEntry klein_gordon_entry() {
       .equation = "u_tt + γu_t − κΔu + ω²u + αu³ = 0",
       .reference = "Li, Li, Shang, Xu, Example 1; Côte et al. (2021)",
       .fields = {"u", "v"},
+      .meanings = {"displacement", "velocity"},
       .parameters = std::move(parameters),
       .presets = {"paper"},
       .make =

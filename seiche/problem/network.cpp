@@ -101,6 +101,7 @@ ProblemEntry network_entry() {
       .equation = "ü_i + γu̇_i + ω²u_i + κΣ_j w_ij(u_i − u_j) + αu_i³ = 0",
       .reference = "Newman and Watts (1999) for the graph",
       .fields = {"u", "v"},
+      .meanings = {"displacement", "velocity"},
       .parameters =
           {
               {.name = "graph",

@@ -62,6 +62,7 @@ ProblemEntry nls_entry() {
       .equation = "iψ_t + ½Δψ + κ|ψ|²ψ = −iγψ, ψ = p + iq",
       .reference = "Zakharov, Shabat (1972); with damping: Fibich (2001)",
       .fields = {"p", "q"},
+      .meanings = {"real part of ψ", "imaginary part of ψ"},
       .parameters = std::move(parameters),
       .presets = {"soliton", "gaussian"},
       .make =

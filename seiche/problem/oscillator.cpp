@@ -2,6 +2,7 @@
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/grid_options.hpp>
 #include <seiche/problem/oscillator.hpp>
+#include <seiche/problem/second_order.hpp>
 #include <seiche/problem/wave.hpp>
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace seiche {
 
 Problem oscillator(const Oscillator& options) {
-  const Grid grid{.axes = {{options.points, static_cast<double>(options.points), Boundary::periodic}}};  // Δx = 1
+  const Grid grid = points_without_place(options.points);
   Problem p = wave_problem("oscillator", grid, Stencil::identity(std::max(options.omega_squared, 0.0)), options.gamma);
   p.fields = {"q", "p"};
   std::vector<double> w = monomial(options.alpha / 4, 4);
@@ -29,6 +30,7 @@ ProblemEntry oscillator_entry() {
       .equation = "q̈ + γq̇ + ω²q + αq³ = 0",
       .reference = "Duffing (1918)",
       .fields = {"q", "p"},
+      .meanings = {"displacement", "momentum"},
       .parameters =
           {
               {.name = "points",

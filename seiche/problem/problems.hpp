@@ -4,6 +4,7 @@
 #include <seiche/core/parameter.hpp>
 #include <seiche/core/problem.hpp>
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,10 +17,11 @@ struct ProblemEntry {
   std::string equation;   // in Unicode
   std::string reference;  // where it comes from
   std::vector<std::string> fields;
+  std::vector<std::string> meanings = {};  // of the fields, in their order: "displacement"
   std::vector<Parameter> parameters;
   std::vector<std::string> presets;  // names of initial data, the default first
   // Throws Error where the values do not fit together.
-  Problem (*make)(const ParameterValues& values, const std::string& preset);
+  std::function<Problem(const ParameterValues& values, const std::string& preset)> make;
   // What `seiche new` proposes, and a case file that is silent takes.
   std::string default_h;
   double default_end;

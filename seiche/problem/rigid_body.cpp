@@ -47,6 +47,7 @@ ProblemEntry rigid_body_entry() {
       .equation = "L̇ = L × I⁻¹L − γL",
       .reference = "Euler (1765)",
       .fields = {"l1", "l2", "l3"},
+      .meanings = {"angular momentum, axis 1", "angular momentum, axis 2", "angular momentum, axis 3"},
       .parameters =
           {
               moment("inertia_1", "1.0", "I₁, moment of inertia about the first axis"),

@@ -48,6 +48,8 @@ Problem second_order_problem(std::string name, const Grid& grid, const SparseMat
   return p;
 }
 
-Grid points_without_place(Index count) { return {.axes = {{count, static_cast<double>(count), Boundary::periodic}}}; }
+Grid points_without_place(Index count) {
+  return {.axes = {{count, static_cast<double>(count), Boundary::periodic}}, .only_numbers = true};
+}
 
 }  // namespace seiche

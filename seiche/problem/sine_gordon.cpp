@@ -49,6 +49,7 @@ ProblemEntry sine_gordon_entry() {
       .equation = "u_tt + γu_t − κΔu + α sin u = 0",
       .reference = "Ablowitz, Kaup, Newell, Segur (1973); with friction: McLaughlin, Scott (1978)",
       .fields = {"u", "v"},
+      .meanings = {"phase", "velocity of the phase"},
       .parameters = std::move(parameters),
       .presets = {"breather"},
       .make =

@@ -31,7 +31,7 @@ SparseMatrix chain_metric(Index count) {
   return assembled(2 * count, entries);
 }
 
-Problem from_values(const ParameterValues& v, const std::string&) {
+Problem from_matrices(const ParameterValues& v, const std::string&) {
   SparseSystem options{.fields = v.integer("fields"),
                        .matrices = {},
                        .cubic = v.real("cubic"),
@@ -89,6 +89,7 @@ ProblemEntry sparse_entry() {
       .equation = "ż = S∇H(z) − Dz,  H = ½zᵀMz + a₃/3 Σu³ + a₄/4 Σu⁴",
       .reference = "Matrix Market files: Boisvert, Pozo, Remington, NISTIR 5935 (1996)",
       .fields = {"u", "v"},
+      .meanings = {"displacement", "momentum"},
       .parameters =
           {
               file("M",
@@ -109,7 +110,7 @@ ProblemEntry sparse_entry() {
                .meaning = "γ, further damping of the last field, 1/time"},
           },
       .presets = {"bump"},
-      .make = from_values,
+      .make = from_matrices,
       .default_h = "1/64",
       .default_end = 20.0,
   };

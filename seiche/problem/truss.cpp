@@ -4,6 +4,7 @@
 #include <seiche/problem/truss.hpp>
 #include <seiche/problem/wave.hpp>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -17,18 +18,22 @@ struct Node {
 struct Frame {
   std::vector<Node> nodes;  // those that move
   std::vector<Bar> bars;
+  std::vector<std::array<Index, 2>> ends;  // of the bars; behind the nodes the two supports
   std::vector<double> lengths;
 };
 
 Frame pratt(Index panels, double side) {
   Frame frame;
-  const auto lower = [panels](Index i) { return i == 0 || i == panels ? Index(-1) : i - 1; };
+  const Index moving = 2 * (panels - 1);
+  const auto lower = [=](Index i) { return i == 0 ? moving : i == panels ? moving + 1 : i - 1; };
   const auto upper = [panels](Index i) { return panels - 1 + i - 1; };
   for (Index i = 1; i < panels; ++i) frame.nodes.push_back({static_cast<double>(i) * side, 0});
   for (Index i = 1; i < panels; ++i) frame.nodes.push_back({static_cast<double>(i) * side, side});
   const auto join = [&](Index a, Index b, double dx, double dy) {
     const double length = std::hypot(dx, dy);
-    frame.bars.push_back({a, b, dx / length, dy / length});
+    const auto node = [moving](Index end) { return end < moving ? end : Index(-1); };
+    frame.bars.push_back({node(a), node(b), dx / length, dy / length});
+    frame.ends.push_back({a, b});
     frame.lengths.push_back(length * side);
   };
   for (Index i = 0; i < panels; ++i) join(lower(i), lower(i + 1), 1, 0);
@@ -69,7 +74,11 @@ Problem truss(const Truss& options) {
   const SparseMatrix stiffness =
       sum_over_bars(frame, [&](std::size_t k) { return options.stiffness / frame.lengths[k]; });
   const SparseMatrix dashpots = sum_over_bars(frame, [&](std::size_t) { return options.dashpot; });
-  const Grid grid = points_without_place(n);
+  Grid grid = points_without_place(n);
+  for (const Node& node : frame.nodes) grid.nodes.push_back({node.x, node.y, 0});
+  const double span = static_cast<double>(options.panels) * options.side;
+  grid.supports = {{0, 0, 0}, {span, 0, 0}};
+  grid.bars = frame.ends;
   Problem p = second_order_problem("truss", grid, stiffness,
                                    {.fields = {"x", "y", "px", "py"},
                                     .inverse_mass = 1 / options.mass,
@@ -80,7 +89,6 @@ Problem truss(const Truss& options) {
   p.potential =
       std::make_shared<BarPotential<Polynomial<4>>>(Polynomial<4>{{0, 0, 0, options.cubic / 3, options.quartic / 4}},
                                                     frame.bars);
-  const double span = static_cast<double>(options.panels) * options.side;
   for (Index i = 0; i < n; ++i)
     p.initial[n + i] =
         -options.amplitude * std::sin(std::numbers::pi * frame.nodes[static_cast<std::size_t>(i)].x / span);
@@ -96,6 +104,7 @@ ProblemEntry truss_entry() {
       .equation = "m ü = −Σ_bars n (EA/ℓ e + a₃e² + a₄e³ + c ė) − γ m u̇,  e = n·(u_b − u_a)",
       .reference = "Argyris and Mlejnek, Dynamics of Structures (1991)",
       .fields = {"x", "y", "px", "py"},
+      .meanings = {"horizontal displacement", "vertical displacement", "horizontal momentum", "vertical momentum"},
       .parameters =
           {
               {.name = "panels",

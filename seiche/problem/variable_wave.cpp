@@ -77,7 +77,7 @@ std::function<double(const Place&)> medium(const ParameterValues& v, const Grid&
   };
 }
 
-Problem from_values(const ParameterValues& v, const std::string&) {
+Problem from_media(const ParameterValues& v, const std::string&) {
   const GridOptions grid = axes_options(v);
   const bool harmonic = v.choice("faces") == "harmonic";
   return variable_wave({.grid = grid,
@@ -149,9 +149,10 @@ ProblemEntry variable_wave_entry() {
       .equation = "u_tt + γu_t = ∇·(c(x)²∇u) − m²u − αu³",
       .reference = "LeVeque, Finite Volume Methods for Hyperbolic Problems (2002), ch. 9",
       .fields = {"u", "v"},
+      .meanings = {"displacement", "velocity"},
       .parameters = std::move(parameters),
       .presets = {"bump"},
-      .make = from_values,
+      .make = from_media,
       .default_h = "1/64",
       .default_end = 10.0,
   };

@@ -68,19 +68,20 @@ class AdaptiveLoop {
     // What is left is cut in two equal parts before it, so that no step is far shorter than the one before.
     const bool is_cut = !is_last && 2 * h_ > left;
     const double h = is_last && std::abs(h_ - left) > 1e-10 * left ? left : is_cut ? left / 2 : h_;
-    const StepReport step = stepper_.attempt(state_, h);
+    StepReport step = stepper_.attempt(state_, h);
     recording_.count(step);
     if (!step.solved()) return reject(StepController::rounded(h / 4), step.message);
     const std::optional<double> error = stepper_.error(state_);
-    if (!error && !is_last) return hold_back(h, step.ledger);
-    const double noise = 8 * epsilon * state_.z.norm() / std::sqrt(static_cast<double>(state_.z.size()));
+    if (!error && !is_last) return hold_back(h, step);
+    double noise = 8 * epsilon * state_.z.norm() / std::sqrt(static_cast<double>(state_.z.size()));
+    if (error && *error > controller_.allowed() * h) noise = std::max(noise, unseen_by_energy());
     if (error && !controller_.accepts(*error, h, noise)) {
       stepper_.undo(state_);
-      return reject(controller_.next(h),
-                    fmt::format("its error is {:.3g} and {:.3g} is asked for", *error, options_.tolerance));
+      return reject(controller_.next(h), too_inaccurate(h, *error));
     }
+    if (error) step.replaced = {};  // what a projection moved it by is part of an error that is small enough
     if (unproven_ && !show_first()) return false;
-    recording_.enter(step.ledger);
+    recording_.enter(step);
     rejections_ = 0;
     time_.add(h, state_);
     if (is_last) state_.t = options_.t_end;
@@ -91,9 +92,18 @@ class AdaptiveLoop {
     return accept();
   }
 
+  // How far round-off in H may move a state along its own direction to a value of H, as projections do. Near rest, where H is flat, that is far more than
+  // round-off of the state, and no shorter step makes it less.
+  double unseen_by_energy() {
+    const double round_off = system_.energy_terms(state_.z).round_off();
+    Vector slope(state_.z.size());
+    system_.gradient(state_.z, slope);
+    return std::min(round_off * state_.z.norm() / std::abs(state_.z.dot(slope)), std::sqrt(round_off));
+  }
+
   // The first step of a method with history: the next one tells its error. It must not hold an event, since what follows one
   // would have to be taken back too.
-  bool hold_back(double h, const StepLedger& ledger) {
+  bool hold_back(double h, const StepReport& step) {
     if (h > least_step() * 1e3 && events_.any_crossing(state_)) {
       stepper_.undo(state_);
       return reject(StepController::rounded(h / 4), "an event lies in the first step");
@@ -101,10 +111,20 @@ class AdaptiveLoop {
     unproven_ = true;
     first_ = state_;
     first_h_ = h;
-    first_ledger_ = ledger;
+    first_step_ = step;
+    first_step_.replaced = {};  // the next one tells whether its error is accepted
     time_.add(h, state_);
     first_.t = state_.t;
     return true;
+  }
+
+  // Errors are judged by what they are per unit of time, which for a single short step may be far from the tolerance.
+  std::string too_inaccurate(double h, double error) const {
+    return fmt::format(
+        "the last one, of h = {:.3g} at t = {:.9g}, has an error of {:.3g}, which is {:.3g} per unit of time, and tolerance = "
+        "{:.3g} allows {:.3g} per unit of time; a larger tolerance may do, and where none does, the solution blows up or "
+        "jumps here",
+        h, state_.t, error, error / h, options_.tolerance, controller_.allowed());
   }
 
   double least_step() const { return 16 * epsilon * std::max(std::abs(state_.t), 1e-3 * std::abs(options_.t_end)); }
@@ -131,7 +151,7 @@ class AdaptiveLoop {
   // The step before, which has proved good by the one after it.
   bool show_first() {
     unproven_ = false;
-    recording_.enter(first_ledger_);
+    recording_.enter(first_step_);
     note(first_h_);
     std::swap(state_, first_);
     const bool good = recording_.record(false);
@@ -145,7 +165,8 @@ class AdaptiveLoop {
   }
 
   bool accept() {
-    const EventFinder::Found found = events_.find(state_, stepper_);
+    const EventFinder::Found found =
+        events_.find(state_, [this](double t, Vector& z) { stepper_.interpolate(state_, t, z); });
     show_until(found.empty() ? state_.t : found.t);
     if (found.empty()) return recording_.record(state_.t >= options_.t_end);
 
@@ -203,7 +224,7 @@ class AdaptiveLoop {
   bool unproven_ = false;  // is there a first step whose error is not known yet?
   State backup_, first_;   // before it, and after
   double first_h_ = 0;
-  StepLedger first_ledger_;
+  StepReport first_step_;
   double smallest_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };
 
@@ -226,6 +247,19 @@ RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, Sta
     recording.abandon(error.what());
   }
   return recording.finish(options.objection, loop.remark());
+}
+
+RunReport integrate_either(const System& system, Stepper& stepper, AdaptiveStepper* adaptive, State& state,
+                           const AdaptiveOptions& options, std::span<Observer* const> observers) {
+  if (adaptive != nullptr) return integrate_adaptive(system, *adaptive, state, options, observers);
+  return integrate(system, stepper, state,
+                   {.h = options.first_h,
+                    .t_end = options.t_end,
+                    .law = options.law,
+                    .objection = options.objection,
+                    .stop = options.stop,
+                    .events = options.events},
+                   observers);
 }
 
 }  // namespace seiche

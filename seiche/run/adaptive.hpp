@@ -8,18 +8,8 @@
 #include <functional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace seiche {
-
-// g(t, z) changes sign at an event; z in the coordinates of the state.
-struct Event {
-  enum class Direction { any, rising, falling };
-  std::function<double(double t, const Vector& z)> g;
-  // What happens: may change the state, which the method then starts from anew. False ends the run. Null: the run ends.
-  std::function<bool(State& state)> action = {};
-  Direction direction = Direction::any;
-};
 
 struct AdaptiveOptions {
   double tolerance = 0.0;  // of values at the end, in the max norm; > 0
@@ -36,5 +26,10 @@ struct AdaptiveOptions {
 // for a tolerance or times that make no sense; never for numerical reasons.
 RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, State& state,
                              const AdaptiveOptions& options, std::span<Observer* const> observers = {});
+
+// Steps of variable size by `adaptive`; or, where that is null, of the one size options.first_h by `stepper`: what belongs to a
+// tolerance is then not looked at.
+RunReport integrate_either(const System& system, Stepper& stepper, AdaptiveStepper* adaptive, State& state,
+                           const AdaptiveOptions& options, std::span<Observer* const> observers = {});
 
 }  // namespace seiche

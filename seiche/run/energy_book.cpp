@@ -20,10 +20,10 @@ EnergyBook::EnergyBook(LawPromise promise, bool has_modified_energy)
     : promise_(std::move(promise)), has_modified_energy_(has_modified_energy) {}
 
 void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
+  take_size(reading);
   if (empty_) {
     energy_ = {.initial = reading.H, .final = reading.H, .max_increase = 0.0};
     modified_ = {.initial = reading.modified, .final = reading.modified, .max_increase = 0.0};
-    size_at_start_ = (has_modified_energy_ ? reading.modified_round_off : reading.round_off) / (50 * epsilon);
     empty_ = false;
   } else if (reopened_) {
     energy_.final = reading.H;
@@ -39,12 +39,22 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
                                                   : std::max(reading.round_off, last_.round_off);
     const double allowed = round_off * static_cast<double>(n - last_n_);
     // Round-off that explains more than all there was at the start says that the numbers mean nothing any more, and no law holds.
-    const double explained = std::min(allowed, size_at_start_);
+    const double explained = std::min(allowed, size_);
     if (increase > explained && !first_violation_.found) first_violation_ = {t, increase, explained, true};
   }
   reopened_ = false;
   last_ = reading;
   last_n_ = n;
+}
+
+// At rest where V = 0 nothing has a size yet: the largest of the first records then stands for the start.
+void EnergyBook::take_size(const EnergyReading& reading) {
+  constexpr int first_records = 100;
+  constexpr double nothing = 1e-290;
+  if (records_ == first_records) return;
+  const double size = (has_modified_energy_ ? reading.modified_round_off : reading.round_off) / (50 * epsilon);
+  if (++records_ == 1) rests_ = size < nothing;
+  if (records_ == 1 || rests_) size_ = std::max(size_, size);
 }
 
 void EnergyBook::write_to(RunReport& report) const {

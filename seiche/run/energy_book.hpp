@@ -19,13 +19,17 @@ class EnergyBook {
   void write_to(RunReport& report) const;
 
  private:
+  void take_size(const EnergyReading& reading);
+
   LawPromise promise_;
   bool has_modified_energy_;
   bool empty_ = true;
   bool reopened_ = false;
   bool has_increase_ = false;
   std::int64_t last_n_ = 0;
-  double size_at_start_ = 0.0;  // of the terms of the energy that is promised
+  int records_ = 0;     // as far as they are counted
+  double size_ = 0.0;   // of the terms of the energy that is promised, at the start
+  bool rests_ = false;  // all of them were 0 there
   EnergyReading last_;
   EnergySummary energy_, modified_;
   struct Violation {

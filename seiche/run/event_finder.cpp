@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/number_text.hpp>
 #include <seiche/run/event_finder.hpp>
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -22,7 +23,7 @@ bool is_crossing(double before, double after, Event::Direction direction) {
 
 double EventFinder::value(std::size_t i, double t, const Vector& z) const {
   const double g = events_[i].g(t, z);
-  if (!std::isfinite(g)) throw Error("the function of event {} is {} at t = {:.9g}", i + 1, g, t);
+  if (!std::isfinite(g)) throw Error("the function of event {} is {} at t = {:.9g}", i + 1, number_text(g), t);
   return g;
 }
 
@@ -41,11 +42,11 @@ bool EventFinder::any_crossing(const State& state) {
   return false;
 }
 
-double EventFinder::locate(std::size_t i, double after, const State& state, AdaptiveStepper& stepper) {
+double EventFinder::locate(std::size_t i, double after, const State& state, Inside inside) {
   if (after == 0) return state.t;
   const auto g = [&](double t) {
     z_.resizeLike(state.z);
-    stepper.interpolate(state, t, z_);
+    inside(t, z_);
     return value(i, t, z_);
   };
   std::uintmax_t iterations = 100;
@@ -54,7 +55,7 @@ double EventFinder::locate(std::size_t i, double after, const State& state, Adap
       .second;
 }
 
-EventFinder::Found EventFinder::find(const State& state, AdaptiveStepper& stepper) {
+EventFinder::Found EventFinder::find(const State& state, Inside inside) {
   struct Crossing {
     const Event* event;
     double t;
@@ -65,7 +66,7 @@ EventFinder::Found EventFinder::find(const State& state, AdaptiveStepper& steppe
   for (std::size_t i = 0; i < events_.size(); ++i) {
     after[i] = value(i, state.t, state.z);
     if (!is_crossing(values_[i], after[i], events_[i].direction)) continue;
-    crossings.push_back({&events_[i], locate(i, after[i], state, stepper)});
+    crossings.push_back({&events_[i], locate(i, after[i], state, inside)});
     found.t = std::min(found.t, crossings.back().t);
   }
   const double same = 4 * epsilon * std::abs(found.t);  // what the location is good for

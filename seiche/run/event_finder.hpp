@@ -1,8 +1,8 @@
 // Where event functions change their signs inside a step.
 #pragma once
 
-#include <seiche/core/stepper.hpp>
-#include <seiche/run/adaptive.hpp>
+#include <seiche/core/function_ref.hpp>
+#include <seiche/run/integrate.hpp>
 
 #include <span>
 #include <vector>
@@ -17,6 +17,8 @@ class EventFinder {
   // the state stands on their surface, on either side by round-off.
   void start(const State& state);
 
+  using Inside = FunctionRef<void(double t, Vector& z)>;  // z ← the solution at a time inside the last step
+
   struct Found {
     double t = 0.0;
     std::vector<const Event*> events;  // all that happen at t; none: no event in the step
@@ -24,12 +26,12 @@ class EventFinder {
   };
   // The first events inside the last step, located on the solution inside it to round-off in t (TOMS 748). Throws Error
   // where an event function is no number.
-  Found find(const State& state, AdaptiveStepper& stepper);
+  Found find(const State& state, Inside inside);
   bool any_crossing(const State& state);  // is there any, without locating it?
 
  private:
   double value(std::size_t i, double t, const Vector& z) const;
-  double locate(std::size_t i, double after, const State& state, AdaptiveStepper& stepper);
+  double locate(std::size_t i, double after, const State& state, Inside inside);
 
   std::span<const Event> events_;
   std::vector<double> values_;

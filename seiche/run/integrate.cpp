@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/run/event_finder.hpp>
 #include <seiche/run/integrate.hpp>
 #include <seiche/run/recording.hpp>
 #include <seiche/run/time_grid.hpp>
@@ -11,30 +12,100 @@ namespace {
 // Steps between two looks for NaN where nothing is recorded: rare enough to cost nothing.
 constexpr std::int64_t finite_check_every = 64;
 
-void loop(Recording& recording, Stepper& stepper, State& state, const TimeGrid& grid, const std::atomic<bool>* stop) {
-  if (!recording.record(grid.steps == 0)) return;
-  for (std::int64_t k = 1; k <= grid.steps; ++k) {
-    if (stop && stop->load(std::memory_order_relaxed)) return recording.interrupt(grid.end);
-    const StepReport step = stepper.step(state, grid.step_size(k));
-    recording.count(step);
-    if (!step.solved()) return recording.fail_step(step.message);
-    recording.enter(step.ledger);
-    state.n = recording.first_n() + k;
-    state.t = grid.time(k);
-    const bool last = k == grid.steps;
-    if (last || recording.anyone_due()) {
-      if (!recording.record(last)) return;
-    } else if (k % finite_check_every == 0 && !recording.check_finite()) {
-      return;
+class FixedLoop {
+ public:
+  FixedLoop(Stepper& stepper, State& state, const IntegrateOptions& options, const TimeGrid& grid, Recording& recording)
+      : stepper_(stepper),
+        state_(state),
+        options_(options),
+        grid_(grid),
+        recording_(recording),
+        events_(options.events) {}
+
+  void run() {
+    if (!recording_.record(grid_.steps == 0)) return;
+    events_.start(state_);
+    std::int64_t k = 1;
+    while (k <= grid_.steps) {
+      if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return recording_.interrupt(grid_.end);
+      if (!advance(k)) return;
+      k = restarted_ ? 1 : k + 1;
     }
   }
-}
 
-std::string remark(const TimeGrid& grid) {
-  if (!grid.last_is_shortened()) return "";
-  return fmt::format("; h = {:.9g} does not divide the time {:.9g}, so the last step was shortened to {:.9g}", grid.h,
-                     grid.end - grid.start, grid.last_h);
-}
+  std::string remark() const {
+    if (!grid_.last_is_shortened() || state_.t != grid_.end) return "";
+    return fmt::format("; h = {:.9g} does not divide the time {:.9g}, so the last step was shortened to {:.9g}",
+                       grid_.h, grid_.end - grid_.start, grid_.last_h);
+  }
+
+ private:
+  // Step k of the grid and what happens in it; false: the run is over.
+  bool advance(std::int64_t k) {
+    restarted_ = false;
+    const std::int64_t n = state_.n + 1;
+    if (!options_.events.empty()) left_ = state_;
+    const StepReport step = stepper_.step(state_, grid_.step_size(k));
+    recording_.count(step);
+    if (!step.solved()) {
+      recording_.fail_step(step.message);
+      return false;
+    }
+    state_.n = n;
+    state_.t = grid_.time(k);
+    if (!options_.events.empty() && !recording_.check_finite()) return false;
+    const EventFinder::Found found = events_.find(state_, [this](double t, Vector& z) {
+      between_ = left_;
+      shorten(between_, t);
+      z = between_.z;
+    });
+    if (!found.empty()) return meet(found, step);
+    recording_.enter(step);
+    const bool last = k == grid_.steps;
+    if (last || recording_.anyone_due()) return recording_.record(last);
+    return n % finite_check_every != 0 || recording_.check_finite();
+  }
+
+  // A step of its own from the left end, which ends at t.
+  StepReport shorten(State& state, double t) {
+    StepReport step = t > state.t ? stepper_.step(state, t - state.t) : StepReport{};
+    if (!step.solved()) throw Error("a step to t = {:.9g}, to look for an event, failed: {}", t, step.message);
+    return step;
+  }
+
+  bool meet(const EventFinder::Found& found, const StepReport& whole) {
+    if (found.t < state_.t) {
+      const std::int64_t n = state_.n;
+      state_ = left_;
+      recording_.enter(shorten(state_, found.t));
+      state_.n = n;
+      state_.t = found.t;
+    } else {
+      recording_.enter(whole);
+    }
+    bool goes_on = true;
+    for (const Event* event : found.events) {
+      recording_.report().events.push_back(found.t);
+      goes_on = event->action && event->action(state_) && goes_on;
+    }
+    stepper_.begin(state_);
+    recording_.reopen();
+    grid_ = TimeGrid(state_.t, grid_.h, grid_.end);
+    restarted_ = true;
+    if (!recording_.record(!goes_on || grid_.steps == 0) || !goes_on) return false;
+    events_.start(state_);
+    return true;
+  }
+
+  Stepper& stepper_;
+  State& state_;
+  const IntegrateOptions& options_;
+  TimeGrid grid_;
+  Recording& recording_;
+  EventFinder events_;
+  State left_, between_;  // where there are events
+  bool restarted_ = false;
+};
 
 }  // namespace
 
@@ -42,12 +113,13 @@ RunReport integrate(const System& system, Stepper& stepper, State& state, const 
                     std::span<Observer* const> observers) {
   const TimeGrid grid(state.t, options.h, options.t_end);
   Recording recording(system, stepper, state, options.law, observers);
+  FixedLoop loop(stepper, state, options, grid, recording);
   try {
-    loop(recording, stepper, state, grid, options.stop);
+    loop.run();
   } catch (const Error& error) {  // a propagator that does not exist, a disk that is full
     recording.abandon(error.what());
   }
-  return recording.finish(options.objection, remark(grid));
+  return recording.finish(options.objection, loop.remark());
 }
 
 }  // namespace seiche

@@ -11,6 +11,15 @@
 
 namespace seiche {
 
+// g(t, z) changes sign at an event; z in the coordinates of the state.
+struct Event {
+  enum class Direction { any, rising, falling };
+  std::function<double(double t, const Vector& z)> g;
+  // What happens: may change the state, which the method then starts from anew. False ends the run. Null: the run ends.
+  std::function<bool(State& state)> action = {};
+  Direction direction = Direction::any;
+};
+
 struct IntegrateOptions {
   double h = 0.0;
   double t_end = 0.0;
@@ -18,6 +27,8 @@ struct IntegrateOptions {
   // Asked when the run ends: why the promise is withdrawn after all, or "".
   std::function<std::string()> objection = {};
   const std::atomic<bool>* stop = nullptr;  // set by a signal handler: the run ends after the current step
+  // Located by shorter steps from the left end of the step they lie in; behind one, steps of length h go on from its time.
+  std::span<const Event> events = {};
 };
 
 // Steps from state.t to t_end; state must have been begun. t = t₀ + n h; the last step is shortened to land on t_end.

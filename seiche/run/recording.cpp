@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/vector.hpp>
 #include <seiche/run/recording.hpp>
 
 #include <algorithm>
@@ -28,6 +29,11 @@ void Recording::count(const StepReport& step) {
   report_.scalar_iterations += step.scalar_iterations;
   report_.fallbacks += step.fallbacks;
   report_.unresolved += step.unresolved;
+}
+
+void Recording::enter(const StepReport& step) {
+  ledger_ += step.ledger;
+  report_.replaced += step.replaced;
 }
 
 bool Recording::anyone_due() const {
@@ -142,7 +148,21 @@ void Recording::hear_objection(const std::function<std::string()>& objection) {
 
 void Recording::complete_message(const std::string& remark) {
   if (report_.status == RunReport::Status::success)
-    report_.message = fmt::format("reached t = {:.9g} in {} steps{}", state_.t, report_.steps, remark);
+    report_.message = fmt::format("reached t = {:.9g} in {}{}", state_.t, counted_steps(report_.steps), remark);
+  report_.judge_replaced();
+  constexpr double lost = 1e6;  // times the energy at the start: of H̃ − H no more than some ten digits are left
+  if (report_.has_modified_energy && state_.energy_scale > 0 && state_.shift > lost * state_.energy_scale)
+    report_.message += fmt::format(
+        "; C of the modified energy rose to {:.3g}, {:.1g} times the energy at the start, because V fell so far, and drowns it in "
+        "round-off: take a smaller h, or a method without C (seilm, egc4); where these fail too, the solution blows up",
+        state_.shift, state_.shift / state_.energy_scale);
+  const EnergySummary& H = report_.energy;
+  if (report_.has_modified_energy && report_.law == LawVerdict::holds &&
+      H.final - H.initial > 0.1 * std::abs(H.initial) + 1e3 * epsilon * state_.energy_scale)
+    report_.message += fmt::format(
+        "; the law holds for the modified energy, and H itself rose from {:.6g} to {:.6g}: the two have parted, and the solution is "
+        "inaccurate; take a smaller h, or a method whose law is that of H (seilm, egc4)",
+        H.initial, H.final);
   if (report_.unresolved > 0)
     report_.message += fmt::format("; {} scalar equations were not resolved", report_.unresolved);
   if (report_.law == LawVerdict::not_promised) report_.message += "; no energy law is promised: " + report_.law_reason;

@@ -22,10 +22,9 @@ class Recording {
   RunReport& report() { return report_; }
   bool has_failed() const { return report_.status != RunReport::Status::success; }
   std::int64_t steps() const { return state_.n - first_n_; }
-  std::int64_t first_n() const { return first_n_; }
 
-  void count(const StepReport& step);                          // its work, whatever came of it
-  void enter(const StepLedger& ledger) { ledger_ += ledger; }  // of a step that stands
+  void count(const StepReport& step);  // its work, whatever came of it
+  void enter(const StepReport& step);  // of a step that stands: its ledger, and was it replaced?
   bool anyone_due() const;
   // Energy of the state, judged and shown to whom it is due; false if there is none: then the run has failed.
   bool record(bool last);

@@ -12,6 +12,8 @@ std::string energy_line(const char* name, const EnergySummary& energy) {
 
 }  // namespace
 
+std::string counted_steps(std::int64_t count) { return fmt::format("{} step{}", count, count == 1 ? "" : "s"); }
+
 std::string to_string(RunReport::Status status) {
   switch (status) {
     case RunReport::Status::success: return "success";
@@ -30,23 +32,50 @@ std::string to_string(LawVerdict verdict) {
   return "unknown";
 }
 
+std::string RunReport::remark_on_replaced() const {
+  const std::int64_t count = replaced.count;
+  if (count == 0) return "";
+  const std::string of_steps = count <= steps
+                                   ? fmt::format("{} of {} steps", count, steps)  // the last may be taken back
+                                   : counted_steps(count);
+  const char* it = count == 1 ? "it" : "them";
+  const std::string replacement =
+      1000 * count < steps
+          ? fmt::format("{} {} replaced, because {}; what stands for {} keeps the energy law, but", of_steps,
+                        count == 1 ? "was" : "were", replaced.why, it)
+          : fmt::format("in {} no solution was found, because {}; what stands for {} keeps the energy law, and",
+                        of_steps, replaced.why, it);
+  const char* worth = replaced.ruinous   ? "has lost most of the state"
+                      : lacks_solution() ? "has nothing to do with the equation any more"
+                                         : "may be as inaccurate as any guess, and everything after it with it";
+  return fmt::format("{} {}: take {}", replacement, worth, replaced.remedy);
+}
+
+void RunReport::judge_replaced() {
+  const std::string remark = remark_on_replaced();
+  if (remark.empty()) return;
+  message += "; " + remark;
+  if (lacks_solution()) status = Status::failed;
+}
+
 std::string RunReport::brief() const {
-  return fmt::format("{}: t = {:.9g} after {} steps in {:.3g} s; H {:.6g} → {:.6g}, law {}", to_string(status), t,
-                     steps, wall_seconds, energy.initial, energy.final, to_string(law));
+  return fmt::format("{}: t = {:.9g} after {} in {:.3g} s; H {:.6g} → {:.6g}, law {}", to_string(status), t,
+                     counted_steps(steps), wall_seconds, energy.initial, energy.final, to_string(law));
 }
 
 std::string RunReport::full() const {
   std::string text = fmt::format("{}: {}\n", to_string(status), message);
-  text += fmt::format("{:<10} {:.9g} after {} steps in {:.3g} s\n", "t", t, steps, wall_seconds);
+  text += fmt::format("{:<10} {:.9g} after {} in {:.3g} s\n", "t", t, counted_steps(steps), wall_seconds);
   text += energy_line("H", energy);
   if (has_modified_energy) text += energy_line("H modified", modified);
   const char* of = has_modified_energy ? "H modified" : "H";
   const std::string until = status == Status::failed ? fmt::format(" up to t = {:.9g}", t) : "";
   const std::string why = law == LawVerdict::not_promised ? "" : fmt::format(" ({})", law_reason);  // else in `message`
   text += fmt::format("{:<10} {} for {}{}{}\n", "energy law", to_string(law), of, until, why);
-  text +=
-      fmt::format("{:<10} {} gradients, {} potentials, {} scalar iterations, fallbacks: {}, unresolved: {}\n", "work",
-                  potential_counts.gradients, potential_counts.values, scalar_iterations, fallbacks, unresolved);
+  text += fmt::format(
+      "{:<10} {} gradients, {} potentials, {} scalar iterations, fallbacks: {}, replaced steps: {}, unresolved: {}\n",
+      "work", potential_counts.gradients, potential_counts.values, scalar_iterations, fallbacks, replaced.count,
+      unresolved);
   return text;
 }
 

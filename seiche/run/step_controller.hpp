@@ -21,8 +21,9 @@ class StepController {
 
   // of an estimate for a step of length h; errors below `noise` count as none; false for NaN
   bool accepts(double error, double h, double noise);
-  double next(double h) const;  // after `accepts`
-  void reset();                 // as new
+  double next(double h) const;
+  double allowed() const { return allowed_; }  // error per unit of time of an accepted step, after `accepts`
+  void reset();                                // as new
 
  private:
   double order_, tolerance_, allowed_;

@@ -3,6 +3,7 @@
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
+#include <seiche/output/solution_reader.hpp>
 #include <seiche/study/audit.hpp>
 #include <seiche/study/csv_table.hpp>
 
@@ -88,32 +89,38 @@ class Auditor {
     compare("the last H is that of final.txt", end.sum(), H_.back(), std::max(round_off_, end.round_off()));
   }
 
-  // Rows of snapshots.csv whose time has an energy too.
+  // H of every state in solution.h5 against the H beside it, and against energy.csv where that has the time too.
   void snapshots() {
-    const CsvTable table = CsvTable::read(directory_ / "snapshots.csv");
-    if (table.names.size() != static_cast<std::size_t>(problem_.size()) + 1)
-      throw Error("snapshots.csv has {} values a row and the case {} unknowns", table.names.size() - 1,
-                  problem_.size());
-    std::size_t compared = 0;
+    const SolutionReader solution(directory_ / "solution.h5");
+    if (static_cast<Index>(solution.fields().size()) * solution.points() != problem_.size())
+      throw Error("solution.h5 has {} values at a time and the case {} unknowns",
+                  static_cast<Index>(solution.fields().size()) * solution.points(), problem_.size());
+    const std::vector<double> times = solution.times();
+    const std::vector<double> beside = solution.energies();
+    std::size_t in_both = 0;
     double worst = 0;
     double at = 0;
-    for (const std::vector<double>& row : table.rows) {
-      const auto found = std::find(t_.begin(), t_.end(), row[0]);
-      if (found == t_.end()) continue;
-      const Vector z = Eigen::Map<const Vector>(row.data() + 1, problem_.size());
+    Vector z;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      solution.state(static_cast<Index>(k), z);
       const EnergyTerms terms = energies_.of(z);
-      const double ratio = std::abs(terms.sum() - H_[static_cast<std::size_t>(found - t_.begin())]) /
-                           std::max({terms.round_off(), round_off_, std::numeric_limits<double>::min()});
-      ++compared;
-      if (ratio <= worst) continue;
+      const double allowed = std::max({terms.round_off(), round_off_, std::numeric_limits<double>::min()});
+      double ratio = std::abs(terms.sum() - beside[k]) / allowed;
+      const auto found = std::lower_bound(t_.begin(), t_.end(), times[k]);
+      if (found != t_.end() && *found == times[k]) {
+        ratio = std::max(ratio, std::abs(terms.sum() - H_[static_cast<std::size_t>(found - t_.begin())]) / allowed);
+        ++in_both;
+      }
+      if (ratio <= worst || std::isnan(worst)) continue;  // no number is the worst of all
       worst = ratio;
-      at = row[0];
+      at = times[k];
     }
-    const std::string claim = "H of every snapshot is that of energy.csv";
-    if (compared == 0) return add(claim, Verdict::not_checked, "no snapshot stands at a time with an energy");
+    const std::string claim = "H of every state in solution.h5 is what it and energy.csv say";
+    if (times.empty()) return add(claim, Verdict::not_checked, "it holds no state");
     add(claim, worst <= 1 ? Verdict::confirmed : Verdict::contradicted,
-        fmt::format("{} of {} compared; the largest difference, at t = {:.6g}, is {:.2g} of what round-off explains",
-                    compared, table.rows.size(), at, worst));
+        fmt::format("{} states, {} of them at times of energy.csv; the largest difference, at t = {:.6g}, is {:.2g} of "
+                    "what round-off explains",
+                    times.size(), in_both, at, worst));
   }
 
   static double largest_increase(const std::vector<double>& values) {

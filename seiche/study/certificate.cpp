@@ -144,7 +144,7 @@ Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOpti
     same.statement = "P_H D is MD, as V is untouched: " + MD.statement;
     return same;
   }
-  if (law.promised) return {name, Grade::by_structure, "D = γI and u·∇V(u) ≥ 0 for every u, by the form of V"};
+  if (law.promised) return {name, Grade::by_structure, law.reason + ", by the form of V"};
   if (!options.sample_solution || options.t_end <= 0)
     return {name, Grade::sampled, "not looked at: no solution was followed; seiche check follows one"};
   return sampled_condition(problem, options.t_end, name);
@@ -178,6 +178,7 @@ std::string theorem(const Problem& problem, const MethodEntry& method) {
 
 Certificate certify(const Problem& problem, const CertificateOptions& options) {
   const MethodEntry& method = find_method(options.method);
+  require_finite_rates(problem, options.t_start, options.t_end);
   const OperatorFindings findings = look_at_operators(problem);
   const LawPromise law = promise_energy_law(problem, options.t_end, findings);
   Certificate certificate;

@@ -19,7 +19,7 @@ struct Certificate {
 struct CertificateOptions {
   std::string method = "seisav";
   MethodOptions method_options = {};
-  double t_end = 0.0;
+  double t_start = 0.0, t_end = 0.0;
   bool sample_solution = true;  // follow a solution of its own, where structure decides nothing
   // One with this method, at its start: what is known of C is read off it instead of one made for that.
   const Simulation* at_start = nullptr;
@@ -27,7 +27,7 @@ struct CertificateOptions {
 
 // Nothing here is taken from the numbers that a method computes with: operators are looked at mode by mode or by
 // factorisation, and what can only be sampled is sampled along a solution of its own, by collocation with tolerance 1e-5.
-// Throws Error where the method does not apply to the problem.
+// Throws Error where the method does not apply to the problem, and where a rate of damping is infinite before t_end.
 Certificate certify(const Problem& problem, const CertificateOptions& options);
 
 // {"hypotheses": […], "law": {…}}, as `seiche check --json` and summary.json have it.

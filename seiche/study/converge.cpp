@@ -70,6 +70,7 @@ RunOutcome run_one(Simulation& simulation, const RunRequest& request, const Refe
   row.steps = report.steps;
   row.scalar_iterations = report.scalar_iterations;
   row.fallbacks = report.fallbacks;
+  row.replaced = report.replaced.count;
   row.unresolved = report.unresolved;
   row.energy_law_held = report.law == LawVerdict::holds;
   if (report.status != RunReport::Status::success) row.failure = report.message;

@@ -21,6 +21,7 @@ std::string converge_json(const Convergence& study) {
                                      row.order ? nlohmann::ordered_json(*row.order) : nlohmann::ordered_json(nullptr)},
                                     {"scalar_iterations", row.scalar_iterations},
                                     {"fallbacks", row.fallbacks},
+                                    {"replaced", row.replaced},
                                     {"unresolved", row.unresolved},
                                     {"steps", row.steps},
                                     {"cpu_seconds", row.cpu_seconds},
@@ -44,9 +45,10 @@ std::string converge_table(const Convergence& study) {
   for (const StudyRow& row : study.rows) {
     if (method && *method != row.method) text += '\n';
     method = &row.method;
-    fmt::format_to(out, "{:<8} {:>11.5g} {:>11.3e} {:>6} {:>11.3e} {:>11.3e} {:>10} {:>10} {:>10.3f}{}{}\n", row.method,
-                   row.h, row.error, row.order ? fmt::format("{:.2f}", *row.order) : "–", row.energy_error,
+    fmt::format_to(out, "{:<8} {:>11.5g} {:>11.3e} {:>6} {:>11.3e} {:>11.3e} {:>10} {:>10} {:>10.3f}{}{}{}\n",
+                   row.method, row.h, row.error, row.order ? fmt::format("{:.2f}", *row.order) : "–", row.energy_error,
                    row.max_energy_increase, row.scalar_iterations, row.fallbacks, 1e3 * row.cpu_seconds,
+                   row.replaced > 0 ? fmt::format("  {} of {} steps replaced", row.replaced, row.steps) : "",
                    row.unresolved > 0 ? fmt::format("  {} unresolved", row.unresolved) : "",
                    row.failure.empty() ? "" : "  " + row.failure);
   }

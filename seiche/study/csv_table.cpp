@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <string_view>
 
 namespace seiche {
@@ -21,29 +20,36 @@ std::vector<std::string_view> cells(std::string_view line) {
 
 }  // namespace
 
-CsvTable CsvTable::read(const std::filesystem::path& file) {
-  std::ifstream input(file);
-  if (!input) throw Error("{} cannot be read", file.string());
-  CsvTable table;
-  std::string line;
-  for (std::size_t number = 1; std::getline(input, line); ++number) {
-    const std::vector<std::string_view> texts = cells(line);
-    if (number == 1) {
-      table.names.assign(texts.begin(), texts.end());
-      continue;
-    }
-    if (texts.size() != table.names.size())
-      throw Error("{}:{}: {} cells under {} names", file.string(), number, texts.size(), table.names.size());
-    std::vector<double> row;
-    for (const std::string_view text : texts) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error != std::errc{} || end != text.data() + text.size())
-        throw Error("{}:{}: '{}' is no number", file.string(), number, text);
-      row.push_back(value);
-    }
-    table.rows.push_back(std::move(row));
+CsvReader::CsvReader(const std::filesystem::path& file) : file_(file), input_(file) {
+  if (!input_) throw Error("{} cannot be read", file.string());
+  if (!std::getline(input_, line_)) return;
+  for (const std::string_view name : cells(line_)) names_.emplace_back(name);
+}
+
+bool CsvReader::next(std::vector<double>& row) {
+  if (!std::getline(input_, line_)) return false;
+  ++line_number_;
+  row.clear();
+  const char* at = line_.data();
+  const char* const end = at + line_.size();
+  while (at <= end) {
+    double value = 0;
+    const auto [rest, error] = std::from_chars(at, end, value);
+    if (error != std::errc{} || (rest != end && *rest != ','))
+      throw Error("{}:{}: '{}' is no number", file_.string(), line_number_,
+                  std::string_view(at, std::find(at, end, ',')));
+    row.push_back(value);
+    at = rest + 1;
   }
+  if (row.size() != names_.size())
+    throw Error("{}:{}: {} cells under {} names", file_.string(), line_number_, row.size(), names_.size());
+  return true;
+}
+
+CsvTable CsvTable::read(const std::filesystem::path& file) {
+  CsvReader reader(file);
+  CsvTable table{.names = reader.names(), .rows = {}};
+  for (std::vector<double> row; reader.next(row);) table.rows.push_back(row);
   if (table.rows.empty()) throw Error("{} holds no row of numbers", file.string());
   return table;
 }

@@ -19,6 +19,7 @@ struct StudyRow {
   long long steps = 0;
   long long scalar_iterations = 0;
   long long fallbacks = 0;
+  long long replaced = 0;  // steps that found no solution
   long long unresolved = 0;
   double cpu_seconds = 0.0;      // median of repeated runs after a warm-up, stepping only
   bool energy_law_held = false;  // no recorded step raised the method's energy beyond round-off

@@ -266,7 +266,8 @@ bool varies(const LinearDamping& damping) {
 }  // namespace
 
 Spectrum spectrum(const Problem& problem, const SimulationOptions& options, double h) {
-  const bool has_modes = !problem.matrices && !problem.damping.field_rate;
+  const Problem linear = linear_part_of(problem);
+  const bool has_modes = !linear.matrices && !linear.damping.field_rate;
   if (!has_modes && problem.size() > spectrum_matrix_limit)
     throw Error(
         "{} has {} unknowns {}: its modes are the eigenvectors of a full matrix, and at most {} unknowns are taken; "
@@ -275,7 +276,6 @@ Spectrum spectrum(const Problem& problem, const SimulationOptions& options, doub
         problem.matrices ? "and is stated by matrices" : "and a rate that changes from point to point",
         spectrum_matrix_limit);
   const Simulation applies(problem, options);  // throws where it does not: without V more would seem to
-  const Problem linear = linear_part_of(problem);
   SimulationOptions plain = options;
   plain.method_options = {};  // most of them speak of V
   plain.method_options.linear = options.method_options.linear;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 namespace seiche {
 namespace {
@@ -28,7 +29,7 @@ Json mode_json(const SpectrumRow* row) {
 std::string premise(const Spectrum& s) {
   std::string text = fmt::format("The linear part of {}", s.problem);
   if (s.has_potential) text += ", without V";
-  if (s.has_drives) text += ", without friction, forces and what of S changes with z";
+  if (s.has_drives) text += ", without friction beyond its linear part, forces and what of S changes with z";
   if (s.rates_frozen) text += ", with γ as it is at t = 0";
   text += fmt::format(": one step of {} with h = {:g} (backend {})", s.method, s.h, s.backend);
   if (!s.is_homogeneous) {
@@ -50,6 +51,24 @@ std::string line_of(const SpectrumRow& row) {
 std::string compared(const SpectrumRow& row) {
   return fmt::format("{:.3g} at mode {} ({:.6g} instead of {:.6g})", std::abs(row.damping_error()), row.mode,
                      row.numerical_decay, row.exact_decay);
+}
+
+bool nothing_happens(const std::vector<SpectrumRow>& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const SpectrumRow& row) {
+    const double largest = std::max({std::abs(row.exact_decay), std::abs(row.numerical_decay), row.exact_frequency,
+                                     std::abs(row.numerical_frequency)});
+    return row.resolved && largest <= row.round_off;
+  });
+}
+
+// The rows of each mode, one after the other: two or more where it has several rates.
+std::vector<std::span<const SpectrumRow>> by_mode(const std::vector<SpectrumRow>& rows) {
+  std::vector<std::span<const SpectrumRow>> modes;
+  for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
+    while (end < rows.size() && rows[end].mode == rows[begin].mode) ++end;
+    modes.emplace_back(rows.data() + begin, end - begin);
+  }
+  return modes;
 }
 
 bool is_undamped(const SpectrumRow* row) { return row != nullptr && row->exact_decay <= row->round_off; }
@@ -93,20 +112,29 @@ std::string spectrum_sentence(const Spectrum& spectrum) {
 }
 
 std::string spectrum_table(const Spectrum& spectrum) {
+  const std::vector<SpectrumRow>& rows = spectrum.rows;
+  if (nothing_happens(rows))
+    return premise(spectrum) +
+           "It neither damps nor turns: all its rates are zero, in the equation and in the step, and there is nothing to "
+           "compare.\n";
   std::string text = premise(spectrum) + "\n";
   fmt::format_to(std::back_inserter(text), "{:<12} {:>13} {:>13} {:>11} {:>13} {:>13} {:>11}\n", "mode", "decay",
                  "numerical", "difference", "frequency", "numerical", "phase error");
-  const std::vector<SpectrumRow>& rows = spectrum.rows;
   const SpectrumVerdict verdict = judge(spectrum);
-  const std::size_t stride = (rows.size() + shown_rows - 1) / shown_rows;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const SpectrumRow* row = &rows[i];
-    const bool named = row == verdict.most_spurious || row == verdict.most_missing || row == verdict.worst_phase ||
-                       row == verdict.worst_relative;
-    if (i % stride == 0 || i + 1 == rows.size() || named) text += line_of(*row);
+  const std::vector<std::span<const SpectrumRow>> modes = by_mode(rows);
+  const std::size_t per_mode = (rows.size() + modes.size() - 1) / modes.size();
+  const std::size_t shown = shown_rows / std::min(per_mode, shown_rows);
+  const std::size_t stride = (modes.size() + shown - 1) / shown;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const bool named = std::any_of(modes[i].begin(), modes[i].end(), [&](const SpectrumRow& row) {
+      return &row == verdict.most_spurious || &row == verdict.most_missing || &row == verdict.worst_phase ||
+             &row == verdict.worst_relative;
+    });
+    if (i % stride != 0 && i + 1 != modes.size() && !named) continue;
+    for (const SpectrumRow& row : modes[i]) text += line_of(row);
   }
   if (stride > 1)
-    text += fmt::format("one of {} modes in each {}, and the worst; --out and --json give all\n", rows.size(), stride);
+    text += fmt::format("one of {} modes in each {}, and the worst; --out and --json give all\n", modes.size(), stride);
   return text + "\n" + spectrum_sentence(spectrum);
 }
 

@@ -1,5 +1,6 @@
 #include "paper_cases.hpp"
 
+#include <seiche/config/custom_problem.hpp>
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/field_rates.hpp>
@@ -209,6 +210,47 @@ std::vector<NamedProblem> beyond_linear_cases() {
   };
 }
 
+std::vector<NamedProblem> written_cases() {
+  const GridOptions line{.points = {10}, .length = {6.0}};
+  const GridOptions chain{.points = {7}, .length = {7.0}, .boundary = {Boundary::dirichlet}};
+  return {
+      {"written_Henon_Heiles",
+       custom_problem(
+           {.fields = {"x", "y", "px", "py"},
+            .H = "(px^2 + py^2 + x^2 + y^2)/2 + x^2*y - y^3/3",
+            .D = {{"0", "0", "0", "0"}, {"0", "0", "0", "0"}, {"0", "0", "0.1", "0"}, {"0", "0", "0", "0.2"}},
+            .initial = {{"x", "0.3"}, {"y", "-0.1"}, {"px", "0"}, {"py", "0.2"}}})},
+      {"written_pendulum", custom_problem({.parameters = {{"g", 1.0}, {"gamma", 0.2}},
+                                           .H = "p^2/2 + g*(1 - cos(q))",
+                                           .D = {{"0", "0"}, {"0", "gamma"}},
+                                           .initial = {{"q", "1.2"}, {"p", "0"}}})},
+      {"written_Toda", custom_problem({.grid = chain,
+                                       .H = "v^2/2 + exp(-du) + du - 1 + 0.05*du^2",
+                                       .D = {{"0", "0"}, {"0", "0.1 - 0.05*laplacian"}},
+                                       .initial = {{"u", "0.3*sin(2*x)"}, {"v", "0"}}})},
+      {"written_two_fields",
+       custom_problem(
+           {.fields = {"u", "w", "p", "r"},
+            .grid = line,
+            .H = "(p^2 + r^2 + u_x^2)/2 + 0.3*w_x^2 + 0.2*u_x*w_x + 1 - cos(u - w) + "
+                 "0.1*(1 + x/6)*u^2*w^2 + sqrt(1 + w^2)",
+            .D = {{"0", "0", "0", "0"}, {"0", "0", "0", "0"}, {"0", "0", "0.2", "0"}, {"0", "0", "0", "0.2"}},
+            .initial = {{"u", "0.5*sin(x)"}, {"w", "0.3*cos(x)"}, {"p", "0"}, {"r", "0.1"}}})},
+      {"written_Kawahara", custom_problem({.fields = {"u"},
+                                           .grid = line,
+                                           .H = "0.05*u_x^2 + 0.01*u_xx^2 + u^3/6 + u^4/12",
+                                           .S = {{"d_x"}},
+                                           .D = {{"0.1 + 0.05*sin(t)"}},
+                                           .initial = {{"u", "0.4*exp(-(x - 3)^2)"}}})},
+      {"NLS_written_in_a_trap", custom_problem({.fields = {"a", "b"},
+                                                .grid = line,
+                                                .M = {{"-laplacian/2", "0"}, {"0", "-laplacian/2"}},
+                                                .V = "0.1*(x - 3)^2*(a^2 + b^2)/2 + (a^2 + b^2)^2/4",
+                                                .D = {{"0.1", "0"}, {"0", "0.1"}},
+                                                .initial = {{"a", "exp(-(x - 3)^2)"}, {"b", "0.1"}}})},
+  };
+}
+
 std::vector<NamedProblem> all_cases() {
   std::vector<NamedProblem> cases = golden_cases();
   for (NamedProblem& c : grid_cases()) cases.push_back(std::move(c));
@@ -216,6 +258,7 @@ std::vector<NamedProblem> all_cases() {
   for (NamedProblem& c : field_rate_cases()) cases.push_back(std::move(c));
   for (NamedProblem& c : matrix_cases()) cases.push_back(std::move(c));
   for (NamedProblem& c : beyond_linear_cases()) cases.push_back(std::move(c));
+  for (NamedProblem& c : written_cases()) cases.push_back(std::move(c));
   cases.push_back({"KG_defocusing", klein_gordon_case(0.1, 1.0)});
   cases.push_back({"gKdV_sigma_1", gkdv_case(0.5, 1.0, 1.0)});
   cases.push_back({"Duffing", duffing_case()});

@@ -1,0 +1,97 @@
+// seiche plot: the pictures of a finished run, and its report with them.
+#include "command_line.hpp"
+
+#include <fmt/ranges.h>
+#include <seiche/core/error.hpp>
+#include <seiche/figure/rendering.hpp>
+#include <seiche/figure/run_report.hpp>
+#include <seiche/output/solution_reader.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <sstream>
+
+namespace seiche::cli {
+namespace {
+
+struct PlotArguments {
+  std::string directory;
+  std::string formats = "png,pdf,svg";
+  std::string film_fields;
+  bool no_film = false;
+};
+
+std::vector<std::string> parsed_formats(const std::string& text) {
+  std::vector<std::string> formats;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::vector<std::string>& known = picture_formats();
+    if (std::find(known.begin(), known.end(), word) == known.end()) throw unknown_name("--format", word, known);
+    if (std::find(formats.begin(), formats.end(), word) == formats.end()) formats.push_back(word);
+  }
+  if (formats.empty()) throw Error("--format needs one or more of {}", fmt::join(picture_formats(), ","));
+  return formats;
+}
+
+std::vector<std::string> parsed_fields(const std::string& text, const SolutionReader& solution) {
+  std::vector<std::string> fields;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const std::vector<std::string>& known = solution.fields();
+    if (std::find(known.begin(), known.end(), word) == known.end()) throw unknown_name("--film", word, known);
+    fields.push_back(word);
+  }
+  if (!fields.empty() && solution.axes().size() != 2)
+    throw Error("--film {}: films are of solutions in the plane, and this one has {} axes", text,
+                solution.axes().size());
+  return fields;
+}
+
+ExitCode plot(const PlotArguments& arguments) {
+  PictureOptions options{.formats = parsed_formats(arguments.formats), .film = !arguments.no_film};
+  const RunFiles run = read_run(arguments.directory);
+  const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
+  if (!std::filesystem::exists(run.directory / "solution.h5"))
+    throw Error("{} is no directory of a finished run: it has no solution.h5", run.directory.string());
+  if (!arguments.film_fields.empty())
+    options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.directory / "solution.h5"));
+  try {
+    const RunPictures pictures = draw_run(run, history, options);
+    write_run_report(run, history, pictures);
+    print_lines(
+        fmt::format("{:<10} {} in {}\n", "pictures", pictures.list.size(), (run.directory / "figures").string()));
+    for (const Film& film : pictures.films) {
+      print_lines(fmt::format("{:<10} {}\n", "film",
+                              film.file.empty() ? fmt::format("{} frames; {}", film.frames, film.note)
+                                                : (run.directory / film.file).string()));
+      if (!film.dark_file.empty())
+        print_lines(fmt::format("{:<10} {}\n", "", (run.directory / film.dark_file).string()));
+    }
+  } catch (const Error& error) {  // the run and its files are what they were
+    write_run_report(run, history, {}, error.what());
+    print_note(error.what());
+    return computation_failed;
+  }
+  print_lines(fmt::format("{:<10} {}\n", "report", (run.directory / "report.html").string()));
+  return success;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<PlotArguments>();
+  CLI::App* command =
+      app.add_subcommand("plot", "Draw a finished run: energies, solution, film, and report.html with them");
+  command->add_option("DIR", arguments->directory, "The directory that a run left")->required()->type_name("");
+  command->add_option("--format", arguments->formats, "Kinds of files: png, pdf, svg (all if not given; png always)")
+      ->type_name("LIST");
+  CLI::Option* film = command
+                          ->add_option("--film", arguments->film_fields,
+                                       "Fields to film, of a solution in the plane (the first if not given)")
+                          ->type_name("FIELDS");
+  command->add_flag("--no-film", arguments->no_film, "No film of a solution in the plane, which takes longest")
+      ->excludes(film);
+  command->callback([arguments, &action] { action = [arguments] { return plot(*arguments); }; });
+}
+
+}  // namespace seiche::cli

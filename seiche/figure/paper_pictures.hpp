@@ -1,0 +1,31 @@
+// Which figures there are: four pictures per example, the two formulations of Example 2 side by side, and the side
+// studies. One file per picture and format.
+#pragma once
+
+#include <seiche/figure/plot.hpp>
+#include <seiche/study/results.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+struct CurvePicture {
+  std::string caption;  // for the report
+  Plot plot;            // its stem names the files
+};
+
+// Orders, efficiency, energy, energy error. `quick` is said in the titles.
+std::vector<CurvePicture> example_pictures(const ExampleResult& example, bool quick = false);
+// Nothing without both formulations of Example 2.
+std::optional<CurvePicture> formulations_picture(const PaperResults& results);
+CurvePicture side_picture(const SideStudy& study, bool quick = false);
+std::vector<CurvePicture> paper_pictures(const PaperResults& results);
+
+// Draws all pictures into directory/figures. Throws Error if gnuplot is missing or fails; figures of an earlier run are
+// gone then, so that a report never shows them beside new numbers.
+void draw_paper(const PaperResults& results, const std::filesystem::path& directory);
+
+}  // namespace seiche

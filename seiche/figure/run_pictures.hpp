@@ -1,0 +1,35 @@
+// The pictures of a finished run, drawn into its folder.
+#pragma once
+
+#include <seiche/figure/film.hpp>
+#include <seiche/study/energy_history.hpp>
+
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+struct RunPicture {
+  std::string stem;  // figures/<stem>.png for a light ground, figures/<stem>_dark.png for a dark one
+  std::string title, caption;
+};
+
+struct RunPictures {
+  std::vector<RunPicture> list;
+  std::vector<std::string> formats;
+  std::vector<Film> films;
+};
+
+struct PictureOptions {
+  std::vector<std::string> formats = {"png", "pdf", "svg"};  // png is always among them: the report shows it
+  bool film = true;
+  std::vector<std::string> film_fields = {};  // empty: the first
+};
+
+// Throws Error where gnuplot is missing or fails, or solution.h5 cannot be read. What an earlier call drew is gone.
+RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options = {});
+
+// Of an earlier run in this folder: its report and what draw_run left in figures, so that nothing old stands beside new data.
+void remove_pictures(const std::filesystem::path& directory);
+
+}  // namespace seiche

@@ -1,0 +1,216 @@
+#include <seiche/core/error.hpp>
+#include <seiche/figure/curves.hpp>
+#include <seiche/figure/html.hpp>
+#include <seiche/figure/picture_choice.hpp>
+#include <seiche/figure/report_style.hpp>
+#include <seiche/figure/run_report.hpp>
+#include <seiche/figure/style.hpp>
+#include <seiche/figure/symbols.hpp>
+#include <seiche/output/atomic_file.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string mark(const char* kind, const char* symbol, const std::string& text) {
+  // The text variant of the symbol, where fonts also have a coloured picture.
+  return fmt::format(R"(<span class="outcome {}"><span aria-hidden="true">{}&#xFE0E;</span> {}</span>)", kind, symbol,
+                     html_escaped(text));
+}
+
+std::string status_mark(const RunFiles& run) {
+  if (run.status == "success") return mark("holds", "✓", "success");
+  return run.status == "failed" ? mark("fails", "✗", run.status) : mark("depends", "≈", run.status);
+}
+
+std::string law_mark(const RunFiles& run) {
+  if (run.law == "holds") return mark("holds", "✓", "the energy law holds");
+  return run.law == "violated" ? mark("fails", "✗", "the energy law is violated")
+                               : mark("depends", "≈", "no energy law is promised");
+}
+
+std::string grade_mark(const std::string& grade) {
+  if (grade == "violated") return mark("fails", "✗", grade);
+  return grade == "sampled" ? mark("depends", "≈", grade) : mark("holds", "✓", grade);
+}
+
+std::string steps_text(const RunFiles& run) {
+  return run.spec.tolerance ? fmt::format("Steps of variable size for the tolerance {:g}", *run.spec.tolerance)
+                            : fmt::format("Steps of size h = {}", step_text(run.spec.h));
+}
+
+std::string head(const RunFiles& run) {
+  const std::string title = fmt::format("{} by {}", run_name(run), method_label(run.method));
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n<style>{1}{2}</style>\n"
+      "</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p class=\"of\">{3}</p>\n",
+      html_escaped(title), report_style, run_report_style, html_text(run.equation));
+  std::string sentence = run.message;
+  if (!sentence.empty()) sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+  text += fmt::format("<p>{} {}</p>\n<p>{}. {}, backend {}.</p>\n", status_mark(run), law_mark(run),
+                      html_text(sentence), html_text(steps_text(run)), html_escaped(run.backend));
+  return text;
+}
+
+// As it is where that is short.
+std::string number(double value) {
+  const double size = std::abs(value);
+  return size >= 1e-3 && size < 1e6 ? fmt::format("{}{:.4g}", value < 0 ? "−" : "", size) : html_number(value);
+}
+
+std::string energy_row(const char* name, const EnergyNumbers& energy) {
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{:.10g}</td><td>{:.10g}</td><td>{}</td></tr>\n", name,
+                     energy.initial, energy.final, html_number(energy.max_increase));
+}
+
+std::string energies(const RunFiles& run) {
+  std::string text =
+      "<h2 id=\"energy\">Energy</h2>\n<div class=\"scroll\"><table class=\"numbers narrow\"><thead><tr><th scope=\"col\"></th>"
+      "<th scope=\"col\">at the start</th><th scope=\"col\">at the end</th><th scope=\"col\">largest rise in a "
+      "record</th></tr></thead>\n<tbody>\n";
+  text += energy_row("H", run.energy);
+  if (run.modified) text += energy_row("modified energy", *run.modified);
+  return text + "</tbody></table></div>\n";
+}
+
+std::string certificate(const RunFiles& run) {
+  std::string text = "<h2 id=\"certificate\">Certificate</h2>\n";
+  text += run.promised ? fmt::format("<p>The energy law is promised: {}.</p>\n", html_text(run.law_reason))
+                       : fmt::format("<p>No energy law is promised: {}.</p>\n", html_text(run.law_reason));
+  if (!run.theorem.empty()) text += fmt::format("<p class=\"source\">{}</p>\n", html_text(run.theorem));
+  if (run.hypotheses.empty()) return text;
+  text +=
+      "<div class=\"scroll\"><table class=\"certificate\"><thead><tr><th scope=\"col\">Hypothesis</th><th scope=\"col\">Known</th>"
+      "<th scope=\"col\">What was found</th></tr></thead>\n<tbody>\n";
+  for (const HypothesisFound& one : run.hypotheses) {
+    const std::string witness =
+        one.witness.empty() ? "" : "<div class=\"source\">Witness: " + html_text(one.witness) + "</div>";
+    text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}{}</td></tr>\n", html_text(one.name),
+                        grade_mark(one.grade), html_text(one.statement), witness);
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string ledger(const RunFiles& run, const EnergyHistory& history) {
+  if (history.causes.empty() || history.H.value.empty()) return "";
+  std::string text =
+      "<h2 id=\"ledger\">Ledger</h2>\n<p>Where the change of H over the whole run comes from.</p>\n<div class=\"scroll\">"
+      "<table class=\"numbers narrow\"><thead><tr><th scope=\"col\">Part</th><th scope=\"col\">change of H</th></tr></thead>\n"
+      "<tbody>\n";
+  for (const Curve& cause : history.causes)
+    text += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n",
+                        html_escaped(cause_label(history, cause.name)), number(cause.value.back()));
+  return text +
+         fmt::format("<tr class=\"group\"><th scope=\"row\">all together</th><td>{}</td></tr></tbody></table></div>\n",
+                     number(run.energy.final - run.energy.initial));
+}
+
+// Light and dark, as the page is.
+std::string figure(const RunFiles& run, const RunPictures& pictures, const RunPicture& picture) {
+  const fs::path figures = run.directory / "figures";
+  std::string files;
+  for (const std::string& format : pictures.formats) {
+    const std::string name = html_escaped(picture.stem + "." + format);
+    if (fs::exists(figures / (picture.stem + "." + format)))
+      files += fmt::format(" <a href=\"figures/{0}\">{1}</a>", name, format);
+  }
+  const std::string caption = fmt::format("<figcaption>{} <span class=\"files\">{}</span></figcaption></figure>\n",
+                                          html_text(picture.caption), files);
+  try {
+    const PngPicture light = read_png(figures / (picture.stem + ".png"));
+    const PngPicture dark = read_png(figures / (picture.stem + "_dark.png"));
+    return fmt::format(
+        "<figure><div class=\"drawn\"><picture><source media=\"(prefers-color-scheme: dark)\" srcset=\"{}\"><img src=\"{}\" "
+        "width=\"{}\" height=\"{}\" alt=\"{}\"></picture></div>{}",
+        dark.data_uri, light.data_uri, light.width, light.height, html_escaped(picture.title), caption);
+  } catch (const Error&) {
+    return "<figure><div class=\"missing\">" + html_escaped(picture.title) + ": not drawn</div>" + caption;
+  }
+}
+
+std::string film(const Film& film) {
+  if (film.frames == 0) return "";
+  if (!film.file.empty()) {
+    const auto shown = [](const std::string& file, const char* ground) {
+      return fmt::format("<video class=\"{}\" src=\"{}\" controls loop muted preload=\"metadata\"></video>", ground,
+                         html_escaped(file));
+    };
+    const auto link = [](const std::string& file) {
+      return fmt::format("<a href=\"{0}\">{0}</a>", html_escaped(file));
+    };
+    std::string text = "<figure class=\"film\"><div class=\"drawn\">" +
+                       shown(film.file, film.dark_file.empty() ? "on-both" : "on-light");
+    if (!film.dark_file.empty()) text += shown(film.dark_file, "on-dark");
+    text += fmt::format("</div><figcaption>{}: {} frames with one scale of colours.{} {}",
+                        html_text(in_text(film.field)), film.frames, html_text(film.remark), link(film.file));
+    if (!film.dark_file.empty()) text += ", and for a dark ground " + link(film.dark_file);
+    return text + ".</figcaption></figure>\n";
+  }
+  return fmt::format("<p>The {} frames of a film of {} are in <code>figures/film</code>; {}.</p>\n", film.frames,
+                     html_text(in_text(film.field)), html_text(film.note));
+}
+
+std::string pictures_section(const RunFiles& run, const RunPictures& pictures, const std::string& why_none) {
+  std::string text = "<h2 id=\"pictures\">Pictures</h2>\n";
+  if (pictures.list.empty()) {
+    return text + (why_none.empty()
+                       ? "<p>Not drawn yet: <code>seiche plot</code> with the name of this folder draws them.</p>\n"
+                       : "<p class=\"notice\"><strong>Without pictures.</strong> " + html_escaped(why_none) +
+                             ". Everything else is complete.</p>\n");
+  }
+  text += "<div class=\"pictures\">\n";
+  for (const RunPicture& picture : pictures.list) text += figure(run, pictures, picture);
+  text += "</div>\n";
+  if (!pictures.films.empty()) text += pictures.films.size() > 1 ? "<h3>Films</h3>\n" : "<h3>Film</h3>\n";
+  for (const Film& one : pictures.films) text += film(one);
+  return text;
+}
+
+std::string table_row(const std::string& name, const std::string& value) {
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", html_escaped(name), value);
+}
+
+std::string origin(const RunFiles& run) {
+  std::string text =
+      "<h2 id=\"origin\">The case, and how to repeat it</h2>\n<p>Put this into a file, or take <code>case.toml</code> from this "
+      "folder, and run <code>seiche run case.toml --out DIR</code>. <code>seiche audit DIR</code> computes the energies "
+      "anew from the files.</p>\n";
+  text += "<pre><code>" + html_escaped(run.case_text) +
+          "</code></pre>\n<div class=\"scroll\"><table class=\"narrow\"><tbody>\n";
+  text += table_row("problem", html_text(run.reference)) + table_row("method", html_text(run.method_reference));
+  for (const auto& [name, count] : run.counts) {
+    std::string words = name;
+    std::replace(words.begin(), words.end(), '_', ' ');
+    text += table_row(words, fmt::format("{}", count));
+  }
+  text += table_row("time of the run", fmt::format("{:.3g} s", run.wall_seconds));
+  text +=
+      "</tbody></table></div>\n<details><summary>Versions</summary><div class=\"scroll\"><table class=\"narrow\"><tbody>\n";
+  for (const auto& [what, version] : run.versions) text += table_row(what, html_escaped(version));
+  return text + "</tbody></table></div></details>\n";
+}
+
+}  // namespace
+
+void write_run_report(const RunFiles& run, const EnergyHistory& history, const RunPictures& pictures,
+                      const std::string& no_pictures_because) {
+  AtomicFile file(run.directory / "report.html");
+  file.write(head(run));
+  file.write(energies(run));
+  file.write(pictures_section(run, pictures, no_pictures_because));
+  file.write(ledger(run, history));
+  file.write(certificate(run));
+  file.write(origin(run));
+  file.write("</main>\n</body>\n</html>\n");
+  file.commit();
+}
+
+}  // namespace seiche

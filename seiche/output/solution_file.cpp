@@ -1,0 +1,170 @@
+#include <seiche/core/error.hpp>
+#include <seiche/output/solution_file.hpp>
+#include <seiche/output/xdmf.hpp>
+
+#include <fmt/ranges.h>
+
+namespace seiche {
+namespace {
+
+constexpr auto write_at_least_every = std::chrono::seconds(5);
+
+std::string meaning_of(const SolutionDescription& description, std::size_t field, const std::string& name) {
+  return field < description.meanings.size() ? description.meanings[field] : "field " + name;
+}
+
+}  // namespace
+
+SolutionFile::SolutionFile(const std::filesystem::path& directory, const Problem& problem, const Space& space,
+                           const SnapshotTimes& times, bool has_modified_energy, const SolutionDescription& description)
+    : path_(directory / "solution.h5"),
+      xdmf_(directory / "solution.xdmf"),
+      layout_(solution_layout(problem)),
+      file_(Hdf5File::create(path_.temporary())),
+      space_(space),
+      times_(times),
+      has_modified_(has_modified_energy),
+      most_waiting_(layout_.chunk().front()),
+      last_write_(std::chrono::steady_clock::now()),
+      values_(space.physical_size()) {
+  set_attribute(file_.id(), "Conventions", "CF-1.10");
+  for (const auto& [name, text] : description.texts) set_attribute(file_.id(), name, text);
+  set_attribute(file_.id(), "fields", fmt::format("{}", fmt::join(layout_.fields, " ")));
+  set_attribute(file_.id(), "status", "unfinished");
+
+  const Hdf5Layout per_time{.chunk = {1024}};
+  Hdf5Dataset t = make("t", "time", per_time);
+  const std::vector<Hdf5Dataset> axes = make_axes();
+  const Hdf5Layout per_field{.row = layout_.shape(), .chunk = layout_.chunk()};
+  for (std::size_t f = 0; f < layout_.fields.size(); ++f)
+    columns_.push_back({make(layout_.fields[f], meaning_of(description, f, layout_.fields[f]), per_field), {}});
+  columns_.push_back({make("H", "energy H = ½zᵀMz + V(z), summed over points", per_time), {}});
+  if (has_modified_)
+    columns_.push_back({make("H_modified", "modified energy, whose law the method keeps", per_time), {}});
+  columns_.push_back({std::move(t), {}});
+  write_mesh();
+  write_bars();
+
+  std::vector<Hdf5Axes> all;
+  for (std::size_t i = 0; i + 1 < columns_.size(); ++i) {
+    Hdf5Axes own{&columns_[i].data, {&columns_.back().data}};
+    if (i < layout_.fields.size())
+      for (const Hdf5Dataset& axis : axes) own.scales.push_back(&axis);
+    all.push_back(own);
+  }
+  attach_scales(file_, all);
+  file_.flush();
+}
+
+// Every problem is stated in units of its own, so that its numbers carry none.
+Hdf5Dataset SolutionFile::make(const std::string& name, const std::string& meaning, const Hdf5Layout& layout) {
+  Hdf5Dataset data = file_.make_dataset(name, layout);
+  set_attribute(data.id(), "long_name", meaning);
+  set_attribute(data.id(), "units", "1");
+  return data;
+}
+
+std::vector<Hdf5Dataset> SolutionFile::make_axes() {
+  std::vector<Hdf5Dataset> axes;
+  for (const SolutionAxis& axis : layout_.axes) {
+    const bool whole = axis.name == "point";
+    axes.push_back(make(axis.name, axis.meaning, {.chunk = {axis.values.size()}, .whole_numbers = whole}));
+    axes.back().append(axis.values);
+  }
+  return axes;
+}
+
+// Where the points are, one by one, for readers that want the first axis to run fastest, as ParaView.
+void SolutionFile::write_mesh() {
+  const bool nodes = !layout_.nodes.empty();
+  const std::size_t axes = layout_.axes.size();
+  if (layout_.mesh().empty()) return;
+  file_.make_group("mesh");
+  const Hdf5Shape shape = layout_.shape();
+  Hdf5Layout rows{.row = {shape.begin() + 1, shape.end()}, .chunk = layout_.chunk()};
+  rows.row.push_back(3);
+  rows.chunk.erase(rows.chunk.begin());
+  rows.chunk.push_back(3);
+  Hdf5Dataset points = make(layout_.mesh(), "x, y and z of every point", rows);
+  const std::uint64_t slab = layout_.points() / shape.front();
+  constexpr std::size_t enough = 1U << 16U;  // not all at once, and not one by one
+  std::vector<double> listed;
+  for (std::uint64_t point = 0; point < layout_.points(); ++point) {
+    Place place{};
+    std::uint64_t rest = point;
+    for (std::size_t a = axes; a-- > 0; rest /= shape[a]) place[a] = layout_.axes[a].values[rest % shape[a]];
+    if (nodes) place = layout_.nodes[point];
+    listed.insert(listed.end(), place.begin(), place.end());
+    if ((point + 1) % slab != 0 || (listed.size() < enough && point + 1 < layout_.points())) continue;
+    points.append(listed);
+    listed.clear();
+  }
+}
+
+void SolutionFile::write_bars() {
+  if (layout_.bars.empty()) return;
+  constexpr std::uint64_t rows = 4096;
+  std::vector<double> ends, places;
+  for (const auto& bar : layout_.bars)
+    ends.insert(ends.end(), {static_cast<double>(bar[0]), static_cast<double>(bar[1])});
+  for (const Place& place : layout_.supports) places.insert(places.end(), place.begin(), place.end());
+  make("mesh/supports", "x, y and z of the points that do not move", {.row = {3}, .chunk = {rows, 3}}).append(places);
+  make("mesh/bars", "both ends of every bar, from 0: rows of mesh/points, and behind them of mesh/supports",
+       {.row = {2}, .chunk = {rows, 2}, .whole_numbers = true})
+      .append(ends);
+}
+
+bool SolutionFile::is_due(const State& state, bool last) const {
+  if (times_.interval > 0) return (last || state.n == 0) && state.t > last_t_;
+  return times_.schedule.is_due(state.n, last);
+}
+
+double SolutionFile::next_time() const {
+  return times_.interval > 0 ? static_cast<double>(shown_ + 1) * times_.interval
+                             : std::numeric_limits<double>::infinity();
+}
+
+void SolutionFile::observe(const State& state, const EnergyReading& energy) {
+  broken_ = true;  // until all of it succeeded
+  last_t_ = state.t;
+  while (next_time() <= state.t) ++shown_;
+  space_.to_physical(state.z, values_);
+  const std::span<const double> all{values_.data(), static_cast<std::size_t>(values_.size())};
+  const std::size_t fields = layout_.fields.size();
+  for (std::size_t f = 0; f < fields; ++f) add(columns_[f], all.subspan(f * layout_.points(), layout_.points()));
+  add(columns_[fields], {&energy.H, 1});
+  if (has_modified_) add(columns_[fields + 1], {&energy.modified, 1});
+  add(columns_.back(), {&state.t, 1});
+  ++waiting_;
+  if (waiting_ >= most_waiting_ || std::chrono::steady_clock::now() - last_write_ > write_at_least_every) write_rows();
+  broken_ = false;
+}
+
+void SolutionFile::add(Column& column, std::span<const double> row) const {
+  if (most_waiting_ == 1) return column.data.append(row);  // large ones are kept once only
+  column.rows.insert(column.rows.end(), row.begin(), row.end());
+}
+
+void SolutionFile::write_rows() {
+  for (Column& column : columns_) {
+    column.data.append(column.rows);
+    column.rows.clear();
+  }
+  waiting_ = 0;
+  file_.flush();
+  last_write_ = std::chrono::steady_clock::now();
+}
+
+void SolutionFile::finish(const RunReport& report) {
+  if (broken_) return columns_.clear();  // the disk is full, and the run has said so
+  if (waiting_ > 0) write_rows();
+  set_attribute(file_.id(), "status", to_string(report.status));
+  set_attribute(file_.id(), "message", report.message);
+  set_attribute(file_.id(), "energy_law", to_string(report.law));
+  columns_.clear();
+  file_.close();
+  path_.commit();
+  write_xdmf(xdmf_, path_.path(), layout_, has_modified_);
+}
+
+}  // namespace seiche

@@ -1,0 +1,73 @@
+// solution.h5 and solution.xdmf: t, H and the fields on their grid at every due step. The first is an HDF5 file that NetCDF-4
+// readers such as xarray open with named dimensions and coordinates, the second tells ParaView what is in it.
+#pragma once
+
+#include <seiche/core/observer.hpp>
+#include <seiche/core/problem.hpp>
+#include <seiche/core/space.hpp>
+#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/hdf5.hpp>
+#include <seiche/output/solution_layout.hpp>
+
+#include <chrono>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// What the file says about itself, as attributes.
+struct SolutionDescription {
+  std::vector<std::string> meanings = {};         // of the fields, in their order: "displacement"
+  std::map<std::string, std::string> texts = {};  // "equation", "method", "case", …
+};
+
+struct SnapshotTimes {
+  Schedule schedule = {};
+  double interval = 0.0;  // > 0: at its multiples, and `schedule` counts for the first and the last state only
+};
+
+// Rows go to the disk chunk by chunk, and at least every few seconds: memory does not grow with the run, and a program that
+// is killed leaves a readable solution.h5.partial behind.
+class SolutionFile : public Observer {
+ public:
+  // In `directory`, which exists. `space` outlives the observer. Throws Error where nothing can be written.
+  SolutionFile(const std::filesystem::path& directory, const Problem& problem, const Space& space,
+               const SnapshotTimes& times, bool has_modified_energy, const SolutionDescription& description = {});
+
+  bool is_due(const State& state, bool last) const override;
+  double next_time() const override;
+  void observe(const State& state, const EnergyReading& energy) override;
+  void finish(const RunReport& report) override;
+
+ private:
+  struct Column {  // a data set with its rows that are not yet written
+    Hdf5Dataset data;
+    std::vector<double> rows;
+  };
+  Hdf5Dataset make(const std::string& name, const std::string& meaning, const Hdf5Layout& layout);
+  std::vector<Hdf5Dataset> make_axes();
+  void write_mesh();
+  void write_bars();
+  void add(Column& column, std::span<const double> row) const;
+  void write_rows();
+
+  PartialPath path_;
+  std::filesystem::path xdmf_;
+  SolutionLayout layout_;
+  Hdf5File file_;
+  const Space& space_;
+  SnapshotTimes times_;
+  std::int64_t shown_ = 0;  // multiples of the interval
+  double last_t_ = -std::numeric_limits<double>::infinity();
+  std::vector<Column> columns_;  // the fields, H, H_modified if there is one, t
+  bool has_modified_;
+  bool broken_ = false;                     // a row could not be written
+  std::size_t waiting_ = 0, most_waiting_;  // rows
+  std::chrono::steady_clock::time_point last_write_;
+  Vector values_;
+};
+
+}  // namespace seiche

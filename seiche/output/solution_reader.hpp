@@ -1,0 +1,55 @@
+// solution.h5, read back one time after the other.
+#pragma once
+
+#include <seiche/core/grid.hpp>
+#include <seiche/output/hdf5.hpp>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+struct CoordinateAxis {
+  std::string name;  // "x", "y", "z", or "point"
+  std::vector<double> values;
+};
+
+class SolutionReader {
+ public:
+  // Throws Error where the file cannot be read, or is no solution.
+  explicit SolutionReader(const std::filesystem::path& path);
+
+  Index count() const { return static_cast<Index>(t_.rows()); }  // of times
+  std::vector<double> times() const { return all_of(t_); }
+  std::vector<double> energies() const { return all_of(H_); }
+  const std::vector<std::string>& fields() const { return fields_; }
+  const std::string& meaning(Index field) const { return meanings_[static_cast<std::size_t>(field)]; }
+  const std::vector<CoordinateAxis>& axes() const { return axes_; }  // of space; none for a single point
+  Index points() const { return points_; }
+  bool on_points() const { return !axes_.empty() && axes_.front().name == "point"; }
+  std::vector<Place> nodes() const;     // of numbered points that lie somewhere
+  std::vector<Place> supports() const;  // what stands between them, as in Grid
+  std::vector<std::array<Index, 2>> bars() const;
+
+  double time(Index k) const;
+  // Physical values at time k; all fields one after the other, in the order of z, or one of them.
+  void state(Index k, Vector& values) const;
+  void field(Index field, Index k, Vector& values) const;
+
+  std::string text(const std::string& attribute) const { return text_attribute(file_.id(), attribute); }
+
+ private:
+  static std::vector<double> all_of(const Hdf5Dataset& data);
+  std::vector<Place> places(const std::string& name) const;
+
+  Hdf5File file_;
+  Hdf5Dataset t_, H_;
+  std::vector<std::string> fields_, meanings_;
+  std::vector<Hdf5Dataset> data_;
+  std::vector<CoordinateAxis> axes_;
+  Index points_ = 1;
+};
+
+}  // namespace seiche

@@ -1,0 +1,206 @@
+#include <seiche/core/expression_graph.hpp>
+#include <seiche/core/gauss_rule.hpp>
+#include <seiche/potential/formula_potential.hpp>
+#include <seiche/potential/loops.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+constexpr std::size_t block = ExpressionGraph::block;
+constexpr std::size_t axes = 3;
+
+// Each thread has one, which grows to what the largest formula asks for in the worst case: later calls find it large enough.
+std::span<double> scratch_of(std::size_t size) {
+  thread_local std::vector<double> memory;
+  if (memory.size() < size) memory.resize(size);
+  return memory;
+}
+
+ExpressionGraph graph_of(const PointFormula& w) {
+  std::vector<std::span<const Instruction>> programs = {w.value->program()};
+  for (const FormulaPointer& derivative : w.gradient) programs.push_back(derivative->program());
+  return ExpressionGraph(static_cast<int>(w.gradient.size() + axes), programs);
+}
+
+class FormulaPotential final : public PointwisePotential {
+ public:
+  FormulaPotential(const PointFormula& w, const Grid& grid)
+      : w_(w), graph_(graph_of(w)), fields_(w.gradient.size()), mean_rule_(gauss_rule((w.degree + 1) / 2)) {
+    scratch_size_ =
+        std::max((2 + fields_) * graph_.table_size(), 2 * (fields_ + axes) + taylor_scratch_size(graph_, w.degree));
+    if (!w.uses_place) return;
+    const Index n = grid.unknowns();
+    for (Index a = 0; a < grid.dimension(); ++a) {
+      places_.emplace_back(static_cast<std::size_t>(n));
+      for (Index j = 0; j < n; ++j) places_.back()[static_cast<std::size_t>(j)] = grid.coordinate(j, a);
+    }
+  }
+
+  Index fields() const override { return static_cast<Index>(fields_); }
+  bool is_local() const override { return fields_ == 1 && !w_.uses_place; }
+  int degree() const override { return w_.degree; }
+  int homogeneity() const override { return w_.homogeneity; }
+  bool grows_outward() const override { return w_.grows_outward; }
+
+  double value(std::span<const double> u) const override {
+    return sum(u, [&](double* table, std::size_t, std::size_t points) {
+      graph_.evaluate_first(table, points);
+      return total(value_row(table), points);
+    });
+  }
+
+  ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
+    LongSum magnitude;
+    const double value = sum(u, [&](double* table, std::size_t, std::size_t points) {
+      double* const sizes = table + graph_.table_size();
+      graph_.evaluate_first(table, points);
+      term_sizes(graph_, table, points, sizes);
+      magnitude.add(total(value_row(sizes), points));
+      return total(value_row(table), points);
+    });
+    return {value, magnitude.total()};
+  }
+
+  double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {
+    return slopes(1, 1, u, gradient);
+  }
+
+  double value_and_gradient_in_place(double in, double out, std::span<double> values) const override {
+    return slopes(in, out, values, values);
+  }
+
+  void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override {
+    if (fields_ > 1 && w_.degree > 0) {
+      mean_by_quadrature(a, b, mean);
+    } else {
+      mean_by_slopes(a, b, mean);
+    }
+  }
+
+  void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
+    if (w_.degree == 0) {
+      std::fill(coefficients.begin(), coefficients.end(), 0.0);
+      return;
+    }
+    const std::size_t variables = fields_ + axes;
+    const std::span<double> memory = scratch_of(scratch_size_);
+    const std::span<double> here = memory.first(variables);
+    const std::span<double> way = memory.subspan(variables, variables);
+    std::fill_n(memory.begin(), 2 * variables, 0.0);
+    const std::size_t n = p.size() / fields_;
+    sum_coefficients(n, coefficients, [&](std::size_t j, double* into) {
+      for (std::size_t f = 0; f < fields_; ++f) {
+        here[f] = p[f * n + j];
+        way[f] = q[f * n + j];
+      }
+      for (std::size_t a = 0; a < places_.size(); ++a) here[fields_ + a] = places_[a][j];
+      add_taylor(graph_, here, way, w_.degree, memory.data() + 2 * variables, {into, coefficients.size()});
+    });
+  }
+
+ private:
+  const double* value_row(const double* table) const { return table + graph_.output(0) * block; }
+  const double* slope_row(const double* table, std::size_t field) const {
+    return table + graph_.output(1 + field) * block;
+  }
+
+  static double total(const double* values, std::size_t points) {
+    double sum = 0;
+    for (std::size_t j = 0; j < points; ++j) sum += values[j];
+    return sum;
+  }
+
+  // Fields in the order of u, times `factor`, and the place, into the rows of the variables.
+  void put_in(double* table, std::span<const double> u, double factor, std::size_t begin, std::size_t points) const {
+    const std::size_t n = u.size() / fields_;
+    for (std::size_t f = 0; f < fields_; ++f)
+      for (std::size_t j = 0; j < points; ++j) table[f * block + j] = factor * u[f * n + begin + j];
+    for (std::size_t a = 0; a < axes; ++a) {
+      double* const row = table + (fields_ + a) * block;
+      if (a < places_.size()) {
+        std::copy_n(places_[a].data() + begin, points, row);
+      } else {
+        std::fill_n(row, points, 0.0);
+      }
+    }
+  }
+
+  // Σ visit(table, first point, points) over the blocks, with u in the first of 2 + fields_ tables.
+  template <class Visit>
+  double sum(std::span<const double> u, const Visit& visit, double factor = 1) const {
+    double* const table = scratch_of(scratch_size_).data();
+    graph_.set_numbers(table);
+    const std::size_t n = u.size() / fields_;
+    LongSum all;
+    for (std::size_t begin = 0; begin < n; begin += block) {
+      const std::size_t points = std::min(block, n - begin);
+      put_in(table, u, factor, begin, points);
+      all.add(visit(table, begin, points));
+    }
+    return all.total();
+  }
+
+  double slopes(double in, double out, std::span<const double> u, std::span<double> gradient) const {
+    const std::size_t n = u.size() / fields_;
+    return sum(
+        u,
+        [&](double* table, std::size_t begin, std::size_t points) {
+          graph_.evaluate(table, points);
+          for (std::size_t f = 0; f < fields_; ++f)
+            for (std::size_t j = 0; j < points; ++j) gradient[f * n + begin + j] = out * slope_row(table, f)[j];
+          return total(value_row(table), points);
+        },
+        in);
+  }
+
+  void mean_by_slopes(std::span<const double> a, std::span<const double> b, std::span<double> mean) const {
+    const std::size_t n = a.size() / fields_;
+    sum(a, [&](double* at_a, std::size_t begin, std::size_t points) {
+      double* const at_b = at_a + graph_.table_size();
+      double* const slopes = at_b + graph_.table_size();
+      graph_.set_numbers(at_b);
+      put_in(at_b, b, 1, begin, points);
+      graph_.evaluate_first(at_a, points);
+      graph_.evaluate_first(at_b, points);
+      mean_slopes(graph_, at_a, at_b, static_cast<int>(fields_), points, slopes);
+      for (std::size_t f = 0; f < fields_; ++f)
+        std::copy_n(slopes + (graph_.output(0) * fields_ + f) * block, points, mean.data() + f * n + begin);
+      return 0.0;
+    });
+  }
+
+  void mean_by_quadrature(std::span<const double> a, std::span<const double> b, std::span<double> mean) const {
+    const std::size_t n = a.size() / fields_;
+    sum(a, [&](double* table, std::size_t begin, std::size_t points) {
+      for (std::size_t f = 0; f < fields_; ++f) std::fill_n(mean.data() + f * n + begin, points, 0.0);
+      for (const auto& [node, weight] : mean_rule_) {
+        for (std::size_t f = 0; f < fields_; ++f)
+          for (std::size_t j = 0; j < points; ++j) {
+            const std::size_t i = f * n + begin + j;
+            table[f * block + j] = a[i] + node * (b[i] - a[i]);
+          }
+        graph_.evaluate(table, points);
+        for (std::size_t f = 0; f < fields_; ++f)
+          for (std::size_t j = 0; j < points; ++j) mean[f * n + begin + j] += weight * slope_row(table, f)[j];
+      }
+      return 0.0;
+    });
+  }
+
+  PointFormula w_;
+  ExpressionGraph graph_;
+  std::size_t fields_, scratch_size_;
+  std::vector<GaussNode> mean_rule_;         // for polynomials
+  std::vector<std::vector<double>> places_;  // by axis; empty unless W asks
+};
+
+}  // namespace
+
+std::shared_ptr<const PointwisePotential> formula_potential(const PointFormula& w, const Grid& grid) {
+  return std::make_shared<FormulaPotential>(w, grid);
+}
+
+}  // namespace seiche

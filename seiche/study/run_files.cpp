@@ -1,0 +1,95 @@
+#include <seiche/config/case_file.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/problem/problems.hpp>
+#include <seiche/study/run_files.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace seiche {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream input(file);
+  if (!input) throw Error("{} cannot be read", file.string());
+  return {std::istreambuf_iterator<char>(input), {}};
+}
+
+double number(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number() ? found->get<double>() : std::nan("");
+}
+
+std::string text(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+Json member(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_structured() ? *found : Json::object();
+}
+
+EnergyNumbers numbers(const Json& energy) {
+  return {number(energy, "initial"), number(energy, "final"), number(energy, "max_increase")};
+}
+
+void read_certificate(const Json& certificate, RunFiles& run) {
+  for (const Json& item : member(certificate, "hypotheses"))
+    run.hypotheses.push_back(
+        {text(item, "hypothesis"), text(item, "grade"), text(item, "statement"), text(item, "witness")});
+  const Json law = member(certificate, "law");
+  run.promised = law.value("promised", false);
+  run.law_reason = text(law, "reason");
+  run.theorem = text(law, "theorem");
+}
+
+}  // namespace
+
+RunFiles read_run(const std::filesystem::path& directory) {
+  namespace fs = std::filesystem;
+  if (!fs::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
+  for (const char* name : {"case.toml", "summary.json", "energy.csv"})
+    if (!fs::exists(directory / name))
+      throw Error("{} is no directory of a finished run: it has no {}", directory.string(), name);
+  const Json summary = Json::parse(text_of(directory / "summary.json"), nullptr, false);
+  if (!summary.is_object() || !summary.contains("energy") || !summary.contains("status"))
+    throw Error("{} is no summary of a run", (directory / "summary.json").string());
+  RunFiles run;
+  run.directory = directory;
+  run.spec = read_case(directory / "case.toml");
+  run.case_text = text_of(directory / "case.toml");
+  if (run.spec.ensemble)
+    throw Error("{} holds an ensemble, which leaves statistics and no solution", directory.string());
+  const ProblemEntry& problem = problem_entry(run.spec);
+  run.equation = problem.equation;
+  run.reference = problem.reference;
+  run.method_reference = find_method(run.spec.method).reference;
+  run.status = text(summary, "status");
+  run.message = text(summary, "message");
+  run.problem = text(summary, "problem");
+  run.method = text(summary, "method");
+  run.backend = text(summary, "backend");
+  run.steps = summary.value("steps", std::int64_t{0});
+  run.t = number(summary, "t");
+  const Json energy = member(summary, "energy");
+  run.energy = numbers(energy);
+  if (energy.contains("modified") && energy["modified"].is_object()) run.modified = numbers(energy["modified"]);
+  run.law = text(energy, "law");
+  const Json counts = member(summary, "counts");
+  for (const auto& [name, count] : counts.items())
+    if (count.is_number_integer()) run.counts.emplace_back(name, count.get<std::int64_t>());
+  run.wall_seconds = number(summary, "wall_seconds");
+  const Json versions = member(summary, "versions");
+  for (const auto& [name, version] : versions.items())
+    if (version.is_string()) run.versions[name] = version;
+  read_certificate(member(summary, "certificate"), run);
+  return run;
+}
+
+}  // namespace seiche

@@ -1,0 +1,47 @@
+// What a run left in its folder, read back: the case, the summary, the certificate.
+#pragma once
+
+#include <seiche/config/run_spec.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace seiche {
+
+struct EnergyNumbers {
+  double initial, final, max_increase;  // NaN where the file has none
+};
+
+struct HypothesisFound {
+  std::string name, grade, statement, witness;
+};
+
+struct RunFiles {
+  std::filesystem::path directory;
+  RunSpec spec;
+  std::string case_text;
+  std::string equation, reference, method_reference;  // of the problem and the method
+
+  std::string status, message, problem, method, backend;
+  std::int64_t steps = 0;
+  double t = 0.0;
+  EnergyNumbers energy{};
+  std::optional<EnergyNumbers> modified;
+  std::string law;                                           // "holds", "violated", "not promised"
+  std::vector<std::pair<std::string, std::int64_t>> counts;  // in the order of the file
+  double wall_seconds = 0.0;
+  std::map<std::string, std::string> versions;
+  std::vector<HypothesisFound> hypotheses;
+  bool promised = false;
+  std::string law_reason, theorem;  // why (not); "" if none is promised
+};
+
+// Throws Error where `directory` is none of a single finished run, saying what is missing.
+RunFiles read_run(const std::filesystem::path& directory);
+
+}  // namespace seiche
