@@ -1,4 +1,4 @@
-# Installs `build` into a fresh prefix, builds the project beside this file against it, and runs both programs.
+# Installs `build` into a fresh prefix, builds the project beside this file and the examples against it, and runs them all.
 set(CMAKE_EXECUTE_PROCESS_COMMAND_ECHO STDOUT)
 set(work "${build}/package")
 set(prefix "${work}/prefix")
@@ -29,5 +29,25 @@ foreach(command IN ITEMS "${consumer}" "${program};--version")
   string(FIND "${output}" "${version}" position)
   if(position EQUAL -1)
     message(FATAL_ERROR "'${command}' printed '${output}', which does not name version ${version}")
+  endif()
+endforeach()
+
+# Each example says at its end what it prints.
+execute_process(COMMAND "${CMAKE_COMMAND}" -S "${source}/examples" -B "${work}/examples" -G "${generator}"
+  -D "CMAKE_BUILD_TYPE=${config}" -D "CMAKE_CXX_COMPILER=${compiler}" -D "CMAKE_PREFIX_PATH=${prefix}"
+  COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${CMAKE_COMMAND}" --build "${work}/examples" --config "${config}" COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB examples "${source}/examples/*.cpp")
+foreach(example IN LISTS examples)
+  cmake_path(GET example STEM name)
+  find_program(program_${name} ${name} PATHS "${work}/examples" "${work}/examples/${config}" NO_DEFAULT_PATH REQUIRED)
+  execute_process(COMMAND "${program_${name}}" OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+  file(READ "${example}" text)
+  if(NOT text MATCHES "\n// It prints:\n(.*)$")
+    message(FATAL_ERROR "${example} does not say what it prints")
+  endif()
+  string(REGEX REPLACE "//   " "" claim "${CMAKE_MATCH_1}")
+  if(NOT output STREQUAL claim)
+    message(FATAL_ERROR "${example} says that it prints\n${claim}but it printed\n${output}")
   endif()
 endforeach()
