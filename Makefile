@@ -6,7 +6,7 @@ WP_ARGS ?=
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps configure build paper test bench install format tidy asan clean
+.PHONY: help deps configure build paper test python bench install format tidy asan clean
 
 help:  ## this list
 	@echo "Seiche: energy-stable integrators for damped Hamiltonian systems"
@@ -25,9 +25,18 @@ paper: build  ## the paper's examples, figures and claims: out/paper/report.html
 	@build/release/seiche paper --out "$(OUT)" $(ARGS)
 	@echo "The report is $(OUT)/report.html"
 
-test: configure  ## build and run all tests
+test:  ## build and run all tests
+	@bash scripts/install-deps --python
+	@cmake --preset release >/dev/null
 	@cmake --build --preset release --parallel $(JOBS)
 	@ctest --preset release --parallel $(JOBS)
+
+python:  ## the Python package: build/python, to be imported from there (pip install . installs it)
+	@bash scripts/install-deps --python
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release --parallel $(JOBS) --target seiche_python
+	@ln -sfn release/python build/python
+	@echo "Now: PYTHONPATH=$(CURDIR)/build/python /usr/bin/python3 -c 'import seiche; print(seiche.__version__)'"
 
 bench:  ## build and run the benchmarks: step cost (ARGS), then work and precision (WP_ARGS=--quick, --help)
 	@bash scripts/install-deps --bench

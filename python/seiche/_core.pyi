@@ -1,0 +1,121 @@
+"""The compiled part of the package; its functions are called by the Python files beside it."""
+
+from typing import Any, Callable, Sequence
+
+import numpy as np
+
+__version__: str
+
+class Problem:
+    @property
+    def name(self) -> str: ...
+    @property
+    def fields(self) -> list[str]: ...
+    @property
+    def size(self) -> int: ...
+    @property
+    def axes(self) -> list[np.ndarray]: ...
+    @property
+    def layout(self) -> dict[str, list[tuple[str, str]]]:
+        """The fields, and the axes of one instant: their names and meanings in solution.h5."""
+    @property
+    def z0(self) -> np.ndarray: ...
+    @property
+    def notes(self) -> list[str]: ...
+
+class Case:
+    problem: str
+    method: str
+    h: float
+    tolerance: float | None
+    h_max: float
+    backend: str
+    t_end: float
+    ledger: bool
+    notes: list[str]
+    @property
+    def is_ensemble(self) -> bool: ...
+    def text(self) -> str: ...
+
+class Solution:
+    size: int
+    t: np.ndarray
+    y: np.ndarray
+    H: np.ndarray
+    modified: np.ndarray | None
+    t_events: list[np.ndarray]
+    y_events: list[np.ndarray]
+    ledger: dict[str, np.ndarray]
+    status: str
+    message: str
+    ended_by_event: bool
+    nfev: int
+    steps: int
+    law: str
+    law_reason: str
+    method: str
+    method_reason: str
+    backend: str
+    has_sol: bool
+    sol_span: tuple[float, float]
+    def at(self, times: np.ndarray) -> np.ndarray: ...
+    def report_json(self) -> str: ...
+    def certificate_json(self) -> str: ...
+
+class Ensemble:
+    t: np.ndarray
+    running: np.ndarray
+    H: dict[str, np.ndarray]
+    modified: dict[str, np.ndarray]
+    y: np.ndarray
+    status: list[str]
+    message: list[str]
+    law: list[str]
+    energy: list[float]
+    parameters: dict[str, np.ndarray]
+    in_lanes: bool
+    wall_seconds: float
+
+def parse_case(text: str, name: str, overrides: Sequence[str], folder: str) -> Case: ...
+def read_case(file: str, overrides: Sequence[str]) -> Case: ...
+def make_problem(case: Case) -> Problem: ...
+def problem_by_parts(
+    fields: int,
+    M: tuple[Any, ...] | None,
+    S: tuple[Any, ...] | None,
+    D: tuple[Any, ...] | None,
+    gamma: float | str | None,
+    V: Callable[[np.ndarray], float] | str | None,
+    gradient: Callable[[np.ndarray], Any] | None,
+    grows_outward: bool,
+    z0: np.ndarray | None,
+) -> Problem: ...
+def solve(
+    problem: Problem,
+    case: Case,
+    t_start: float,
+    t_end: float,
+    z0: np.ndarray | None,
+    t_eval: np.ndarray | None,
+    events: list[tuple[Any, ...]],
+    dense_output: bool,
+    observer: Callable[[float, np.ndarray, float], Any] | None,
+    record_every: int,
+    ledger: bool,
+    threads: int,
+) -> Solution: ...
+def ensemble_of_case(case: Case, threads: int) -> Ensemble: ...
+def ensemble_of_problems(
+    problems: list[Problem], initial: list[np.ndarray], case: Case, threads: int
+) -> Ensemble: ...
+def check(problem: Problem, case: Case) -> str: ...
+def spectrum(problem: Problem, case: Case) -> str: ...
+def converge(problem: Problem, methods: list[str], step_sizes: list[float], case: Case, timed: bool) -> str: ...
+def methods() -> list[dict[str, Any]]:
+    """Every method: name, closure, propagator, composition, order, the energy that never grows, reference."""
+
+def problems() -> list[dict[str, Any]]:
+    """Every problem: name, equation, reference, fields, initial data and parameters with their defaults."""
+
+def backends() -> list[dict[str, Any]]:
+    """Every backend: name and summary."""

@@ -1,0 +1,318 @@
+"""Equations: by name, from a case file, or by parts."""
+
+from __future__ import annotations
+
+import numbers
+import operator
+import os
+import re
+from typing import Any, Callable, Mapping, Sequence
+
+import numpy as np
+
+from . import _core
+from ._toml import section, toml
+
+_KEYWORDS = "<keywords>"
+
+
+def _refused(error: ValueError) -> ValueError:
+    """The sentence of the case parser without places that a Python user never wrote."""
+    text = re.sub(rf"^{_KEYWORDS}(:\d+:\d+)?: ", "", str(error))
+    text = re.sub(r"^--set \S+?=.*?: (?=[a-z])", "", text)
+    if text.startswith("unknown key in [method] "):  # its keys are arguments, and its name is `method`
+        text = text.replace("unknown key in [method] ", "unknown argument ").replace("Allowed: name,", "Allowed: method,")
+    elif text.startswith("unknown key in [problem] "):
+        text = text.replace("Allowed: name, ", "Allowed: ")
+    return ValueError(text)
+
+
+def parse_keywords(text: str, overrides: Sequence[str] = (), folder: str = "") -> _core.Case:
+    try:
+        return _core.parse_case(text, _KEYWORDS, list(overrides), folder)
+    except ValueError as error:
+        raise _refused(error) from None
+
+
+def make_problem(case: _core.Case) -> _core.Problem:
+    try:
+        return _core.make_problem(case)
+    except ValueError as error:
+        raise _refused(error) from None
+
+
+def real_array(name: str, values: Any) -> np.ndarray:
+    """The values as an array of floats. Complex numbers are refused, instead of losing a part."""
+    if np.iscomplexobj(values):
+        raise ValueError(f"{name} is complex; it must be real")
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} = {values!r} must be an array of numbers") from None
+
+
+def thread_count(threads: Any) -> int:
+    if threads is None:
+        return 1
+    try:
+        count = operator.index(threads)
+    except TypeError:
+        raise ValueError(f"threads = {threads!r} must be a whole number") from None
+    if count < 1:
+        raise ValueError(f"threads = {count} must be ≥ 1")
+    return count
+
+
+def override(key: str, value: Any) -> str:
+    return f"{key}={toml(value)}"
+
+
+def _columns(name: str, matrix: Any) -> tuple | None:
+    """A matrix, full or of scipy.sparse, in compressed columns."""
+    if matrix is None:
+        return None
+    if np.iscomplexobj(matrix):
+        raise ValueError(f"{name} is complex; it must be real")
+    if hasattr(matrix, "tocsc"):
+        m = matrix.tocsc(copy=True)
+        m.sum_duplicates()
+        return (*m.shape, m.data, m.indices, m.indptr)
+    full = real_array(name, matrix)
+    if full.ndim != 2:
+        raise ValueError(f"{name} has the shape {full.shape}; it must be a matrix")
+    column, row = np.nonzero(full.T)
+    starts = np.searchsorted(column, np.arange(full.shape[1] + 1))
+    return (*full.shape, full.T[column, row], row.astype(np.intc), starts.astype(np.intc))
+
+
+def _no_right_hand_side(given: Any) -> TypeError:
+    if not callable(given):
+        return TypeError(f"a problem is a seiche.Problem, a seiche.Case or a name, not {given!r}")
+    return TypeError(
+        "a problem is not a right-hand side f(t, z): the energy law needs the parts of ż = S∇H(z) − Dz. Write H by a formula, "
+        'seiche.Problem(fields=["q", "p"], H="p^2/2 + q^4/4", D={"p": 0.1}, initial={"q": 1, "p": 0}), or give matrices, '
+        "seiche.Problem(M=…, S=…, D=…, V=…, gradient=…, z0=…)"
+    )
+
+
+class Problem:
+    """ż = S∇H(z) − Dz − γ(t)v with H(z) = ½zᵀMz + V(u), by its parts; or written down by formulas.
+
+    By formulas, ``seiche.Problem(fields=["q", "p"], H="p^2/2 + q^4/4", D={"p": 0.1}, initial={"q": 1, "p": 0})``, the
+    arguments are the keys of a case file whose problem is named "custom" (`seiche new custom` prints one): fields, H or M and V, S, D,
+    parameters, initial, and for a grid points, length, boundary, discretisation. They are checked by the same parser.
+
+    Parameters of a problem by parts
+    --------------------------------
+    M : (n, n) array or scipy.sparse matrix
+        Symmetric and positive semidefinite.
+    S : (n, n) array or scipy.sparse matrix, optional
+        The structure, with S + Sᵀ negative semidefinite; by default [[0, I], [−I, 0]].
+    D : (n, n) array or scipy.sparse matrix, optional
+        Constant damping, 1/time.
+    V : callable or str, optional
+        ``V(u) -> float``: u, of shape (n // fields,), is the first field of z. Or a formula W(u), such as "1 - cos(u)": V is
+        then its sum over the points, and no Python function is called.
+    gradient : callable
+        ``gradient(u) -> array`` of the shape of u: ∇V at all points at once. It is compared
+        with V at z0 and at a few random states of its size. Not for a formula.
+    z0 : (n,) array, optional
+        The state at the start; `solve` may give another one.
+    fields : {2, 1}
+        z = (u, v) by default; or u alone, so that V is a function of all of z.
+    gamma : float or str, optional
+        Further damping of the last field, 1/time: a number or a formula in t.
+    grows_outward : bool
+        Is u·∇V(u) ≥ 0 for every u? Asked for where damping moves u, before an energy law is promised.
+
+    Raises
+    ------
+    ValueError
+        Where sizes do not fit or a hypothesis fails, with the entries or the direction that show it.
+    """
+
+    _core: _core.Problem
+    _text: str | None = None  # the [problem] section it came from
+    _has_initial: bool = True
+    _file: str | None = None  # the case file it came from
+
+    def __init__(
+        self,
+        *right_hand_side: Any,
+        M: Any = None,
+        S: Any = None,
+        D: Any = None,
+        H: str | None = None,
+        V: Callable[[np.ndarray], float] | str | None = None,
+        gradient: Callable[[np.ndarray], Any] | None = None,
+        z0: Any = None,
+        fields: int | Sequence[str] = 2,
+        gamma: float | str | None = None,
+        grows_outward: bool = False,
+        **written: Any,
+    ):
+        if right_hand_side:
+            raise _no_right_hand_side(right_hand_side[0])
+        if H is not None or not isinstance(fields, numbers.Integral):
+            for name, value in {"gradient": gradient, "z0": z0, "gamma": gamma}.items():
+                if value is not None:
+                    raise ValueError(f"{name} belongs to a problem by parts; by formulas write V, initial and D")
+            named = None if isinstance(fields, numbers.Integral) else list(fields)
+            stated = problem("custom", fields=named, H=H, M=M, V=V, S=S, D=D, **({"initial": "zero"} | written))
+            self._core, self._text = stated._core, stated._text
+            self._has_initial = "initial" in written
+            return
+        if written:
+            raise ValueError(f"{', '.join(written)}: only for a problem by formulas, with H or the names of its fields")
+        if M is None:
+            raise ValueError("a problem needs M, or H by a formula")
+        self._has_initial = z0 is not None
+        self._core = _core.problem_by_parts(
+            fields,
+            _columns("M", M),
+            _columns("S", S),
+            _columns("D", D),
+            gamma,
+            V,
+            gradient,
+            grows_outward,
+            None if z0 is None else real_array("z0", z0),
+        )
+
+    @classmethod
+    def _of_case(cls, case: _core.Case, text: str | None) -> "Problem":
+        made = cls.__new__(cls)
+        made._core = make_problem(case)
+        made._text = text
+        return made
+
+    @property
+    def name(self) -> str:
+        return self._core.name
+
+    @property
+    def fields(self) -> list[str]:
+        """Names of the fields, in the order of z."""
+        return self._core.fields
+
+    @property
+    def size(self) -> int:
+        """Numbers in a state: fields × points."""
+        return self._core.size
+
+    @property
+    def axes(self) -> list[np.ndarray]:
+        """Coordinates of the points along each axis of the grid."""
+        return self._core.axes
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Points along each axis of the grid; a field reshapes to it."""
+        return tuple(len(axis) for axis in self.axes)
+
+    @property
+    def z0(self) -> np.ndarray:
+        """(size,) the state at the start."""
+        return self._core.z0
+
+    @property
+    def notes(self) -> list[str]:
+        """What was done on the way that one should know."""
+        return self._core.notes
+
+    def __repr__(self) -> str:
+        points = "" if self.shape == (1,) else f" at {' × '.join(map(str, self.shape))} points"
+        return f"<seiche.Problem {self.name}: {', '.join(self.fields)}{points}>"
+
+
+class Case:
+    """A case file as read: a problem, and how to run it. Give it to `solve`, `solve_ensemble` or `check`."""
+
+    def __init__(self, file: str | os.PathLike, overrides: Sequence[str]):
+        self._file = os.fspath(file)
+        self._overrides = list(overrides)
+        self._core = self._read([])
+        self.problem = Problem._of_case(self._core, None)
+        self.problem._file = self._file
+
+    def _read(self, overrides: Sequence[str]) -> _core.Case:
+        try:
+            return _core.read_case(self._file, [*self._overrides, *overrides])
+        except ValueError as error:
+            raise _refused(error) from None
+
+    @property
+    def text(self) -> str:
+        """The case as it runs, every default filled in."""
+        return self._core.text()
+
+    @property
+    def t_end(self) -> float:
+        return self._core.t_end
+
+    def __repr__(self) -> str:
+        return f"<seiche.Case {self._file}: {self.problem.name} by {self._core.method}>"
+
+
+def problem(name: str, **parameters: Any) -> Problem:
+    """A problem of the library by its name, with the parameters of its case files.
+
+    `seiche.problems()` lists both. Numbers may be texts ("1/3"), a damping a formula ("0.1 + 0.05*sin(t)"), and
+    ``initial`` a preset, ``{"file": "z0.txt"}`` or formulas ``{"u": "sin(pi*x)", "v": "0"}``.
+    """
+    for key, value in parameters.items():
+        if name != "custom" and (hasattr(value, "tocsc") or np.ndim(value) == 2):
+            raise ValueError(f"{key} is a matrix: problems by name read matrices from files; seiche.Problem takes {key}")
+    text = section("problem", {"name": name, **parameters})
+    return Problem._of_case(parse_keywords(text), text)
+
+
+def load(file: str | os.PathLike, **overrides: Any) -> Case:
+    """A case file, with keys replaced: ``seiche.load("case.toml", **{"method.h": "1/64"})``."""
+    return Case(file, [override(key, value) for key, value in overrides.items()])
+
+
+def as_problem(given: "Problem | Case | str") -> "Problem":
+    if isinstance(given, str):
+        return problem(given)
+    if isinstance(given, Case):
+        return given.problem
+    if isinstance(given, Problem):
+        return given
+    raise _no_right_hand_side(given)
+
+
+_SECTIONS = {
+    "method": "method.name",
+    "backend": "backend.name",
+    "plan": "backend.plan",
+    "exponential": "backend.exponential",
+    "pade_degree": "backend.pade_degree",
+    "lanczos_dimension": "backend.lanczos_dimension",
+    "t_end": "time.end",
+    "energy_every": "output.energy_every",
+}
+
+
+_OTHER_NAMES = dict.fromkeys(("t_end", "tend", "tmax", "t_max", "T", "tspan"), "t_span") | dict.fromkeys(("y0", "u0", "x0"), "z0")
+
+
+def refuse_other_names(options: Mapping[str, Any]) -> None:
+    """What other programs call an argument that is no key of a case."""
+    for name in options:
+        if name in _OTHER_NAMES:
+            raise ValueError(f"unknown argument '{name}'; did you mean '{_OTHER_NAMES[name]}'?")
+
+
+def run_case(given: "Problem | Case", options: Mapping[str, Any]) -> _core.Case:
+    """The case of one run: what is given, over what the case file says, over the defaults."""
+    overrides = [override(_SECTIONS.get(k, f"method.{k}"), v) for k, v in options.items() if v is not None]
+    if isinstance(given, Case):
+        return given._read(overrides)
+    if given._text is not None:
+        return parse_keywords(given._text, overrides)
+    # The parser wants the name of a problem; of what it knows about it, nothing is used.
+    case = parse_keywords('[problem]\nname = "oscillator"\n', overrides)
+    if options.get("h") is None and options.get("tolerance") is None:
+        raise ValueError("give a step size h, or a tolerance")
+    return case

@@ -1,0 +1,190 @@
+"""What a run leaves."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    import xarray
+
+    from ._problem import Problem
+
+
+class Status(int):
+    """How a run ended: SciPy's number, which also equals the word for it.
+
+    −1 "failed", 0 "success", 1 "event" (an event ended the run), 2 "interrupted".
+    """
+
+    _words = {-1: "failed", 0: "success", 1: "event", 2: "interrupted"}
+
+    @property
+    def word(self) -> str:
+        return self._words[int(self)]
+
+    def __eq__(self, other: object) -> bool:
+        return self.word == other if isinstance(other, str) else int(self) == other
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    __hash__ = int.__hash__
+
+    def __str__(self) -> str:
+        return self.word
+
+    def __repr__(self) -> str:
+        return f"{int(self)} ({self.word})"
+
+
+class DenseOutput:
+    """The solution at any time of a run: ``sol(t)``, of shape (size,), or (size, len(t)) for an array of times.
+
+    Each time is a step of the method, or a part of one, and no interpolation of the states beside it. At the time of an
+    event it is the state behind it.
+    """
+
+    def __init__(self, solution: _core.Solution):
+        self._solution = solution
+        self.t_min, self.t_max = solution.sol_span
+
+    def __call__(self, t: Any) -> np.ndarray:
+        times = np.asarray(t, dtype=float)
+        if times.ndim > 1:
+            raise ValueError(f"t has the shape {times.shape}; it must be a number or a list of them")
+        order = np.argsort(times.ravel(), kind="stable")  # times inside one step, one after the other, cost one step
+        values = np.empty((times.size, self._solution.size))
+        values[order] = self._solution.at(times.ravel()[order])
+        return values[0] if times.ndim == 0 else values.T
+
+
+class Result(dict):
+    """The solution and its energies, in the manner of ``scipy.integrate.solve_ivp``; keys are attributes too.
+
+    Attributes
+    ----------
+    t : (times,) array
+        Recorded times.
+    y : (size, times) array
+        States: y[:, k] is z at t[k], field after field. A view of the memory that the run wrote.
+    energy : (times,) array
+        H(z), summed over points without a factor Δx.
+    modified_energy : (times,) array or None
+        The energy that the method keeps a law for, where it is another than H.
+    success : bool
+        Did the run reach its end, or an event that ends it?
+    status : Status
+        0 success, 1 an event ended the run, −1 failed, 2 interrupted; also equal to these words.
+    message : str
+        One sentence: how the run ended, and what one should know.
+    law : str
+        "holds", "violated" or "not promised": the verdict on the energy law over the recorded steps.
+    certificate : dict
+        The hypotheses of the law, how each is known, and what they promise.
+    report : dict
+        What the program writes to summary.json.
+    sol : DenseOutput or None
+        The solution at any time, with ``dense_output=True``.
+    t_events, y_events : list of arrays, or None
+        For each event its times, and the states then, of shape (times, size), before its action.
+    ledger : dict of (times,) arrays, or None
+        With ``ledger=True``: where the change of H since the start comes from.
+    nfev : int
+        Evaluations of ∇V.
+    steps : int
+    method, backend : str
+        As taken.
+    notes : list of str
+        What the case, the problem and the choice of the method have to say.
+    problem : Problem
+    """
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"a result has no {name!r}; it has {', '.join(self)}") from None
+
+    __setattr__ = dict.__setitem__  # type: ignore[assignment]
+    __delattr__ = dict.__delitem__  # type: ignore[assignment]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self]
+
+    def __repr__(self) -> str:
+        def shown(value: Any) -> str:
+            if isinstance(value, np.ndarray):
+                return f"array of shape {value.shape}"
+            text = repr(value)
+            return text if len(text) <= 100 else text[:99] + "…"
+
+        width = max(map(len, self), default=0)
+        return "\n".join(f"{key:>{width}}: {shown(value)}" for key, value in self.items())
+
+    def field(self, name: str) -> np.ndarray:
+        """One field on the grid, of shape (times, points along each axis); a view of y."""
+        names = self.problem.fields
+        if name not in names:
+            raise ValueError(f"{self.problem.name} has no field {name!r}; it has {', '.join(names)}")
+        return self.y.T.reshape(len(self.t), len(names), *self.problem.shape)[:, names.index(name)]
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """The fields on their grid and the energies as an `xarray.Dataset`.
+
+        Dimensions, and the attributes long_name and units, are those of solution.h5: points without a grid have the dimension
+        "point", a single one has none.
+        """
+        import xarray
+
+        def about_it(meaning: str) -> dict[str, str]:
+            return {"long_name": meaning, "units": "1"}  # an equation has units of its own
+
+        layout = self.problem._core.layout
+        names = [name for name, _ in layout["axes"]]
+        coordinates: dict[str, Any] = {"t": ("t", self.t, about_it("time"))}
+        for (name, meaning), values in zip(layout["axes"], self.problem.axes):
+            coordinates[name] = (name, values.astype(int) if name == "point" else values, about_it(meaning))
+        shape = (len(self.t), *(self.problem.shape if names else ()))
+        data = {
+            shown: (("t", *names), self.field(name).reshape(shape), about_it(meaning))
+            for name, (shown, meaning) in zip(self.problem.fields, layout["fields"])
+        }
+        data["energy"] = ("t", self.energy, about_it("energy H = ½zᵀMz + V(z), summed over points"))
+        if self.modified_energy is not None:
+            data["modified_energy"] = ("t", self.modified_energy, about_it("modified energy, whose law the method keeps"))
+        about = {key: self[key] for key in ("method", "backend", "message", "law", "steps")}
+        about.update(problem=self.problem.name, status=self.status.word)
+        return xarray.Dataset(data, coords=coordinates, attrs=about)
+
+
+def result_of(
+    solution: _core.Solution, problem: "Problem", *, notes: list[str], has_events: bool, has_ledger: bool
+) -> Result:
+    number = {"success": 1 if solution.ended_by_event else 0, "failed": -1, "interrupted": 2}[solution.status]
+    return Result(
+        t=solution.t,
+        y=solution.y,
+        energy=solution.H,
+        modified_energy=solution.modified,
+        success=solution.status == "success",
+        status=Status(number),
+        message=solution.message,
+        law=solution.law,
+        sol=DenseOutput(solution) if solution.has_sol else None,
+        t_events=solution.t_events if has_events else None,
+        y_events=solution.y_events if has_events else None,
+        ledger=solution.ledger if has_ledger else None,
+        nfev=solution.nfev,
+        steps=solution.steps,
+        method=solution.method,
+        backend=solution.backend,
+        certificate=json.loads(solution.certificate_json()),
+        report=json.loads(solution.report_json()),
+        notes=notes,
+        problem=problem,
+    )

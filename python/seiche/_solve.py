@@ -1,0 +1,160 @@
+"""One run."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Sequence
+
+import numpy as np
+
+from . import _core
+from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, run_case, thread_count
+from ._result import Result, result_of
+
+
+def _span(t_span: Any, default_end: float | None) -> tuple[float, float]:
+    if t_span is None:
+        if default_end is None:
+            raise ValueError("t_span is missing: give the end of the run, or (start, end)")
+        return 0.0, default_end
+    ends = np.atleast_1d(real_array("t_span", t_span))
+    if ends.shape not in ((1,), (2,)):
+        raise ValueError(f"t_span = {t_span!r} must be the end of the run, or (start, end)")
+    start, end = (0.0, ends[0]) if len(ends) == 1 else ends
+    if not start < end:
+        raise ValueError(f"t_span = ({start:g}, {end:g}) must ascend: damping cannot be followed backwards")
+    return float(start), float(end)
+
+
+def _event(function: Callable) -> tuple:
+    """(g, direction, number that ends the run, action), from the attributes that SciPy looks for, and `action`."""
+    if not callable(function):
+        raise TypeError(f"an event is a function g(t, y), not {function!r}")
+    return (
+        function,
+        int(np.sign(getattr(function, "direction", 0))),
+        int(getattr(function, "terminal", 0) or 0),
+        getattr(function, "action", None),
+    )
+
+
+def solve(
+    problem: Problem | Case | str,
+    t_span: float | Sequence[float] | None = None,
+    z0: Any = None,
+    method: str | None = None,
+    *,
+    h: float | str | None = None,
+    tolerance: float | str | None = None,
+    h_max: float | str | None = None,
+    t_eval: Any = None,
+    events: Callable | Sequence[Callable] | None = None,
+    dense_output: bool = False,
+    observer: Callable[[float, np.ndarray, float], Any] | None = None,
+    record_every: int = 1,
+    ledger: bool | None = None,
+    backend: str | None = None,
+    threads: int = 1,
+    **options: Any,
+) -> Result:
+    """Integrates a damped Hamiltonian system, in the manner of ``scipy.integrate.solve_ivp``.
+
+    The GIL is released while it steps, and taken for Python functions. Ctrl-C ends the run after the current step, and
+    what was computed is returned with the status "interrupted".
+
+    Parameters
+    ----------
+    problem : Problem, Case or str
+        What `seiche.problem`, `seiche.load` or `seiche.Problem` made, or a name.
+    t_span : float or (float, float)
+        The end of the run, or start and end; by default that of the case, or of the problem's example.
+    z0 : (size,) array
+        The state at the start, of any shape with so many numbers; by default that of the problem.
+    method : str
+        One of `seiche.methods()`, or "auto"; by default "seisav", or that of the case.
+    h : float or str
+        Step size; fractions may be texts: "1/256". Beside a tolerance, the first one. By default that of the case, or
+        of the problem's example, which `notes` of the result names; a problem by parts has none.
+    tolerance : float
+        Instead of h: steps of variable size, so that values at the end have errors of about this size (max norm).
+    h_max : float
+        With a tolerance: no step is longer.
+    t_eval : (times,) array
+        The times to record, ascending. They shorten no step but, with a tolerance, perhaps the first. By default all steps.
+    events : function or list of functions
+        ``g(t, y) -> float``; an event is a change of its sign. Attributes as in SciPy: ``direction`` (> 0 rising, < 0 falling),
+        ``terminal`` (True, or the number of occurrences that end the run); and ``action(t, y)``, which may return a new state.
+        The method starts anew behind an event.
+    dense_output : bool
+        Keep a state for every step, so that ``result.sol(t)`` is the solution at any time.
+    observer : function
+        ``observer(t, y, energy)`` after every record_every-th step; ``False`` ends the run.
+    record_every : int
+        Without t_eval: record every so many steps. The energy law is judged at these steps.
+    ledger : bool
+        Keep the books of the energy: ``result.ledger``.
+    backend : str
+        One of `seiche.backends()`; by default "auto".
+    threads : int
+        For large grids. Results do not depend on it.
+    **options
+        C, auxiliary, scalar_solver, law, linear (of methods); plan, exponential, pade_degree, lanczos_dimension (of
+        backends), with the values of case files.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    ValueError
+        For what makes no sense, in one sentence. A computation that fails is a status of the result.
+    """
+    refuse_other_names(options)
+    given = as_problem(problem) if isinstance(problem, str) else problem
+    stated = as_problem(given)
+    default_end = given.t_end if isinstance(given, Case) else None
+    if default_end is None and stated._text is not None and t_span is None:
+        default_end = run_case(stated, {}).t_end
+    start, end = _span(t_span, default_end)
+    if z0 is None and not stated._has_initial:
+        raise ValueError("z0 is missing: give it to seiche.Problem or to seiche.solve")
+    case = run_case(
+        given,
+        {
+            "t_end": end - start,
+            "method": method,
+            "backend": backend,
+            "h": h,
+            "tolerance": tolerance,
+            "h_max": h_max,
+            "energy_every": 10**12,  # no file is written, whose size the parser would guard
+        }
+        | options,
+    )
+    times = None if t_eval is None else np.atleast_1d(real_array("t_eval", t_eval))
+    if times is not None and times.size == 0:
+        raise ValueError("t_eval is empty: give the times to record, or leave it out to record the steps")
+    if times is not None and not np.isfinite(times).all():
+        raise ValueError("t_eval holds a time that is no finite number")
+    functions = [] if events is None else list(events) if isinstance(events, (list, tuple)) else [events]
+    with_ledger = case.ledger if ledger is None else ledger
+    solution = _core.solve(
+        stated._core,
+        case,
+        start,
+        end,
+        None if z0 is None else real_array("z0", z0).ravel(),
+        times,
+        [_event(function) for function in functions],
+        dense_output,
+        observer,
+        record_every,
+        with_ledger,
+        thread_count(threads),
+    )
+    notes = [*case.notes, *stated.notes]
+    if h is None and case.tolerance is None and not isinstance(given, Case):
+        notes.insert(0, f"h is not given: steps of {case.h:g}, as in the problem's example")
+    if solution.method_reason:
+        notes.append(f'method = "auto": {solution.method_reason}')
+    return result_of(solution, stated, notes=notes, has_events=events is not None, has_ledger=with_ledger)

@@ -1,0 +1,85 @@
+// Python functions where C++ calls: the GIL is taken for the call, and Ctrl-C inside one ends the run as outside.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <seiche/core/error.hpp>
+#include <seiche/core/vector.hpp>
+
+#include <chrono>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace seiche::python {
+
+namespace py = pybind11;
+
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// May be copied and destroyed by threads that do not hold the GIL.
+class Callable {
+ public:
+  explicit Callable(py::object function);
+  const py::object& get() const { return *function_; }
+
+ private:
+  std::shared_ptr<py::object> function_;
+};
+
+// Was the run on this thread interrupted by Ctrl-C? `forget` before it, `seen` after.
+class Interruption {
+ public:
+  static void forget();
+  static bool seen();
+  static void note();
+};
+
+// call(): with the GIL held. A KeyboardInterrupt becomes an Error, which ends the run, and is noted.
+template <class Call>
+auto with_gil(const Call& call) {
+  const py::gil_scoped_acquire gil;
+  try {
+    return call();
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+    Interruption::note();
+  }
+  throw Error("interrupted inside a Python function");
+}
+
+// call(): with the GIL released. Where a function that it called was interrupted and it had no way to end well, the
+// KeyboardInterrupt is raised after all.
+template <class Call>
+auto without_gil(const Call& call) {
+  Interruption::forget();
+  try {
+    const py::gil_scoped_release released;
+    return call();
+  } catch (const Error&) {
+    if (!Interruption::seen()) throw;
+  }
+  PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw py::error_already_set();
+}
+
+// A copy: what a function keeps stays as it was.
+Array array_of(std::span<const double> values);
+inline Array array_of(const Vector& values) {
+  return array_of(std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
+}
+double number_from(const py::object& result, const std::string& what);
+// Throws a ValueError where `result` has not `out.size()` numbers.
+void copy_from(const py::object& result, std::span<double> out, const std::string& what);
+Vector vector_from(const Array& values);  // of any shape
+
+// Looks for Ctrl-C twenty times a second at most. What another signal handler raises comes out of it.
+class SignalCheck {
+ public:
+  bool operator()();
+
+ private:
+  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace seiche::python

@@ -1,0 +1,35 @@
+// The compiled part of the Python package `seiche`. Shapes, defaults and documentation are in the Python files around it.
+#include "bind.hpp"
+
+#include <seiche/core/error.hpp>
+#include <seiche/version.hpp>
+
+namespace seiche::python {
+
+py::array view(const double* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
+               const py::object& owner) {
+  for (py::ssize_t& stride : strides) stride *= static_cast<py::ssize_t>(sizeof(double));
+  py::array array = strides.empty()
+                        ? py::array(py::dtype::of<double>(), std::move(shape), data, owner)
+                        : py::array(py::dtype::of<double>(), std::move(shape), std::move(strides), data, owner);
+  return array;
+}
+
+}  // namespace seiche::python
+
+PYBIND11_MODULE(_core, module) {
+  namespace py = pybind11;
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const seiche::Error& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    }
+  });
+  module.attr("__version__") = seiche::version_number;
+  seiche::python::bind_problems(module);
+  seiche::python::bind_solve(module);
+  seiche::python::bind_ensembles(module);
+  seiche::python::bind_studies(module);
+  seiche::python::bind_lists(module);
+}

@@ -1,0 +1,187 @@
+// One run, with the GIL released while it steps.
+#include "bind.hpp"
+
+#include <pybind11/stl.h>
+#include <seiche/backend/backends.hpp>
+#include <seiche/config/library_versions.hpp>
+#include <seiche/output/summary.hpp>
+#include <seiche/solve/solve.hpp>
+#include <seiche/version.hpp>
+
+#include <limits>
+#include <memory>
+
+namespace seiche::python {
+namespace {
+
+struct HeldSolution {
+  std::shared_ptr<const Solution> solution;
+  RunIdentity identity;
+};
+
+py::object alive(const std::shared_ptr<const Solution>& solution) {
+  return py::capsule(new std::shared_ptr<const Solution>(solution),
+                     [](void* held) { delete static_cast<std::shared_ptr<const Solution>*>(held); });
+}
+
+py::array series(const HeldSolution& held, const std::vector<double>& values) {
+  return view(values.data(), {std::ssize(values)}, {}, alive(held.solution));
+}
+
+py::array states(const HeldSolution& held) {  // (size, times)
+  const Solution& s = *held.solution;
+  return view(s.z.data(), {s.size, std::ssize(s.t)}, {1, s.size}, alive(held.solution));
+}
+
+SolveEvent event_from(const py::tuple& parts) {
+  const Callable g(parts[0].cast<py::object>());
+  const int direction = parts[1].cast<int>();
+  SolveEvent event{.g =
+                       [g](double t, const Vector& z) {
+                         return with_gil([&] { return number_from(g.get()(t, array_of(z)), "an event function"); });
+                       },
+                   .direction = direction > 0   ? Event::Direction::rising
+                                : direction < 0 ? Event::Direction::falling
+                                                : Event::Direction::any,
+                   .ends_at = parts[2].cast<std::int64_t>()};
+  if (!parts[3].is_none())
+    event.action = [action = Callable(parts[3].cast<py::object>())](double t, Vector& z) {
+      with_gil([&] {
+        const py::object changed = action.get()(t, array_of(z));
+        if (!changed.is_none())
+          copy_from(changed, {z.data(), static_cast<std::size_t>(z.size())}, "the action of an event");
+        return 0;
+      });
+    };
+  return event;
+}
+
+std::function<bool(const SolveStep&)> observer_from(const py::object& function) {
+  return [observer = Callable(function)](const SolveStep& step) {
+    return with_gil([&] {
+      const py::object answer = observer.get()(step.t, array_of(step.z), step.energy.H);
+      return !(PyBool_Check(answer.ptr()) != 0 && !answer.cast<bool>());
+    });
+  };
+}
+
+std::map<std::string, std::string> versions() {
+  std::map<std::string, std::string> all = backend_library_versions();
+  all.merge(config_library_versions());
+  all["seiche"] = version_number;
+  all["git"] = version_commit;
+  return all;
+}
+
+HeldSolution run(const HeldProblem& problem, const RunSpec& spec, double t_start, double t_end,
+                 const std::optional<Array>& z0, const std::optional<Array>& t_eval, const py::list& events,
+                 bool dense_output, const py::object& observer, std::int64_t record_every, bool ledger, int threads) {
+  SimulationOptions simulation = simulation_options(spec);
+  simulation.backend_options.threads = threads;
+  SolveOptions options{.method = spec.method,
+                       .method_options = spec.method_options,
+                       .backend = spec.backend,
+                       .backend_options = simulation.backend_options,
+                       .h = spec.h,
+                       .tolerance = spec.tolerance,
+                       .h_max = spec.h_max,
+                       .t_start = t_start,
+                       .t_end = t_end,
+                       .record_every = record_every,
+                       .dense_output = dense_output,
+                       .ledger = ledger,
+                       .is_stopped = SignalCheck{}};
+  if (z0) options.z0 = vector_from(*z0);
+  if (t_eval) options.t_eval.emplace(t_eval->data(), t_eval->data() + t_eval->size());
+  for (const py::handle& event : events) options.events.push_back(event_from(event.cast<py::tuple>()));
+  if (!observer.is_none()) options.observer = observer_from(observer);
+
+  auto solution = without_gil([&] { return std::make_shared<Solution>(solve(*problem.problem, options)); });
+  if (Interruption::seen()) solution->report.status = RunReport::Status::interrupted;
+  const double h = spec.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec.h;
+  RunIdentity identity{.problem = problem.problem->name,
+                       .method = solution->method,
+                       .backend = solution->backend,
+                       .h = h,
+                       .tolerance = spec.tolerance};
+  return {std::move(solution), std::move(identity)};
+}
+
+py::array_t<double> at(const HeldSolution& held, const Array& times) {  // (times, size)
+  const DenseOutput& sol = *held.solution->sol;
+  py::array_t<double> values({static_cast<py::ssize_t>(times.size()), static_cast<py::ssize_t>(sol.size())});
+  const std::span<const double> t(times.data(), static_cast<std::size_t>(times.size()));
+  const std::span<double> out(values.mutable_data(), static_cast<std::size_t>(values.size()));
+  without_gil([&] { return sol.evaluate(t, out), 0; });
+  return values;
+}
+
+py::dict ledger_of(const HeldSolution& held) {
+  py::dict parts;
+  const std::vector<StepLedger>& rows = held.solution->ledger;
+  for (const LedgerPart& part : ledger_parts()) {
+    py::array_t<double> values(std::ssize(rows));
+    for (std::size_t i = 0; i < rows.size(); ++i) values.mutable_at(static_cast<py::ssize_t>(i)) = rows[i].*part.value;
+    parts[py::str(std::string(part.name))] = values;
+  }
+  return parts;
+}
+
+std::string report_json(const HeldSolution& held) {
+  RunIdentity identity = held.identity;
+  identity.certificate = certificate_json(held.solution->certificate);
+  identity.versions = versions();
+  return summary_json(identity, held.solution->report);
+}
+
+}  // namespace
+
+void bind_solve(py::module_& module) {
+  py::class_<HeldSolution>(module, "Solution")
+      .def_property_readonly("size", [](const HeldSolution& s) { return s.solution->size; })
+      .def_property_readonly("t", [](const HeldSolution& s) { return series(s, s.solution->t); })
+      .def_property_readonly("y", &states)
+      .def_property_readonly("H", [](const HeldSolution& s) { return series(s, s.solution->H); })
+      .def_property_readonly("modified",
+                             [](const HeldSolution& s) -> py::object {
+                               if (s.solution->modified.empty()) return py::none();
+                               return series(s, s.solution->modified);
+                             })
+      .def_property_readonly("t_events",
+                             [](const HeldSolution& s) {
+                               py::list list;
+                               for (const Solution::Events& e : s.solution->events) list.append(series(s, e.t));
+                               return list;
+                             })
+      .def_property_readonly(
+          "y_events",
+          [](const HeldSolution& s) {
+            py::list list;
+            for (const Solution::Events& e : s.solution->events)
+              list.append(view(e.z.data(), {std::ssize(e.t), s.solution->size}, {}, alive(s.solution)));
+            return list;
+          })
+      .def_property_readonly("ledger", &ledger_of)
+      .def_property_readonly("status", [](const HeldSolution& s) { return to_string(s.solution->report.status); })
+      .def_property_readonly("message", [](const HeldSolution& s) { return s.solution->report.message; })
+      .def_property_readonly("ended_by_event", [](const HeldSolution& s) { return s.solution->ended_by_event; })
+      .def_property_readonly("nfev",
+                             [](const HeldSolution& s) { return s.solution->report.potential_counts.gradients; })
+      .def_property_readonly("steps", [](const HeldSolution& s) { return s.solution->report.steps; })
+      .def_property_readonly("law", [](const HeldSolution& s) { return to_string(s.solution->report.law); })
+      .def_property_readonly("law_reason", [](const HeldSolution& s) { return s.solution->report.law_reason; })
+      .def_property_readonly("method", [](const HeldSolution& s) { return s.solution->method; })
+      .def_property_readonly("method_reason", [](const HeldSolution& s) { return s.solution->method_reason; })
+      .def_property_readonly("backend", [](const HeldSolution& s) { return s.solution->backend; })
+      .def_property_readonly("has_sol", [](const HeldSolution& s) { return s.solution->sol != nullptr; })
+      .def_property_readonly("sol_span",
+                             [](const HeldSolution& s) {
+                               return std::make_pair(s.solution->sol->t_start(), s.solution->sol->t_end());
+                             })
+      .def("at", &at)
+      .def("report_json", &report_json)
+      .def("certificate_json", [](const HeldSolution& s) { return certificate_json(s.solution->certificate); });
+  module.def("solve", &run);
+}
+
+}  // namespace seiche::python

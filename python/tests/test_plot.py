@@ -1,0 +1,140 @@
+"""Figures of seiche.plot: what they show, and the conventions that they share with `seiche plot` (docs/conventions.md)."""
+
+import re
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import seiche
+from matplotlib.colors import to_hex
+
+
+@pytest.fixture(scope="module")
+def wave():
+    return seiche.problem("klein_gordon", points=16, alpha=1.0, gamma="0.1 + 0.05*sin(t)")
+
+
+@pytest.fixture(autouse=True)
+def closed_figures():
+    yield
+    plt.close("all")
+
+
+def oscillator(**parameters):
+    return seiche.problem("oscillator", **({"alpha": 0.0, "gamma": 0.0} | parameters))
+
+
+def test_figures(wave):
+    r = seiche.solve(wave, 1.0, h=0.0625)
+    assert len(seiche.plot.energy(r).lines) == 2
+    ax = seiche.plot.space_time(r, "v")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("time $t$", "$x$")  # as `seiche plot`
+    mesh = ax.collections[0]
+    assert np.array_equal(np.reshape(mesh.get_array(), (16, 17)), r.field("v").T)
+    with pytest.raises(ValueError, match="slices draws fields over 2 axes; klein_gordon has: x"):
+        seiche.plot.slices(r)
+    assert seiche.plot.spectrum(seiche.problem("klein_gordon", points=16), "seisav", 0.1).lines
+    ax = seiche.plot.work_precision(seiche.problem("oscillator"), ["seisav", "egc4"], [0.1, 0.05], t_end=1.0)
+    assert len(ax.lines) == 2 and ax.lines[0].get_xdata().size == 2
+
+
+def test_slices_have_scales_of_their_own_where_a_wave_dies_down():
+    def slices(gamma):
+        start = {"u": "exp(-4*((x-2)^2 + (y-2)^2)) - 0.2", "v": "0"}
+        plane = seiche.problem(
+            "klein_gordon", points=[16, 12], length=[4.0, 4.0], alpha=1.0, omega_squared=1.0, gamma=gamma, initial=start
+        )
+        r = seiche.solve(plane, 6.0, h=0.125)
+        axes = seiche.plot.slices(r)
+        assert [ax.get_title() for ax in axes] == ["$t$ = 0", "$t$ = 2", "$t$ = 4", "$t$ = 6"]
+        assert np.array_equal(np.reshape(axes[3].collections[0].get_array(), (12, 16)), r.field("u")[-1].T)
+        return [ax.collections[0].get_clim() for ax in axes], np.abs(r.field("u")[[0, 16, 32, 48]]).max(axis=(1, 2))
+
+    scales, sizes = slices(2.0)
+    assert sizes[0] > 4 * sizes[-1] and np.allclose(np.abs(scales).max(axis=1), sizes)
+    scales, sizes = slices(0.0)
+    assert sizes.max() < 4 * sizes.min() and len(set(scales)) == 1 and np.abs(scales[0]).max() == pytest.approx(sizes.max())
+
+
+def test_a_phase_portrait_shows_its_states_where_they_are_few():
+    def line(states):
+        r = seiche.solve(oscillator(), 12.0, method="egc6", h=0.125, t_eval=np.linspace(0, 12, states))
+        ax = seiche.plot.phase_portrait(r)
+        assert ax.get_xlabel() == "displacement $q$" and ax.get_ylabel() == "momentum $p$"
+        assert np.array_equal(ax.lines[0].get_xdata(), r.y[0]) and np.array_equal(ax.lines[0].get_ydata(), r.y[1])
+        return ax.lines[0].get_marker(), ax.lines[0].get_linestyle()
+
+    assert line(400) == ("None", "-")
+    assert line(25) == (".", "-")
+    assert line(6) == (".", "None")
+    several = seiche.solve(oscillator(points=3), 1.0, h=0.125)
+    assert len(seiche.plot.phase_portrait(several).lines) == 9
+    assert len(seiche.plot.phase_portrait(several, "p", "q", point=2).lines) == 3
+    with pytest.raises(ValueError, match="there is no point 3"):
+        seiche.plot.phase_portrait(several, point=3)
+
+
+def test_the_plot_module_shows_what_it_offers_alone():
+    assert set(dir(seiche.plot)) == set(seiche.plot.__all__)
+    public = {name for name in vars(seiche.plot) if not name.startswith("_")}
+    assert public - {"annotations"} == set(seiche.plot.__all__)
+
+
+SOURCE = Path(__file__).resolve().parents[2]
+
+
+def test_colours_are_those_of_the_program(wave):
+    text = (SOURCE / "seiche/figure/rendering.cpp").read_text(encoding="utf-8")
+    found = re.findall(r"constexpr std::array (\w+) = \{(.*?)\};", text, re.DOTALL)
+    program = {name: re.findall(r"#[0-9A-F]{6}", colours) for name, colours in found}
+    r = seiche.solve(wave, 4.0, h=0.125)
+    for ground, name in (("default", "vik"), ("dark_background", "berlin")):
+        with plt.style.context(ground):
+            mesh = seiche.plot.space_time(r).collections[0]
+        low, high = mesh.get_clim()
+        assert low == -high, "zero at the centre"
+        colours = program[name]
+        shown = mesh.cmap(np.linspace(0, 1, len(colours)))[:, :3]
+        wanted = [[int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)] for colour in colours]
+        assert np.abs(shown - wanted).max() < 0.02, ground  # Matplotlib keeps 256 of them
+    flat = seiche.solve(seiche.problem("klein_gordon", points=16, initial={"u": "2 + sin(pi*x)", "v": "0"}), 0.1, h=0.05)
+    mesh = seiche.plot.space_time(flat).collections[0]
+    assert mesh.cmap.name == "viridis"
+    for s, colour in ((0.0, program["viridis"][0]), (1.0, program["viridis"][-1])):
+        assert to_hex(mesh.cmap(s)).upper() == colour
+
+
+def test_a_scale_that_ends_before_the_values_has_pointed_ends():
+    peak = seiche.problem("klein_gordon", points=128, gamma=0.0, alpha=1.0, initial={"u": "exp(-4000*(x-1)^2) - 0.1", "v": "0"})
+    ax = seiche.plot.space_time(seiche.solve(peak, 0.125, h=0.0625))
+    bar = ax.collections[0].colorbar
+    low, high = ax.collections[0].get_clim()
+    assert -low == high < 0.5 and bar.extend == "max", "the peak is beyond, and there is nothing below"
+    whole = seiche.plot.space_time(seiche.solve(seiche.problem("klein_gordon", points=16), 1.0, h=0.0625))
+    assert whole.collections[0].colorbar.extend == "neither"
+
+
+def test_slices_have_one_kind_of_colours():
+    start = {"u": "exp(-9*((x-2)^2 + (y-2)^2))", "v": "0"}
+    plane = seiche.problem("klein_gordon", points=[24, 24], length=[4.0, 4.0], alpha=1.0, gamma=1.0, initial=start)
+    axes = seiche.plot.slices(seiche.solve(plane, 4.0, h="1/64"))
+    assert len({ax.collections[0].get_clim() for ax in axes}) == 4, "each has a scale of its own"
+    assert {ax.collections[0].cmap.name for ax in axes} == {"vik"}
+    assert [ax.collections[0].colorbar.ax.get_ylabel() for ax in axes] == ["$u$"] * 4
+
+
+def test_titles_are_those_of_the_program(tmp_path):
+    case = tmp_path / "swing.toml"
+    case.write_text(
+        '[problem]\nname = "custom"\nfields = ["theta", "p1"]\nH = "p1^2/2 - cos(theta)"\n'
+        'initial = { theta = "1", p1 = "0" }\n[method]\nh = 0.125\n[time]\nend = 2\n'
+    )
+    r = seiche.solve(seiche.load(case))
+    assert seiche.plot.energy(r).get_title() == f"swing, seisav, $h = 2^{{-3}}$: energy, law {r.law}"
+    ax = seiche.plot.phase_portrait(r)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == (r"$\theta$", "$p_{1}$")
+    by_tolerance = seiche.solve(seiche.load(case), method="egc6", tolerance=1e-6)
+    assert seiche.plot.phase_portrait(by_tolerance).get_title() == "swing, egc6, tolerance 1e-06: phase portrait"
+    written = seiche.Problem(fields=["q", "p"], H="p^2/2 + q^4/4", initial={"q": 1, "p": 0})
+    assert "custom" not in seiche.plot.energy(seiche.solve(written, 1.0, h=0.1)).get_title()

@@ -1,0 +1,89 @@
+"""What is said of calls that cannot mean anything, and of habits from other programs."""
+
+import numpy as np
+import pytest
+import seiche
+
+
+def duffing(**changes):
+    parts = {"fields": ["q", "p"], "H": "p^2/2 + q^4/4", "D": {"p": 0.1}, "initial": {"q": 1, "p": 0}}
+    return seiche.Problem(**(parts | changes))
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda p: seiche.solve(p, 1.0, t_eval=[]), "^t_eval is empty: give the times"),
+        (lambda p: seiche.solve(p, 1.0, t_eval=[1j]), "^t_eval is complex; it must be real"),
+        (lambda p: seiche.solve(p, 1.0, t_eval=[-np.nan]), "^t_eval holds a time that is no finite number"),
+        (lambda p: seiche.Problem(M=np.eye(2), gamma=-np.nan), "a finite number, not nan$"),
+        (lambda p: seiche.Problem(M=-np.nan * np.eye(2)), r"the entry .1, 1. = nan, which"),
+        (lambda p: duffing(initial={"q": np.nan, "p": 0}), "there is no 'nan': numbers in formulas are finite"),
+        (lambda p: seiche.solve(p, 1.0, t_eval="a"), "^t_eval = 'a' must be an array of numbers"),
+        (lambda p: seiche.solve(p, 1j), "^t_span is complex"),
+        (lambda p: seiche.solve(p, 1.0, z0=[1j, 0]), "^z0 is complex; it must be real"),
+        (lambda p: seiche.solve_ensemble(p, 1.0, z0=[[1j, 0]]), "^z0 is complex"),
+        (lambda p: seiche.Problem(M=np.eye(2), z0=[1j, 0]), "^z0 is complex"),
+        (lambda p: seiche.solve(p, 1.0, threads=0), "^threads = 0 must be ≥ 1"),
+        (lambda p: seiche.solve(p, 1.0, threads=-3), "^threads = -3 must be ≥ 1"),
+        (lambda p: seiche.solve(p, 1.0, threads=1.5), "^threads = 1.5 must be a whole number"),
+        (lambda p: seiche.solve_ensemble(p, 1.0, z0=[[1, 0]], threads=0), "^threads = 0 must be ≥ 1"),
+        (lambda p: seiche.solve(p, 1.0, foo=1), "^unknown argument 'foo'. Allowed: method, h, tolerance"),
+        (lambda p: duffing(foo=1), "^unknown key in .problem. custom 'foo'. Allowed: initial, friction"),
+        (lambda p: duffing(initial={"q": 1}), "no formula for the field p; write p = 0 beside"),
+    ],
+)
+def test_what_makes_no_sense_is_a_value_error_in_a_sentence(call, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        call(duffing())
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: duffing(H="p^2/2 + sqrt(q)", initial={"q": -1, "p": 0}),
+        lambda: duffing(H="p^2/2 + 1/q", initial={"q": 0, "p": 0}),
+        lambda: seiche.problem("klein_gordon", initial={"u": "log(-x)", "v": 0}),
+        lambda: duffing(friction={"kind": "cubik"}),
+    ],
+)
+def test_no_sentence_speaks_of_a_file_that_nobody_wrote(call):
+    with pytest.raises(ValueError) as refused:
+        call()
+    assert "keywords" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda f: seiche.solve(f, (0, 10), [1.0]),
+        lambda f: seiche.solve_ensemble(f, 10.0, [[1.0]]),
+        lambda f: seiche.check(f),
+        lambda f: seiche.Problem(f),
+    ],
+)
+def test_a_right_hand_side_is_answered_with_what_is_wanted_instead(call):
+    with pytest.raises(TypeError, match="not a right-hand side.*S∇H.*seiche.Problem\\(fields=.*H=.*M=.*S=.*D=.*V="):
+        call(lambda t, z: -z)
+
+
+def test_a_step_size_that_was_not_given_is_said():
+    assert any("h is not given: steps of 0.015625" in note for note in seiche.solve(duffing(), 1.0).notes)
+    assert not any("not given" in note for note in seiche.solve(duffing(), 1.0, h=0.1).notes)
+    assert not any("not given" in note for note in seiche.solve(duffing(), 1.0, tolerance=1e-6).notes)
+
+
+def test_a_law_of_friction_may_name_the_fields():
+    by_fields = duffing(friction={"kind": "formula", "r": "0.3*p^3*(1 + q^2)"})
+    by_letters = duffing(friction={"kind": "formula", "r": "0.3*v^3*(1 + u^2)"})
+    runs = [seiche.solve(p, 5.0, h=0.1, method="egc4").y for p in (by_fields, by_letters)]
+    assert np.array_equal(*runs)
+
+
+def test_a_few_degrees_of_freedom_have_no_points():
+    assert repr(duffing()) == "<seiche.Problem custom: q, p>"
+    assert "at 64 points" in repr(seiche.problem("klein_gordon", points=64))
+
+
+def test_one_step_is_singular():
+    assert seiche.solve_ensemble(duffing(), 0.1, [[1, 0]], h=0.1).message == ["reached t = 0.1 in 1 step"]

@@ -1,0 +1,220 @@
+"""Runs from Python are those of the library, with SciPy's shapes."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+import seiche
+
+
+@pytest.fixture(scope="module")
+def wave():
+    return seiche.problem("klein_gordon", points=16, alpha=1.0, gamma="0.1 + 0.05*sin(t)")
+
+
+def oscillator(**parameters):
+    return seiche.problem("oscillator", **({"alpha": 0.0, "gamma": 0.0} | parameters))
+
+
+def test_shapes_are_those_of_scipy(wave):
+    r = seiche.solve(wave, 2.0, h="1/32")
+    assert r.t.shape == (65,) and r.y.shape == (32, 65) and r.energy.shape == (65,)
+    assert r.t[0] == 0 and r.t[-1] == 2
+    assert r.success and r.status == 0 and r.status == "success" and r.steps == 64
+    assert np.abs(r.y[:, 0] - wave.z0).max() < 1e-15
+    assert r.law == "holds" and np.all(np.diff(r.modified_energy) <= 1e-12)
+    assert r["message"] == r.message
+    assert r.nfev > 0 and r.sol is None and r.t_events is None
+    assert r.certificate["law"]["promised"]
+    assert r.report["steps"] == 64 and r.report["status"] == "success"
+    assert r.field("u").shape == (65, 16)
+    assert np.array_equal(r.field("v")[3], r.y[16:, 3])
+
+
+def test_arrays_are_views_that_outlive_everything_else(wave):
+    r = seiche.solve(wave, 1.0, h=0.1)
+    assert not r.y.flags.owndata and np.shares_memory(r.y, r.field("u"))
+    y, first = r.y, r.y.copy()
+    del r
+    for _ in range(50):
+        seiche.solve(wave, 1.0, h=0.1)
+    assert np.array_equal(y, first)
+
+
+@pytest.mark.parametrize("method", [m["name"] for m in seiche.methods()])
+def test_every_method_follows_a_damped_oscillator(method):
+    problem = oscillator(gamma=0.2)
+    r = seiche.solve(problem, 3.0, method=method, h=1 / 256)
+    omega = np.sqrt(0.99)
+    exact = np.exp(-0.1 * r.t) * (np.cos(omega * r.t) + 0.1 / omega * np.sin(omega * r.t))
+    assert r.success, r.message
+    assert np.abs(r.y[0] - exact).max() < 2e-5
+
+
+@pytest.mark.parametrize("backend", [b["name"] for b in seiche.backends()])
+def test_every_backend_gives_the_same_solution(wave, backend):
+    r = seiche.solve(wave, 1.0, method="egc4", h=1 / 32, backend=backend)
+    s = seiche.solve(wave, 1.0, method="egc4", h=1 / 32)
+    assert r.backend == backend
+    assert np.abs(r.y - s.y).max() < 1e-11
+
+
+def test_a_tolerance_is_met_and_asked_times_are_recorded():
+    t = np.linspace(0, 10, 41)
+    for method in ("egc6", "crkn6", "etdrk4", "auto"):
+        r = seiche.solve(oscillator(), 10.0, method=method, tolerance=1e-8, t_eval=t)
+        assert np.array_equal(r.t, t)
+        assert np.abs(r.y[0] - np.cos(t)).max() < 1e-7
+    assert r.method != "auto" and any("auto" in note for note in r.notes)
+
+
+def test_start_time_and_state():
+    r = seiche.solve(oscillator(), (2.0, 5.0), z0=[0.0, 1.0], method="egc4", h=1 / 16)
+    assert r.t[0] == 2 and r.t[-1] == 5
+    assert abs(r.y[0, -1] - np.sin(3)) < 1e-9
+
+
+@pytest.mark.parametrize("step", [{"h": 1 / 32}, {"tolerance": 1e-9}])
+def test_dense_output_is_the_solution_everywhere(step):
+    r = seiche.solve(oscillator(), 6.0, method="egc4", dense_output=True, **step)
+    t = np.random.default_rng(1).uniform(0, 6, 100)
+    assert r.sol(t).shape == (2, 100) and r.sol(1.5).shape == (2,)
+    assert np.abs(r.sol(t)[0] - np.cos(t)).max() < 1e-7
+    assert np.abs(r.sol(r.t) - r.y).max() < 1e-12
+    with pytest.raises(ValueError, match="outside the run"):
+        r.sol(7.0)
+
+
+@pytest.mark.parametrize("step", [{"h": 1 / 32}, {"tolerance": 1e-9}])
+def test_events_end_the_run_or_act(step):
+    def crossing(t, y):
+        return y[0]
+
+    crossing.direction = -1
+    crossing.terminal = 2
+    r = seiche.solve(oscillator(), 20.0, method="egc6", events=[crossing, lambda t, y: y[1]], **step)
+    assert r.status == 1 and r.status == "event" and r.success
+    assert np.allclose(r.t_events[0], [np.pi / 2, 5 * np.pi / 2], atol=1e-7)
+    assert np.allclose(r.t_events[1], [np.pi, 2 * np.pi], atol=1e-7)
+    assert r.y_events[0].shape == (2, 2) and np.abs(r.y_events[0][:, 0]).max() < 1e-8
+    assert r.t[-1] == r.t_events[0][-1]
+
+    def bounce(t, y):
+        return y[0]
+
+    bounce.direction = -1
+    bounce.action = lambda t, y: y * [1, -1]
+    r = seiche.solve(oscillator(), 10.0, method="egc6", events=bounce, **step)
+    assert len(r.t_events[0]) == 3
+    assert abs(r.y[0, -1] - abs(np.cos(10))) < 1e-6
+
+
+def test_an_observer_sees_every_step_and_may_stop():
+    seen = []
+
+    def watch(t, y, energy):
+        seen.append((t, y.copy(), energy))
+        return len(seen) < 5
+
+    r = seiche.solve(oscillator(), 1.0, h=0.1, observer=watch)
+    assert r.status == "interrupted" and not r.success
+    assert [t for t, _, _ in seen] == list(r.t[:5])
+    assert np.array_equal(seen[3][1], r.y[:, 3])
+
+
+def test_the_ledger_adds_up(wave):
+    r = seiche.solve(wave, 1.0, method="egc4", h=1 / 16, ledger=True)
+    assert np.allclose(sum(r.ledger.values()), r.energy - r.energy[0], atol=1e-12)
+
+
+def test_a_computation_that_fails_is_a_status():
+    focusing = seiche.problem("klein_gordon", points=20, alpha=-1.0, gamma=0.0)
+    r = seiche.solve(focusing, 20.0, method="egc6", tolerance=1e-6)
+    assert not r.success and r.status == -1 and r.status == "failed"
+    assert 12 < r.t[-1] < 13
+
+
+def test_cases(tmp_path):
+    file = tmp_path / "case.toml"
+    file.write_text('[problem]\nname = "oscillator"\n[method]\nh = "1/8"\n[time]\nend = 2.0\n')
+    case = seiche.load(file, **{"method.name": "egc4"})
+    r = seiche.solve(case)
+    assert r.method == "egc4" and r.steps == 16
+    assert seiche.solve(case, h="1/16", t_span=1.0).steps == 16
+    assert 'name = "egc4"' in case.text
+    with pytest.raises(ValueError, match=r"case.toml:4:5: method.h = -1 must be > 0"):
+        file.write_text('[problem]\nname = "oscillator"\n[method]\nh = -1\n')
+        seiche.load(file)
+
+
+def test_fields_as_xarray(wave):
+    data = seiche.solve(wave, 1.0, h=0.125).to_xarray()
+    assert data["u"].dims == ("t", "x") and data.sizes == {"t": 9, "x": 16}
+    assert float(data["energy"][0]) > 0 and data.attrs["method"] == "seisav"
+    plane = seiche.problem("klein_gordon", points=[8, 6], length=2.0)
+    data = seiche.solve(plane, 0.5, h=0.125).to_xarray()
+    assert data["v"].dims == ("t", "x", "y") and data["v"].shape == (5, 8, 6)
+
+
+@pytest.mark.parametrize("name, settings", [
+    ("klein_gordon", {"points": 16}),
+    ("klein_gordon", {"points": [8, 6], "length": 2.0}),
+    ("truss", {}),
+    ("oscillator", {}),
+    ("oscillator", {"points": 3}),
+])  # fmt: skip
+def test_xarray_has_the_dimensions_and_attributes_of_the_program(tmp_path, name, settings):
+    h5py = pytest.importorskip("h5py")
+    program = Path(os.environ.get("SEICHE_BUILD_DIR", tmp_path)) / "seiche"
+    if not program.exists():
+        pytest.skip("SEICHE_BUILD_DIR names no build tree (ctest does)")
+    data = seiche.solve(seiche.problem(name, **settings), 0.5, method="seisav", h=0.125).to_xarray()
+    (tmp_path / "case.toml").write_text(f'[problem]\nname = "{name}"\n[method]\nh = 0.125\n[time]\nend = 0.5\n')
+    overrides = [f"problem.{key}={value}" for key, value in settings.items()] + ["output.snapshot_every=1"]
+    command = [program, "run", "case.toml", "--quiet", "--out", "out", "--set", "method.name=seisav", *overrides]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    with h5py.File(tmp_path / "out/solution.h5") as file:
+        fields = file.attrs["fields"].split()
+        ours = {"energy": "H", "modified_energy": "H_modified"}
+        assert set(data.data_vars) == {*fields, *ours}
+        for variable in (*data.data_vars, *data.coords):
+            written = file[ours.get(variable, variable)]
+            assert np.allclose(data[variable], written, atol=1e-12), variable
+            for attribute in ("long_name", "units"):
+                assert data[variable].attrs[attribute] == written.attrs[attribute], variable
+        for field in fields:
+            assert list(data[field].dims) == [axis[0].name[1:] for axis in file[field].dims]
+
+
+def test_ensembles():
+    wave = seiche.problem("klein_gordon", points=8, alpha=1.0, gamma=0.1)
+    z0 = np.outer(np.linspace(0.5, 1.5, 20), wave.z0)
+    e = seiche.solve_ensemble(wave, 1.0, z0, method="seisav", h=1 / 32, threads=2)
+    assert e.success and e.y.shape == (20, 16) and set(e.law) == {"holds"} and e.in_lanes
+    alone = seiche.solve(wave, 1.0, z0[7], h=1 / 32)
+    assert np.abs(e.y[7] - alone.y[:, -1]).max() < 1e-13
+    assert e.energy["mean"].shape == e.t.shape
+    several = [seiche.problem("klein_gordon", points=8, alpha=a) for a in (0.5, 1.0)]
+    assert seiche.solve_ensemble(several, 1.0, h=1 / 32).y.shape == (2, 16)
+
+
+def test_ensembles_of_cases(tmp_path):
+    file = tmp_path / "case.toml"
+    file.write_text(
+        '[problem]\nname = "oscillator"\n[method]\nh = "1/16"\n[time]\nend = 2.0\n'
+        "[ensemble]\nmembers = 40\nalpha = { uniform = [0.5, 1.5] }\nperturb_initial = 0.01\n"
+    )
+    e = seiche.solve_ensemble(seiche.load(file), threads=2)
+    assert e.success and e.y.shape == (40, 2) and e.parameters["alpha"].shape == (40,)
+    assert np.all((e.parameters["alpha"] >= 0.5) & (e.parameters["alpha"] <= 1.5))
+    assert np.array_equal(seiche.solve_ensemble(seiche.load(file)).y, e.y)
+
+
+def test_what_there_is():
+    assert {"seisav", "seilm", "egc4", "crkn6"} <= {m["name"] for m in seiche.methods()}
+    assert {"klein_gordon", "gkdv", "nls"} <= {p["name"] for p in seiche.problems()}
+    assert {"dense", "modal", "sparse"} <= {b["name"] for b in seiche.backends()}
+    law = seiche.check("klein_gordon", t_end=10.0, method="seisav")["law"]
+    assert law["promised"]
