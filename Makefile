@@ -6,7 +6,7 @@ WP_ARGS ?=
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps configure build paper test python bench install format tidy asan clean
+.PHONY: help deps configure build paper docs test python bench install format tidy asan clean
 
 help:  ## this list
 	@echo "Seiche: energy-stable integrators for damped Hamiltonian systems"
@@ -24,6 +24,11 @@ build: configure  ## build/release/seiche, the program
 paper: build  ## the paper's examples, figures and claims: out/paper/report.html (ARGS=--quick: out/paper-quick; OUT=folder)
 	@build/release/seiche paper --out "$(OUT)" $(ARGS)
 	@echo "The report is $(OUT)/report.html"
+
+docs: build  ## this project's pages, their gallery drawn anew: build/docs/index.html
+	@bash scripts/install-deps --docs
+	@/usr/bin/python3 docs/site/build.py build/release/seiche
+	@echo "Open build/docs/index.html; for its search, python3 -m http.server -d build/docs"
 
 test:  ## build and run all tests
 	@bash scripts/install-deps --python

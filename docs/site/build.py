@@ -1,0 +1,160 @@
+#!/usr/bin/python3
+"""Puts the pages together and makes the site: build.py PROGRAM
+
+Pages of docs/site and the other documents of docs/ go to build/docs_pages. The pages of the gallery are played
+(test/documentation/run_blocks.py), and their pictures drawn from what their runs left. The reference is asked of the program. Then
+mkdocs, Debian's version with a theme of its own, makes build/docs. Nothing is downloaded.
+"""
+import html
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SITE = pathlib.Path(__file__).resolve().parent
+SOURCE = SITE.parents[1]
+PAGES = SOURCE / "build/docs_pages"
+JQUERY = pathlib.Path("/usr/share/javascript/jquery/jquery.min.js")  # Debian's pages of the theme ask for it by another name
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(SOURCE / "test/documentation")]
+import run_blocks  # noqa: E402
+
+
+FILMED = {"klein_gordon_ring": "output.snapshot_every=8"}  # its run again with more states
+PLOTTED = {"sine_gordon_kinks": "space_time_u", "klein_gordon_ring": "slices_u"}  # by `seiche plot`, the others by draw.py
+
+
+def both_grounds(run, name, picture):
+    """A picture of `seiche plot`, for light and for dark ground."""
+    for ground in ("", "_dark"):
+        shutil.copy(run / f"figures/{name}{ground}.png", picture.with_stem(picture.stem + ground))
+
+
+def shown(path, alt):
+    """A picture in HTML that is dark where the page is; PATH is from the page."""
+    dark = pathlib.PurePosixPath(path)
+    dark = dark.with_stem(dark.stem + "_dark")
+    return (f'<picture><source media="(prefers-color-scheme: dark)" srcset="{dark}">'
+            f'<img src="{path}" alt="{html.escape(alt)}"></picture>')
+
+
+def switch_pictures(pages):
+    """Every ![alt](picture.png) on the pages in this folder becomes a picture for both grounds, which must be there."""
+    for page in pages.rglob("*.md"):
+        def switched(marker):
+            for name in re.findall(r'(?:srcset|src)="([^"]+)"', shown(marker.group(2), "")):
+                if not (page.parent / name).is_file():
+                    sys.exit(f"{page}: there is no {name}")
+            return shown(marker.group(2), marker.group(1))
+
+        text = page.read_text(encoding="utf-8")
+        page.write_text(re.sub(r"!\[([^\]]*)\]\(([^)\s]+\.png)\)", switched, text), encoding="utf-8")
+
+
+def code_style():
+    """Colours of code on light and on dark ground."""
+    def style(name):
+        return subprocess.run([sys.executable, "-m", "pygments", "-S", name, "-f", "html", "-a", ".codehilite"],
+                              capture_output=True, text=True, check=True).stdout
+
+    dark = "(prefers-color-scheme: dark)"
+    return f"@media not all and {dark} {{\n{style('default')}}}\n@media {dark} {{\n{style('native')}}}\n"
+
+
+def play(page, program, work):
+    """The folder in which the blocks of a page have run."""
+    directory = pathlib.Path(work) / page.stem
+    try:
+        run_blocks.play(page, program, directory)
+    except run_blocks.Mistake as mistake:
+        sys.exit(f"{page}, {mistake}")
+    return directory
+
+
+def film(program, work, name, setting):
+    """HTML of the film of a case in the plane, for both grounds; "" where ffmpeg cannot join its frames."""
+    run = pathlib.Path(work) / f"film_{name}"
+    subprocess.run([program, "run", SOURCE / f"cases/{name}.toml", "--quiet", "--out", run, "--set", setting], check=True)
+    subprocess.run([program, "plot", run, "--format", "png"], check=True, stdout=subprocess.DEVNULL)
+    files = [next((run / "figures").glob(f"film_u{ground}.*"), None) for ground in ("", "_dark")]
+    if None in files:
+        print(f"gallery: no film of {name} without ffmpeg", flush=True)
+        return ""
+    for file in files:
+        shutil.copy(file, PAGES / "gallery" / file.name.replace("film_u", name))
+    light, dark = (f'<video class="on-{ground}" src="{file.name.replace("film_u", name)}" controls loop muted preload="metadata">'
+                   "</video>" for ground, file in zip(("light", "dark"), files))
+    return f'<div class="film">{light}{dark}</div>'
+
+
+def add_gallery(program):
+    cards = []
+    with tempfile.TemporaryDirectory() as work:
+        for page in sorted((SITE / "gallery").glob("*.md")):
+            text = page.read_text(encoding="utf-8")
+            if page.stem == "index":
+                continue
+            print(f"gallery: {page.stem}", flush=True)
+            run = play(page, program, work) / "out" / page.stem
+            picture = PAGES / "gallery" / f"{page.stem}.png"
+            if page.stem in PLOTTED:
+                both_grounds(run, PLOTTED[page.stem], picture)
+            else:
+                subprocess.run([sys.executable, SITE / "gallery/draw.py", page.stem, run, picture], check=True)
+            if page.stem in FILMED:
+                shown_there = PAGES / "gallery" / page.name
+                shown_there.write_text(shown_there.read_text(encoding="utf-8").replace(
+                    "<!-- film -->", film(program, work, page.stem, FILMED[page.stem])), encoding="utf-8")
+            title = text.split("\n", 1)[0].lstrip("# ")
+            cards.append(f'<a href="{page.stem}.html">{shown(picture.name, "")}<br>{title}</a>\n')
+    index = PAGES / "gallery/index.md"
+    index.write_text(index.read_text(encoding="utf-8").replace("<!-- cards -->", f'<div class="gallery">\n{"".join(cards)}</div>'),
+                     encoding="utf-8")
+
+
+def show_files():
+    """<!-- file: cases/toda.toml --> on a page becomes the file, so that nothing is written twice."""
+    def file_of(marker):
+        path = SOURCE / marker.group(1)
+        return f"`{marker.group(1)}`:\n\n```{path.suffix[1:]}\n{path.read_text(encoding='utf-8')}```\n"
+
+    for page in PAGES.rglob("*.md"):
+        text = page.read_text(encoding="utf-8")
+        page.write_text(re.sub(r"<!-- file: (\S+) -->\n", file_of, text), encoding="utf-8")
+
+
+def add_first_run(program):
+    with tempfile.TemporaryDirectory() as work:
+        run = play(SITE / "tutorials/first_run.md", program, work) / "out/wave"
+        both_grounds(run, "space_time_u", PAGES / "tutorials/first_run.png")
+
+
+def add_project():
+    """The documents of the repository, which know nothing of the site."""
+    (PAGES / "project").mkdir()
+    for document in [*SOURCE.glob("docs/*.md"), SOURCE / "CHANGELOG.md"]:
+        text = document.read_text(encoding="utf-8")
+        # A list that follows its sentence without an empty line is one for GitHub, and not for mkdocs.
+        text = re.sub(r"(?m)^(?!\s*[-|]|\s*\d+\.\s|\s*$)(.*)\n(?=(?:- |1\. ))", r"\1\n\n", text)
+        (PAGES / "project" / document.name.lower()).write_text(text, encoding="utf-8")
+
+
+def main():
+    program = pathlib.Path(sys.argv[1]).resolve()
+    shutil.rmtree(PAGES, ignore_errors=True)
+    shutil.copytree(SITE, PAGES, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+    show_files()
+    add_project()
+    subprocess.run([sys.executable, SITE / "reference.py", program, PAGES / "reference"], check=True)
+    add_first_run(program)
+    add_gallery(program)
+    switch_pictures(PAGES)
+    shutil.copy(JQUERY, PAGES / "js/jquery-3.6.0.min.js")
+    (PAGES / "code.css").write_text(code_style(), encoding="utf-8")
+    sys.exit(subprocess.run(["mkdocs", "build", "--clean", "-f", SOURCE / "docs/mkdocs.yml"]).returncode)  # it says what is wrong
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""The test of the documentation sees what it should: a wrong digit, a missing line, a block that nothing runs. And the site has
+its pictures for light and for dark ground."""
+import math
+import pathlib
+import re
+import shutil
+import struct
+import sys
+import tempfile
+import unittest
+import zlib
+
+import run_blocks
+
+SITE = run_blocks.SOURCE / "docs/site"
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(SITE), str(SITE / "gallery")]
+import build  # noqa: E402
+
+
+class Pages(unittest.TestCase):
+    def play(self, text, package=None):
+        with tempfile.TemporaryDirectory() as directory:
+            page = pathlib.Path(directory) / "page.md"
+            page.write_text(text, encoding="utf-8")
+            return run_blocks.play(page, "/bin/true", pathlib.Path(directory) / "work", package)[0]
+
+    def mistake(self, text, package=None):
+        with self.assertRaises(run_blocks.Mistake) as caught:
+            self.play(text, package)
+        return str(caught.exception)
+
+    def printing(self, printed, shown):
+        return f"```sh\nprintf '{printed}'\n```\n\n```text\n{shown}\n```\n"
+
+    def test_numbers_agree_to_the_digits_shown(self):
+        for shown in ("H 1.2346 after 7 steps", "H 1.235 after 7 steps", "H 1.23… after 7 steps", "H … after 7 steps"):
+            self.assertEqual(self.play(self.printing("H 1.23456 after 7 steps\\n", shown)), 2)
+        for shown in ("H 1.2366 after 7 steps", "H 1.2346 after 8 steps", "H 1.2346 after 7", "G 1.2346 after 7 steps"):
+            self.assertIn("line 5: not printed:\n" + shown, self.mistake(self.printing("H 1.23456 after 7 steps\\n", shown)))
+
+    def test_exponents_count_as_digits(self):
+        self.play(self.printing("error 3.456e-09\\n", "error 3.5e-09"))
+        self.mistake(self.printing("error 3.456e-09\\n", "error 3.5e-08"))
+
+    def test_lines_may_be_left_out_only_where_the_page_says_so(self):
+        self.play(self.printing("a\\nb\\nc\\nd\\n", "a\n…\nd"))
+        self.assertIn("not printed:\nc", self.mistake(self.printing("a\\nb\\nd\\n", "a\n…\nc")))
+        self.assertIn("(nothing more)", self.mistake(self.printing("a\\nb\\n", "a")))
+
+    def test_commands_must_succeed_unless_the_page_catches_them(self):
+        self.assertIn("exit code 3", self.mistake("```sh\n(exit 3)\n```\n"))
+        self.play("```sh\n(exit 3) || echo \"exit code $?\"\n```\n\n```text\nexit code 3\n```\n")
+
+    def test_every_block_is_run_or_refused(self):
+        self.assertIn("block of 'ruby'", self.mistake("```ruby\nputs 1\n```\n"))
+        self.assertIn("no sh or python block just before", self.mistake("```text\nH\n```\n"))
+        self.assertIn("begins with the name of its file", self.mistake("```toml\n[problem]\n```\n"))
+        self.assertIn("nothing compiles it", self.mistake("```cpp\nint main() {}\n```\n"))
+        self.assertIn("is not closed", self.mistake("```sh\ntrue\n"))
+        self.assertIn("No rule to make target", self.mistake("```sh\nmake papper\n```\n"))
+
+    def test_python_goes_on_with_the_blocks_above_and_is_left_out_without_the_package(self):
+        page = "```python\nx = 1\nprint('first')\n```\n\n```python\nprint('x is', x)\n```\n\n```text\nx is {}\n```\n"
+        self.assertEqual(self.play(page.format(2)), 0)
+        with tempfile.TemporaryDirectory() as package:
+            (pathlib.Path(package) / "seiche").mkdir()
+            (pathlib.Path(package) / "seiche/_core.so").touch()
+            self.assertEqual(self.play(page.format(1), package), 3)
+            self.assertIn("not printed:\nx is 2", self.mistake(page.format(2), package))
+
+    def test_every_page_and_case_of_the_gallery_has_its_place(self):
+        site = run_blocks.SOURCE / "docs/site"
+        navigation = (run_blocks.SOURCE / "docs/mkdocs.yml").read_text(encoding="utf-8")
+        for page in site.rglob("*.md"):
+            self.assertIn(f": {page.relative_to(site)}\n", navigation)
+            if page.parent.name == "gallery" and page.stem != "index":
+                text = page.read_text(encoding="utf-8")
+                self.assertIn(f"<!-- file: cases/{page.stem}.toml -->", text)
+                self.assertEqual("\n<!-- film -->\n" in text, page.stem in build.FILMED)
+
+
+class Grounds(unittest.TestCase):
+    def test_every_picture_of_a_page_is_dark_where_the_page_is(self):
+        with tempfile.TemporaryDirectory() as directory:
+            pages = pathlib.Path(directory)
+            page = pages / "page.md"
+            page.write_text('before ![a "b" & c](drawn/x.png) after\n', encoding="utf-8")
+            (pages / "drawn").mkdir()
+            (pages / "drawn/x.png").touch()
+            with self.assertRaises(SystemExit) as caught:
+                build.switch_pictures(pages)
+            self.assertIn("there is no drawn/x_dark.png", str(caught.exception))
+            (pages / "drawn/x_dark.png").touch()
+            build.switch_pictures(pages)
+            self.assertEqual(page.read_text(encoding="utf-8"),
+                             'before <picture><source media="(prefers-color-scheme: dark)" srcset="drawn/x_dark.png">'
+                             '<img src="drawn/x.png" alt="a &quot;b&quot; &amp; c"></picture> after\n')
+
+    def test_the_style_sheet_has_the_same_names_of_colours_on_both_grounds(self):
+        style = (SITE / "style.css").read_text(encoding="utf-8")
+        light, dark = (set(re.findall(r"(--[a-z-]+):", block)) for block in re.findall(r":root \{(.*?)\}", style, re.S))
+        self.assertEqual(light, dark)
+        self.assertEqual(light, set(re.findall(r"var\((--[a-z-]+)\)", style)))
+
+    def test_pictures_of_the_gallery_are_drawn_for_both_grounds(self):
+        try:
+            import draw
+        except ImportError as missing:
+            self.skipTest(str(missing))
+        if not shutil.which("gnuplot"):
+            self.skipTest("gnuplot is not installed")
+        t = [14 * j for j in range(30)]
+        wave = [[math.sin(i + j) for i in range(12)] for j in range(30)]
+        fields = {name: wave for name in ("p", "q", "u", "v", "q1", "q2")}
+        with tempfile.TemporaryDirectory() as directory:
+            for name, function in draw.DRAWN.items():
+                corners = []
+                for ground in draw.GROUNDS:
+                    function(t, fields, pathlib.Path(directory) / f"{name}.png", ground)
+                    corners.append(first_pixel((pathlib.Path(directory) / f"{name}{ground.suffix}.png").read_bytes()))
+                self.assertEqual(corners, [(0xFF, 0xFF, 0xFF), (0x15, 0x18, 0x1C)], name)
+
+
+def first_pixel(png):
+    """Of the upper left corner, where every filter leaves the bytes as they are."""
+    at, data, kind = 8, b"", 0
+    while at < len(png):
+        length, name = struct.unpack(">I4s", png[at:at + 8])
+        if name == b"IHDR":
+            kind = png[at + 17]
+        if name == b"IDAT":
+            data += png[at + 8:at + 8 + length]
+        at += length + 12
+    assert kind in (2, 6)  # colours without a palette
+    return tuple(zlib.decompress(data)[1:4])
+
+
+if __name__ == "__main__":
+    unittest.main()
