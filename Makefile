@@ -6,7 +6,7 @@ WP_ARGS ?=
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps configure build paper docs test python bench install format tidy asan clean
+.PHONY: help deps configure build paper docs test python bench install format tidy asan fuzz clean
 
 help:  ## this list
 	@echo "Seiche: energy-stable integrators for damped Hamiltonian systems"
@@ -63,6 +63,10 @@ tidy:  ## read every C++ file with clang-tidy
 
 asan: deps  ## build and run the tests under sanitizers
 	@bash scripts/ci-asan
+
+fuzz:  ## feed formulas and case files to a fuzzer (SECONDS=600)
+	@bash scripts/install-deps --fuzz
+	@bash scripts/fuzz $(or $(SECONDS),600)
 
 clean:  ## remove everything that was built
 	@rm -rf build

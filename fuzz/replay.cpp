@@ -1,0 +1,76 @@
+// What stands in for libFuzzer where the compiler has none: every file of the folders, and then random changes of them for so many
+// seconds. Without coverage to guide it, but with the same sanitizers.
+//   fuzz_formula [SECONDS] FOLDER…
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace {
+
+constexpr unsigned seed = 20;
+constexpr std::size_t longest = 4096;
+
+void feed(const std::string& input) {
+  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+}
+
+// Bytes changed, removed, doubled, and a piece of another input put in.
+std::string changed(std::string input, const std::vector<std::string>& corpus, std::mt19937& random) {
+  const auto below = [&random](std::size_t n) { return n == 0 ? 0 : random() % n; };
+  for (std::size_t times = 1 + below(4); times > 0; --times) {
+    const std::size_t at = below(input.size() + 1);
+    const std::size_t length = below(std::min<std::size_t>(input.size() - at, 16) + 1);
+    switch (below(4)) {
+      case 0:
+        if (at < input.size()) input[at] = static_cast<char>(random() % 128);
+        break;
+      case 1: input.erase(at, length); break;
+      case 2: input.insert(at, input.substr(at, length)); break;
+      default: {
+        const std::string& other = corpus[below(corpus.size())];
+        input.insert(at, other.substr(below(other.size()), 1 + below(24)));
+      }
+    }
+  }
+  input.resize(std::min(input.size(), longest));
+  return input;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  double seconds = 0;
+  std::vector<std::string> corpus;
+  for (int i = 1; i < count; ++i) {
+    const std::filesystem::path folder = arguments[i];
+    if (!std::filesystem::is_directory(folder)) {
+      seconds = std::atof(arguments[i]);
+      continue;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      std::ifstream file(entry.path(), std::ios::binary);
+      corpus.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    }
+  }
+  if (corpus.empty()) {
+    std::fprintf(stderr, "%s: no input in the folders given\n", arguments[0]);
+    return 2;
+  }
+  for (const std::string& input : corpus) feed(input);
+  std::mt19937 random(seed);
+  std::size_t runs = 0;
+  using Clock = std::chrono::steady_clock;
+  for (const auto begin = Clock::now(); std::chrono::duration<double>(Clock::now() - begin).count() < seconds; ++runs)
+    feed(changed(corpus[random() % corpus.size()], corpus, random));
+  std::printf("%zu inputs of the corpus and %zu changes of them: nothing broke\n", corpus.size(), runs);
+}
