@@ -11,6 +11,7 @@
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/run/adaptive.hpp>
+#include <seiche/run/integrate.hpp>
 #include <seiche/run/step_controller.hpp>
 
 #include <gtest/gtest.h>
@@ -397,6 +398,49 @@ TEST(Adaptive, APendulumComesToRestAtItsTiltedPlaceWhateverTheTolerance) {
       EXPECT_EQ(report.law, LawVerdict::holds) << method << " " << report.law_reason;
       EXPECT_NEAR(simulation.physical()[0], std::asin(0.1), 1e-7) << method << " " << tolerance;
     }
+  }
+}
+
+// The well is at q = 1, where H is flat: what round-off in H may move a state by excuses no error of the scheme, also where the
+// oscillation has all but died out.
+TEST(Adaptive, TheToleranceHoldsNearARestThatIsNotTheOrigin) {
+  const Problem p = custom_problem(
+      {.H = "p^2/2 - q^2/2 + q^4/4", .D = {{"0", "0"}, {"0", "0.1"}}, .initial = {{"q", "2"}, {"p", "0"}}});
+  MethodOptions without_law;
+  without_law.law = EnergyLaw::none;
+  Simulation exact(p, {.method = "egc8", .method_options = without_law});
+  integrate(exact.system(), exact.stepper(), exact.state(), {.h = 1.0 / 64, .t_end = 240});
+  for (const char* method : {"egc4", "egc6", "crkn6"}) {
+    const double tolerance = 1e-10;
+    Simulation simulation(p, {.method = method, .variable_steps = true});
+    const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                                {.tolerance = tolerance, .t_end = 240, .law = {true, "damped"}});
+    ASSERT_EQ(report.status, RunReport::Status::success) << method << " " << report.message;
+    EXPECT_LE((simulation.physical() - exact.physical()).lpNorm<Eigen::Infinity>(), 20 * tolerance) << method;
+  }
+}
+
+// Gravity and a floor that takes half of the speed: the bounces last 2√2, √2, … and later ones less than a step.
+TEST(Adaptive, BouncesShorterThanAStepAreMetToo) {
+  const Problem p = custom_problem({.H = "p^2/2 + q", .initial = {{"q", "1"}, {"p", "0"}}});
+  for (const bool fixed : {true, false}) {
+    Simulation simulation(p, {.method = "egc4", .variable_steps = !fixed});
+    int count = 0;
+    const std::vector<Event> events = {{.g = [](double, const Vector& z) { return z[0]; },
+                                        .action =
+                                            [&](State& state) {
+                                              state.z[1] *= -0.5;
+                                              return ++count < 5;
+                                            },
+                                        .direction = Event::Direction::falling}};
+    const RunReport report =
+        fixed ? integrate(simulation.system(), simulation.stepper(), simulation.state(),
+                          {.h = 0.7, .t_end = 10, .events = events})
+              : integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                   {.tolerance = 1e-8, .t_end = 10, .first_h = 0.7, .events = events});
+    ASSERT_EQ(report.events.size(), 5) << fixed << " " << report.message;
+    for (int k = 0; k < 5; ++k)
+      EXPECT_NEAR(report.events[static_cast<std::size_t>(k)], std::numbers::sqrt2 * (3 - std::exp2(1 - k)), 1e-6) << k;
   }
 }
 

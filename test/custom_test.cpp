@@ -4,8 +4,10 @@
 
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/simulation.hpp>
+#include <seiche/core/law.hpp>
 #include <seiche/problem/nls.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -230,6 +232,40 @@ TEST(Custom, CoefficientsThatAreNoDecimalsAreNumbersAllTheSame) {
               HasSubstr("is not a real function"));
   EXPECT_THAT(complaint("H = \"p^2/2\"\nD = { p = \"(t - t - 1)^0.5\" }\ninitial = { q = 1, p = 0 }"),
               HasSubstr("problem.D"));
+}
+
+// Where there is no V to count it with.
+TEST(Custom, AConstantThatIsLeftOutOfHIsSaid) {
+  const Problem p = make_problem(read("H = \"p^2/2 + q^2/2 + 7\"\ninitial = { q = 1, p = 0 }"));
+  EXPECT_THAT(p.notes, testing::Contains("7 moves nothing, and H is counted without it"));
+  const Problem with_V = make_problem(read("H = \"p^2/2 + q^4 + 7\"\ninitial = { q = 1, p = 0 }"));
+  EXPECT_EQ(with_V.potential->value(std::vector<double>{0.0}), 7);
+  for (const char* complex : {"sqrt(-1 - q^2 + q^2)", "log(-1 + q - q)"})
+    EXPECT_THAT(complaint(fmt::format("H = \"p^2/2 + q^2/2 + {}\"\ninitial = {{ q = 1, p = 0 }}", complex)),
+                HasSubstr("is not a real function"));
+}
+
+// Exact arithmetic would take minutes and gigabytes.
+TEST(Custom, PowersWithoutEndAreRefusedAtOnce) {
+  for (const char* power : {"(1e300*q)^(-1000000)", "(2.5*q)^-100000", "(sin(q) + 1.000000001)^500000"})
+    EXPECT_THAT(complaint(fmt::format("H = \"p^2/2 + {}\"\ninitial = {{ q = 1, p = 0 }}", power)),
+                HasSubstr("of anything but one name, exponents are at most 1000"))
+        << power;
+  EXPECT_THAT(complaint("H = \"p^2/2 + (q - q)^-1\"\ninitial = { q = 1, p = 0 }"), HasSubstr("0^(-1) divides by zero"));
+  EXPECT_EQ(complaint("H = \"p^2/2 + q^-12/12 - q^-6/6\"\ninitial = { q = 1, p = 0 }"), "");
+}
+
+TEST(Custom, ForcesThatAreInfiniteAreRefusedWithTheirTime) {
+  const auto refusal = [](const char* force, double t_end) {
+    const Problem p =
+        make_problem(read(fmt::format("H = \"p^2/2 + q^4\"\ninitial = {{ q = 1, p = 0 }}\nforce = \"{}\"", force)));
+    return test::error_of([&] { require_finite_rates(p, 0, t_end); });
+  };
+  for (const char* force : {"1/t", "1/(t-t)", "sqrt(-1-t)"})
+    EXPECT_THAT(refusal(force, 1),
+                AllOf(HasSubstr("the force "), HasSubstr(" on the field p is no finite number at t = 0")));
+  EXPECT_THAT(refusal("1/(t-0.5)^2", 1), HasSubstr("is infinite between t = 0."));
+  EXPECT_EQ(refusal("1/(t-0.5)^2", 0.4), "");
 }
 
 TEST(Custom, AConstantOfThePlaceAloneStaysWithPoints) {

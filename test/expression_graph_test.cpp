@@ -172,6 +172,48 @@ TEST(ExpressionGraph, MeanSlopesOfFunctionsLoseNoDigits) {
   }
 }
 
+// Far from 0, where functions level out or grow without end, and next to where they end.
+TEST(ExpressionGraph, MeanSlopesHoldFarAwayAndNextToTheEnds) {
+  struct Place {
+    const char* name;
+    double a, b;
+    long double expected;
+  };
+  using Long = long double;
+  const auto difference = [](auto f, double a, double b) { return (f(Long(b)) - f(Long(a))) / (Long(b) - Long(a)); };
+  const auto tanh_difference = [](double a, double b) {  // of e^{−2x}, which does not level out
+    const Long ea = std::exp(-2 * Long(a)), eb = std::exp(-2 * Long(b));
+    return 2 * (ea - eb) / ((1 + ea) * (1 + eb)) / (Long(b) - Long(a));
+  };
+  const auto asin_near_one = [](double a, double b) {  // asin(1 − s) = π/2 − 2 asin √(s/2)
+    const auto f = [](Long s) { return -2 * std::asin(std::sqrt(s / 2)); };
+    return (f(1 - Long(b)) - f(1 - Long(a))) / (Long(b) - Long(a));
+  };
+  const std::vector<Place> places = {
+      {"tanh", 10, 11.5, tanh_difference(10, 11.5)},
+      {"tanh", 10, 40, tanh_difference(10, 40)},
+      {"tanh", -1, 30, difference([](Long x) { return std::tanh(x); }, -1, 30)},
+      {"atan", 1000, 1000.1, std::atan((Long(1000.1) - 1000) / (1 + Long(1000.1) * 1000)) / (Long(1000.1) - 1000)},
+      {"atan", -3, 5, difference([](Long x) { return std::atan(x); }, -3, 5)},
+      {"asinh", 1000, 1000.1, difference([](Long x) { return std::asinh(x); }, 1000, 1000.1)},
+      {"asinh", -2, 3, difference([](Long x) { return std::asinh(x); }, -2, 3)},
+      {"acosh", 1, 1.5, difference([](Long x) { return std::acosh(x); }, 1, 1.5)},
+      {"acosh", 1000, 1000.5, difference([](Long x) { return std::acosh(x); }, 1000, 1000.5)},
+      {"asin", 1 - 1e-9, 1 - 5e-10, asin_near_one(1 - 1e-9, 1 - 5e-10)},
+      {"asin", -0.9, 0.8, difference([](Long x) { return std::asin(x); }, -0.9, 0.8)},
+      {"atanh", -0.9, 0.99, difference([](Long x) { return std::atanh(x); }, -0.9, 0.99)},
+  };
+  for (const Place& place : places) {
+    const FormulaFunction& f = *find_formula_function(place.name);
+    EXPECT_NEAR(f.mean_slope(place.a, place.b) / static_cast<double>(place.expected), 1, 1e-14)
+        << place.name << place.a;
+    EXPECT_NEAR(f.mean_slope(place.b, place.a) / static_cast<double>(place.expected), 1, 1e-14)
+        << place.name << place.a;
+  }
+  EXPECT_DOUBLE_EQ(find_formula_function("atanh")->mean_slope(0.5, 0.5), 1 / 0.75);
+  EXPECT_DOUBLE_EQ(find_formula_function("acosh")->mean_slope(2, 2), 1 / std::sqrt(3.0));
+}
+
 TEST(ExpressionGraph, MeanSlopesOfLogarithmsAndExponentialsHoldOverManyDecades) {
   const FormulaFunction& log = *find_formula_function("log");
   for (const double b : {1e-15, 1e-9, 1e-3, 1e3, 1e9}) {

@@ -209,6 +209,13 @@ TEST(Friction, WhatTheRunMeetsIsKnownAfterIt) {
   }
 }
 
+TEST(Friction, ThatIsNoNumberSomewherePromisesNothing) {
+  for (const char* r : {"sqrt(-1-v^2)", "v+0*sqrt(-1-v^2)", "v*sqrt(1-v^2)"}) {
+    const FrictionPointer friction = formula_friction(formula(r), one_point);
+    EXPECT_NE(friction->feeds_at(1).find(", where R = nan"), std::string::npos) << r << ": " << friction->feeds_at(1);
+  }
+}
+
 TEST(Friction, ThatFeedsAtTimesIsFoundWhateverThePeriod) {
   const FrictionFormula c{.formula = compile_formula("0.2 + cos(3.141592653589793*t)", {"v", "u", "t", "x", "y", "z"}),
                           .uses_u = false,

@@ -11,6 +11,7 @@
 #include <seiche/potential/modulus.hpp>
 #include <seiche/potential/nodal.hpp>
 #include <seiche/potential/polynomials.hpp>
+#include <seiche/potential/sum.hpp>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +28,8 @@ std::vector<NamedProblem> problems_with_every_kind_of_potential() {
   list.push_back({"nodal_degree_6", p});
   p.potential = bond_polynomial({0, 0, 1.0, 0.3, 0.2}, Boundary::periodic);
   list.push_back({"bond_periodic", p});
+  p.potential = sum_of({{p.potential, 0}, {nodal_polynomial({0, 0, 0, 0.1, 0.3}), 0}}, 1);
+  list.push_back({"bonds_and_ground", p});
   p.potential = std::make_shared<NodalPotential<Cosine>>(Cosine{});
   list.push_back({"nodal_cosine", p});
   return list;
@@ -66,6 +69,22 @@ TEST(Potential, TheMagnitudeSumsTheSizesOfTheTerms) {
   const ValueAndMagnitude v = V->value_and_magnitude(u);
   EXPECT_DOUBLE_EQ(v.value, -1.0);
   EXPECT_DOUBLE_EQ(v.magnitude, 13.0);
+}
+
+// Where terms cancel, V is no measure of what round-off makes of it; nor is it where a small change of u changes V by much.
+TEST(Potential, TheMagnitudeIsThatOfTermsThatCancelAndOfSteepPlaces) {
+  const std::vector<double> one = {1, 0};
+  const ModulusPotential<Polynomial<3>> modulus(Polynomial<3>{{0, 0, -1, 1}});
+  EXPECT_EQ(modulus.value(one), 0);
+  EXPECT_EQ(modulus.magnitude(one), 2);
+  EXPECT_EQ(bond_polynomial({0, 0, 0, -1, 1}, Boundary::dirichlet)->magnitude(std::vector{1.0}), 2 + 2);
+  const std::vector<double> far = {1000};
+  const auto W = compile_formula("cos(u)", {"u"});
+  const auto formula = formula_potential({.value = W, .gradient = {differentiate(*W, "u")}},
+                                         Grid{.axes = {{1, 1.0, Boundary::periodic}}});
+  EXPECT_NEAR(formula->magnitude(far), std::abs(std::cos(1000.0)) + 1000 * std::abs(std::sin(1000.0)), 1e-9);
+  const double s = std::sin(500.0);
+  EXPECT_NEAR(NodalPotential<Cosine>(Cosine{}).magnitude(far), 2 * s * s + 1000 * std::abs(std::sin(1000.0)), 1e-9);
 }
 
 TEST(Potential, ValueAndMagnitudeTogetherAreThoseApart) {
@@ -149,7 +168,10 @@ TEST(Potential, SumsOfEqualTermsKeepTheirDigits) {
   for (const std::shared_ptr<const PointwisePotential>& V :
        {nodal_polynomial({0, 0, 0.1, 0.2, 0.3}), nodal_polynomial({0, 0, 0, 0, 0, 0, 0.7}),
         std::shared_ptr<const PointwisePotential>(std::make_shared<NodalPotential<Cosine>>(Cosine{})),
-        std::shared_ptr<const PointwisePotential>(modulus), formula}) {
+        std::shared_ptr<const PointwisePotential>(modulus), formula,
+        sum_of({{bond_polynomial({0, 0, 0.5, 0, 0.2}, Boundary::periodic), 0},
+                {nodal_polynomial({0, 0, 0, 0, 0.3}), 0}},
+               1)}) {
     const std::vector<double> one(static_cast<std::size_t>(V->fields()), 0.7);
     const std::vector<double> all(one.size() * n, 0.7), origin(all.size(), 0.0);
     const double of_one = V->value(one);

@@ -235,7 +235,7 @@ TEST(Solve, WhatACallbackThrowsComesOut) {
 TEST(Solve, TheLedgerSaysWhereTheEnergyWent) {
   const Solution s = solve(wave(), {.method = "egc4", .h = 1.0 / 16, .t_end = 1, .ledger = true});
   ASSERT_EQ(s.ledger.size(), s.t.size());
-  EXPECT_NEAR(s.ledger.back().sum(), s.H.back() - s.H.front(), 1e-12);
+  for (std::size_t i = 0; i < s.t.size(); ++i) EXPECT_NEAR(s.ledger[i].sum(), s.H[i] - s.H[0], 1e-12) << s.t[i];
   EXPECT_LT(s.ledger.back().damping_left, 0);
 }
 
@@ -255,6 +255,13 @@ TEST(Solve, MistakesAreOneSentenceWithBothValues) {
   EXPECT_THAT(message({.h = 0.1, .t_end = 1, .t_eval = std::vector{0.5, 2.0}}), testing::HasSubstr("t_eval holds 2"));
   EXPECT_THAT(message({.h = 0.1, .t_end = 1, .t_eval = std::vector{0.5, 0.2}}), testing::HasSubstr("ascend"));
   EXPECT_THAT(message({.h = 1e-12, .t_end = 1}), testing::HasSubstr("t_eval"));
+  EXPECT_THAT(message({.h = 0.1, .t_end = 1, .t_eval = std::vector{0.5}, .ledger = true}),
+              testing::HasSubstr("leave out one of the two"));
+  EXPECT_THAT(message({.tolerance = 1e-6,
+                       .t_end = 1,
+                       .events = {{.g = [](double t, const Vector&) { return t - 0.5; }}},
+                       .ledger = true}),
+              testing::HasSubstr("give h instead of a tolerance"));
 }
 
 }  // namespace

@@ -211,6 +211,12 @@ class Builder {
           "problem.H = \"{}\": its quadratic part, {}, is not ≥ 0 whatever products of fields go to V, and ½zᵀMz has to be",
           custom_.H, whole);
     p_.notes.push_back(fmt::format("H = ½zᵀMz + V with ½zᵀMz = {} and V = {}", split.quadratic_text, split.rest_text));
+    note_left_out(split);
+  }
+
+  void note_left_out(const EnergySplit& split) {
+    if (!split.left_out_text.empty())
+      p_.notes.push_back(fmt::format("{} moves nothing, and H is counted without it", split.left_out_text));
   }
 
   struct ProductOfFields {
@@ -240,8 +246,10 @@ class Builder {
                   p_.fields.front(), p_.fields.back());
     p_.M = custom_.M.empty() ? BlockStencil(fields()) : table("M", custom_.M);
     require_symmetric_M();
-    if (!custom_.V.empty())
-      set_potential(split_energy("problem.V", custom_.V, energy_names(), constants_, {.found = false}));
+    if (custom_.V.empty()) return;
+    const EnergySplit split = split_energy("problem.V", custom_.V, energy_names(), constants_, {.found = false});
+    set_potential(split);
+    note_left_out(split);
   }
 
   // ½zᵀMz sees only the symmetric part, and ∇H = Mz would not.

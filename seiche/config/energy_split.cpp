@@ -184,6 +184,9 @@ class Splitter {
       point_ += offset_ + offset_in_place_;
     } else if (first_bond != bond_.end()) {
       *first_bond += offset_;
+      leave_out(offset_in_place_);
+    } else {
+      leave_out(offset_ + offset_in_place_);
     }
     Expression rest = point_;
     for (const Expression& bond : bond_) rest += bond;
@@ -195,6 +198,14 @@ class Splitter {
       split_.per_bond.push_back(formula(bond_[f], of_bond, static_cast<Index>(f)));
     }
     return std::move(split_);
+  }
+
+  // Throws where it is no real number, as √−1.
+  void leave_out(const Expression& offset) {
+    if (offset.is_zero()) return;
+    const auto places = symbols_.begin() + static_cast<std::ptrdiff_t>(layout_.fields);
+    compiled(offset, {places, places + most_axes});
+    split_.left_out_text = text_of(offset);
   }
 
   GiNaC::realsymbol bond_symbol(std::size_t field) const {

@@ -46,6 +46,7 @@ struct EnergySplit {
   std::vector<FieldFormula> per_point;    // none or one
   std::vector<FieldFormula> per_bond;     // of one field each
   std::string quadratic_text, rest_text;  // to be shown
+  std::string left_out_text;              // what moves nothing, where there is no V to count it with
 };
 
 // Which quadratic terms go into ½zᵀMz: all with constant coefficients but those of the given pairs of fields (i ≤ j), or none.

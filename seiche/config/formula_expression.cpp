@@ -61,13 +61,16 @@ Error not_real(const Expression& expression) {
   return Error("'{}' is not a real function that can be evaluated", text_of(expression));
 }
 
-// With exponents that have no end neither has exact arithmetic.
+// Exact arithmetic takes powers of all numbers in the base: with exponents that have no end neither has it.
 Expression power(const Expression& base, const Expression& exponent) {
-  constexpr int most = 10'000;
-  if (GiNaC::is_a<GiNaC::numeric>(exponent) && GiNaC::abs(exponent) > most)
-    throw Error("the power {}^{} is out of range", text_of(base), text_of(exponent));
-  if (base.is_zero() && !GiNaC::is_a<GiNaC::numeric>(exponent))
-    throw Error("0^({}) has no derivative", text_of(exponent));
+  constexpr int most = 1000;
+  const bool is_number = GiNaC::is_a<GiNaC::numeric>(exponent);
+  if (is_number && !GiNaC::is_a<GiNaC::symbol>(base) && GiNaC::abs(exponent) > most)
+    throw Error("the power ({})^{} is out of range; of anything but one name, exponents are at most {}", text_of(base),
+                text_of(exponent), most);
+  if (base.is_zero() && is_number && exponent.info(GiNaC::info_flags::negative))
+    throw Error("0^({}) divides by zero", text_of(exponent));
+  if (base.is_zero() && !is_number) throw Error("0^({}) has no derivative", text_of(exponent));
   return GiNaC::pow(base, exponent);
 }
 
@@ -97,7 +100,7 @@ Expression to_expression(std::span<const Instruction> program, const Symbols& sy
     const Expression b = pop();
     switch (instruction.kind) {
       case Kind::negate: stack.push_back(-b); break;
-      case Kind::whole_power: stack.push_back(GiNaC::pow(b, instruction.index)); break;
+      case Kind::whole_power: stack.push_back(power(b, instruction.index)); break;
       case Kind::call: stack.push_back(call_function(instruction.function->name, b)); break;
       case Kind::add: stack.push_back(pop() + b); break;
       case Kind::subtract: stack.push_back(pop() - b); break;

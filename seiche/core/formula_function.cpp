@@ -17,9 +17,8 @@ double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 double sinhc(double x) { return std::abs(x) < 1e-4 ? 1 + x * x / 6 : std::sinh(x) / x; }
 
-// Where no addition theorem helps: the difference where it loses no more than two digits, and else Gauss' rule with four
-// nodes for the mean of the derivative, whose error is that of the eighth power of |b − a| over the distance to the next
-// singularity.
+// Where no addition theorem helps: the difference where b − a is no small part of the distance to the next singularity, and
+// else Gauss' rule with four nodes for the mean of the derivative, whose error is that of the eighth power of this part.
 template <class Value, class Derivative>
 double mean_slope(double a, double b, double distance, const Value& value, const Derivative& derivative) {
   constexpr std::array nodes = {0.33998104358485626480, 0.86113631159405257522};
@@ -49,11 +48,12 @@ double slope_of_sech(double a, double b) {
   return -slope_of_cosh(a, b) * sech(a) * sech(b);
 }
 
-// tanh b − tanh a = sinh(b − a)/(cosh a cosh b)
+// tanh b − tanh a = sinh(b − a)/(cosh a cosh b), in exponentials that do not overflow
 double slope_of_tanh(double a, double b) {
   const double d = std::abs(b - a);
-  if (d > 1) return (std::tanh(b) - std::tanh(a)) / (b - a);
-  return sinhc(d) * sech(a) * sech(b);
+  const double cosines = (1 + std::exp(-2 * std::abs(a))) * (1 + std::exp(-2 * std::abs(b)));
+  const double share = d == 0 ? 2 : -std::expm1(-2 * d) / d;
+  return 2 * share * std::exp(d - std::abs(a) - std::abs(b)) / cosines;
 }
 
 double slope_of_log(double a, double b) {
@@ -62,29 +62,38 @@ double slope_of_log(double a, double b) {
   return d == 0 ? 1 / a : std::log1p(d / least) / d;
 }
 
+// b·ca − a·cb, where (b·ca)² − (a·cb)² = b² − a²
+double sine_of_difference(double a, double ca, double b, double cb) {
+  return a * b > 0 ? (b - a) * (b + a) / (b * ca + a * cb) : b * ca - a * cb;
+}
+
+// tan(atan b − atan a) = (b − a)/(1 + ab)
 double slope_of_atan(double a, double b) {
-  return mean_slope(
-      a, b, 1.0, [](double x) { return std::atan(x); }, [](double x) { return 1 / (1 + x * x); });
+  const double d = b - a;
+  if (d == 0) return 1 / (1 + a * a);
+  return (a * b > 0 ? std::atan(d / (1 + a * b)) : std::atan(b) - std::atan(a)) / d;
 }
+// sinh(asinh b − asinh a) = b√(1 + a²) − a√(1 + b²)
 double slope_of_asinh(double a, double b) {
-  return mean_slope(
-      a, b, 1.0, [](double x) { return std::asinh(x); }, [](double x) { return 1 / std::sqrt(1 + x * x); });
+  const double ca = std::hypot(1, a), cb = std::hypot(1, b);
+  return a == b ? 1 / ca : std::asinh(sine_of_difference(a, ca, b, cb)) / (b - a);
 }
+// sin(asin b − asin a) = b√(1 − a²) − a√(1 − b²), and the cosine by the same theorem
 double slope_of_asin(double a, double b) {
-  const double distance = 1 - std::max(std::abs(a), std::abs(b));
-  return mean_slope(
-      a, b, distance, [](double x) { return std::asin(x); }, [](double x) { return 1 / std::sqrt(1 - x * x); });
+  const double ca = std::sqrt((1 - a) * (1 + a)), cb = std::sqrt((1 - b) * (1 + b));
+  return a == b ? 1 / ca : std::atan2(sine_of_difference(a, ca, b, cb), a * b + ca * cb) / (b - a);
 }
 double slope_of_acos(double a, double b) { return -slope_of_asin(a, b); }
+// sinh(acosh b − acosh a) = a√(b² − 1) − b√(a² − 1)
 double slope_of_acosh(double a, double b) {
-  return mean_slope(
-      a, b, std::min(a, b) - 1, [](double x) { return std::acosh(x); },
-      [](double x) { return 1 / std::sqrt(x * x - 1); });
+  const double sa = std::sqrt((a - 1) * (a + 1)), sb = std::sqrt((b - 1) * (b + 1));
+  return a == b ? 1 / sa : std::asinh((b - a) * (b + a) / (a * sb + b * sa)) / (b - a);
 }
+// tanh(atanh b − atanh a) = (b − a)/(1 − ab), with 1 − ab = (1 − a) + a(1 − b)
 double slope_of_atanh(double a, double b) {
-  const double distance = 1 - std::max(std::abs(a), std::abs(b));
-  return mean_slope(
-      a, b, distance, [](double x) { return std::atanh(x); }, [](double x) { return 1 / (1 - x * x); });
+  if (a == b) return 1 / ((1 - a) * (1 + a));
+  if (a * b <= 0) return (std::atanh(b) - std::atanh(a)) / (b - a);
+  return std::atanh((b - a) / ((1 - a) + a * (1 - b))) / (b - a);
 }
 
 constexpr std::array<FormulaFunction, 19> function_table = {{

@@ -86,21 +86,36 @@ std::optional<TimeSpan> around_pole(const Exists& exists, TimeSpan span) {
 }  // namespace
 
 void require_finite_rates(const Problem& problem, double t_start, double t_end) {
-  const auto require = [&](const auto& rate, const auto& exists) {
+  const auto require = [&](const char* what, const auto& rate, const auto& exists) {
     if (!rate || rate->is_constant() || !(t_end > t_start)) return;
     if (const std::optional<TimeSpan> pole = around_pole(exists, {t_start, t_end - t_start}))
       throw Error(
-          "the rate {} is infinite between t = {:.6g} and {:.6g}, and no solution goes on from there; end the run before",
-          rate->text(), pole->begin, pole->begin + pole->length);
+          "the {} {} is infinite between t = {:.6g} and {:.6g}, and no solution goes on from there; end the run before",
+          what, rate->text(), pole->begin, pole->begin + pole->length);
   };
   const LinearDamping& damping = problem.damping;
-  require(damping.rate,
+  require("rate", damping.rate,
           [&](const TimeSpan& span) { return std::isfinite(damping.rate->integral(span.begin, span.length)); });
-  std::vector<double> integrals(damping.field_rate ? static_cast<std::size_t>(problem.grid.unknowns()) : 0);
-  require(damping.field_rate, [&](const TimeSpan& span) {
-    damping.field_rate->integrals(span.begin, span.length, integrals);
-    return std::all_of(integrals.begin(), integrals.end(), [](double integral) { return std::isfinite(integral); });
-  });
+  std::vector<double> values(static_cast<std::size_t>(problem.grid.unknowns()));
+  const auto are_finite = [&] {
+    return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  };
+  const auto integrable = [&](const FieldRate& rate) {
+    return [&](const TimeSpan& span) {
+      rate.integrals(span.begin, span.length, values);
+      return are_finite();
+    };
+  };
+  if (damping.field_rate) require("rate", damping.field_rate, integrable(*damping.field_rate));
+  for (std::size_t f = 0; f < problem.forces.size(); ++f) {
+    const FieldRatePointer& force = problem.forces[f];
+    if (!force) continue;
+    force->values(t_start, values);
+    if (!are_finite())
+      throw Error("the force {} on the field {} is no finite number at t = {:.6g}", force->text(), problem.fields[f],
+                  t_start);
+    require("force", force, integrable(*force));
+  }
 }
 
 LawPromise promise_energy_law(const Problem& problem, double t_end) {

@@ -1,3 +1,4 @@
+#include <seiche/core/number_text.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 
 #include <fmt/format.h>
@@ -63,7 +64,7 @@ class FormulaFriction : public Friction {
         for (const double u : coordinates)
           for (const double v : speeds) {
             const double r = rate(t, u, v, places_[j]);
-            if (v * r < 0) return witness(t, u, v, r);
+            if (!(v * r >= 0)) return witness(t, u, v, r);
           }
     }
     return "";
@@ -89,7 +90,8 @@ class FormulaFriction : public Friction {
     std::string text = fmt::format("v = {:.4g}", v);
     if (f_.uses_u) text += fmt::format(", u = {:.4g}", u);
     if (f_.uses_t) text += fmt::format(", t = {:.4g}", t);
-    return text + fmt::format(", where v·R = {:.4g}", v * r);
+    return text + (std::isfinite(r) ? fmt::format(", where v·R = {:.4g}", v * r)
+                                    : fmt::format(", where R = {}", number_text(r)));
   }
 
   FrictionFormula f_;

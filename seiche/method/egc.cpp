@@ -69,7 +69,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     const double of_forces = physical_.lpNorm<Eigen::Infinity>();
     // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is not,
     // the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
-    const double displacement = projected_.last().displacement;
+    const double displacement = projected_.last().displacement - projected_.last().blur;
     if (displacement <= of_forces) return of_forces;
     system_.space->to_physical(s.z, physical_);
     const double share = physical_.lpNorm<Eigen::Infinity>() / physical_.norm();

@@ -42,7 +42,7 @@ class EnergyLine {
   struct Slope {
     double value = 0, size = 0;  // size: the sum of its terms without their signs
   };
-  // dH/dλ at 0; on a ray without its part from V where V is no polynomial. Elsewhere the first call takes a gradient.
+  // dH/dλ at 0. But on a ray where V is a polynomial the first call takes a gradient.
   Slope slope();
 
   void move(Vector& z, double lambda) const;  // z is the vector of the line

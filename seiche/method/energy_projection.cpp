@@ -30,6 +30,7 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
     EnergyLine line(system_, phi_, scratch_, z, Direction::casimir_free);
     start = line.at(0);
     outcome.H = outcome.computed = start.H();
+    outcome.loss = start.loss();
     aim = wanted(outcome.computed);
     if (std::abs(start.H() - aim.H) <= start.round_off() && start.H() <= aim.cap + start.loss()) {
       outcome.admissible = true;

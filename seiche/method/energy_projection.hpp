@@ -23,6 +23,7 @@ class EnergyProjection {
     double computed = 0;      // Ĥ, of the z that was passed
     double H = 0;             // of the z that came out; the target itself, where it was met to round-off
     double displacement = 0;  // Euclidean norm of the move
+    double loss = 0;          // what round-off makes of H there
   };
   using Wanted = FunctionRef<EnergyTarget(double computed)>;
   // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned: then z

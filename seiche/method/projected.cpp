@@ -169,7 +169,13 @@ Projected::Taken Projected::take_without_law(State& s, double t, double h, StepR
 void Projected::finish(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
                        const EnergyProjection::Outcome& outcome, StepReport& report) {
   base_.accept(s, h, resolved);
-  last_ = {.t = t, .energy = s.energy, .displacement = outcome.displacement, .gained = amount.negative};
+  const double asked = std::abs(outcome.computed - outcome.H);
+  const double blurred = outcome.displacement > 0 ? std::min(1.0, outcome.loss / asked) : 0;
+  last_ = {.t = t,
+           .energy = s.energy,
+           .displacement = outcome.displacement,
+           .blur = blurred * outcome.displacement,
+           .gained = amount.negative};
   s.energy = outcome.H;
   report.ledger += {.work = amount.work,
                     .damping_left = -(amount.fine + amount.work),

@@ -31,12 +31,13 @@ class Projected {
     double t = 0.0;             // of its start
     double energy = 0.0;        // Hⁿ
     double displacement = 0.0;  // Euclidean norm of the projection
+    double blur = 0.0;          // what of it round-off in H may have asked for: near rest, where H is flat, much
     bool gained = false;        // has damping fed energy anywhere in it?
   };
   const Last& last() const { return last_; }   // the step taken last
   const Vector& before() const { return z_; }  // its zⁿ
-  void keep_between(const State& s,
-                    Vector& z);  // z inside the last step ← a point near it with an energy between both ends
+  // z inside the last step ← a point near it with an energy between both ends
+  void keep_between(const State& s, Vector& z);
 
  private:
   enum class Taken {
@@ -75,6 +76,7 @@ class ProjectedStepper final : public Stepper {
   void begin(State& s) override { projected_.begin(s); }
   StepReport step(State& s, double h) override { return projected_.step(s, h); }
   StepReport attempt(State& s, double h) { return projected_.attempt(s, h); }
+  double blur() const { return projected_.last().blur; }
   EnergyReading energy(const State& s) const override { return projected_.energy(s); }
   bool has_modified_energy() const override { return false; }
   void keep_ledger() override { projected_.keep_ledger(); }

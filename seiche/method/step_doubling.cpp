@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/method/error_estimate.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -13,9 +14,14 @@ class Doubled final : public AdaptiveStepper {
  public:
   // A step that may fail instead of being taken another way; one of `stepper`.
   using Attempt = std::function<StepReport(State&, double h)>;
+  using Blur = std::function<double()>;  // how far round-off in H may have moved what it gave
 
-  Doubled(const System& system, std::unique_ptr<Stepper> stepper, Attempt attempt, int order)
-      : system_(system), stepper_(std::move(stepper)), attempt_(std::move(attempt)), order_(order) {
+  Doubled(const System& system, std::unique_ptr<Stepper> stepper, Attempt attempt, Blur blur, int order)
+      : system_(system),
+        stepper_(std::move(stepper)),
+        attempt_(std::move(attempt)),
+        blur_(std::move(blur)),
+        order_(order) {
     difference_.setZero(system.space->size());
     physical_.setZero(system.space->physical_size());
   }
@@ -32,9 +38,12 @@ class Doubled final : public AdaptiveStepper {
     h_ = h;
     StepReport report = attempt_(whole_, h);
     if (!report.solved()) return report;
+    moved_ = blur_();
     const StepReport first = attempt_(s, h / 2);
+    moved_ += blur_();
     middle_ = s;
     const StepReport second = first.solved() ? attempt_(s, h / 2) : StepReport{};
+    moved_ += blur_();
     report.ledger = {};
     report += first;
     report += second;
@@ -47,7 +56,7 @@ class Doubled final : public AdaptiveStepper {
     difference_ = whole_.z - s.z;
     system_.space->to_physical(difference_, physical_);
     if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
-    return physical_.lpNorm<Eigen::Infinity>() / (std::exp2(order_) - 1);
+    return std::max(0.0, physical_.lpNorm<Eigen::Infinity>() - moved_) / (std::exp2(order_) - 1);
   }
 
   void undo(State& s) override { s = before_; }
@@ -68,9 +77,10 @@ class Doubled final : public AdaptiveStepper {
   const System& system_;
   std::unique_ptr<Stepper> stepper_;
   Attempt attempt_;
+  Blur blur_;
   int order_;
   State before_, middle_, whole_, between_;
-  double h_ = 0;
+  double h_ = 0, moved_ = 0;
   Vector difference_, physical_;
 };
 
@@ -80,13 +90,14 @@ std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::u
                                                     int order) {
   ProjectedStepper& projected = *stepper;
   return std::make_unique<Doubled>(
-      system, std::move(stepper), [&projected](State& s, double h) { return projected.attempt(s, h); }, order);
+      system, std::move(stepper), [&projected](State& s, double h) { return projected.attempt(s, h); },
+      [&projected] { return projected.blur(); }, order);
 }
 
 std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<Stepper> stepper, int order) {
   Stepper& plain = *stepper;
   return std::make_unique<Doubled>(
-      system, std::move(stepper), [&plain](State& s, double h) { return plain.step(s, h); }, order);
+      system, std::move(stepper), [&plain](State& s, double h) { return plain.step(s, h); }, [] { return 0.0; }, order);
 }
 
 }  // namespace seiche

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/potential.hpp>
+#include <seiche/potential/loops.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
@@ -33,7 +34,12 @@ class BarPotential final : public PointwisePotential {
 
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
     ValueAndMagnitude sum;
-    for (const Bar& bar : bars_) sum += w_.value(elongation(bar, u));
+    for (const Bar& bar : bars_) {
+      const double e = elongation(bar, u);
+      const double value = w_.value(e);
+      sum.value += value;
+      sum.magnitude += size_of(w_, e, value);
+    }
     return sum;
   }
 

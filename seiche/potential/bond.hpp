@@ -23,8 +23,16 @@ class BondPotential final : public PointwisePotential {
   }
 
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
-    ValueAndMagnitude sum;
-    for_bonds(u, [&](std::size_t, std::size_t, double d) { sum += w_.value(d); });
+    if (u.empty()) return {};
+    const auto stretch = [&](std::size_t j) { return u[j + 1] - u[j]; };
+    ValueAndMagnitude sum = sum_points_and_sizes(
+        u.size() - 1, [&](std::size_t j) { return w_.value(stretch(j)); },
+        [&](std::size_t j, double value) { return size_of(w_, stretch(j), value); });
+    for_ends(u, [&](std::size_t, std::size_t, double d) {
+      const double value = w_.value(d);
+      sum.value += value;
+      sum.magnitude += size_of(w_, d, value);
+    });
     return sum;
   }
 
@@ -49,11 +57,14 @@ class BondPotential final : public PointwisePotential {
   }
 
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
-    std::fill(coefficients.begin(), coefficients.end(), 0.0);
     if constexpr (requires { W::degree; }) {
-      for_bonds(p, [&](std::size_t left, std::size_t right, double d) {
+      sum_coefficients(p.empty() ? 0 : p.size() - 1, coefficients,
+                       [&](std::size_t j, double* into) { w_.add_along(p[j + 1] - p[j], q[j + 1] - q[j], into); });
+      for_ends(p, [&](std::size_t left, std::size_t right, double d) {
         w_.add_along(d, at(q, right) - at(q, left), coefficients.data());
       });
+    } else {
+      std::fill(coefficients.begin(), coefficients.end(), 0.0);
     }
   }
 
@@ -79,9 +90,15 @@ class BondPotential final : public PointwisePotential {
 
   template <class Visit>
   void for_bonds(std::span<const double> u, const Visit& visit) const {
+    for (std::size_t j = 0; j + 1 < u.size(); ++j) visit(j, j + 1, u[j + 1] - u[j]);
+    for_ends(u, visit);
+  }
+
+  // The one or two bonds that close the chain.
+  template <class Visit>
+  void for_ends(std::span<const double> u, const Visit& visit) const {
     const std::size_t n = u.size();
     if (n == 0) return;
-    for (std::size_t j = 0; j + 1 < n; ++j) visit(j, j + 1, u[j + 1] - u[j]);
     if (boundary_ == Boundary::periodic) {
       visit(n - 1, 0, u[0] - u[n - 1]);
     } else {

@@ -56,9 +56,13 @@ class FormulaPotential final : public PointwisePotential {
     LongSum magnitude;
     const double value = sum(u, [&](double* table, std::size_t, std::size_t points) {
       double* const sizes = table + graph_.table_size();
-      graph_.evaluate_first(table, points);
+      if (w_.degree > 0)
+        graph_.evaluate_first(table, points);
+      else
+        graph_.evaluate(table, points);
       term_sizes(graph_, table, points, sizes);
       magnitude.add(total(value_row(sizes), points));
+      if (w_.degree == 0) magnitude.add(size_of_slopes(table, points));
       return total(value_row(table), points);
     });
     return {value, magnitude.total()};
@@ -105,6 +109,14 @@ class FormulaPotential final : public PointwisePotential {
   const double* value_row(const double* table) const { return table + graph_.output(0) * block; }
   const double* slope_row(const double* table, std::size_t field) const {
     return table + graph_.output(1 + field) * block;
+  }
+
+  // Σ|u_f ∂W/∂u_f|: what round-off in u makes of W where it is no polynomial, whose terms are of that size.
+  double size_of_slopes(const double* table, std::size_t points) const {
+    double sum = 0;
+    for (std::size_t f = 0; f < fields_; ++f)
+      for (std::size_t j = 0; j < points; ++j) sum += std::abs(table[f * block + j] * slope_row(table, f)[j]);
+    return sum;
   }
 
   static double total(const double* values, std::size_t points) {

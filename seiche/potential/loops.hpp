@@ -101,7 +101,7 @@ void sum_coefficients(std::size_t n, std::span<double> coefficients, const Add& 
   for (std::size_t k = 0; k < coefficients.size(); ++k) coefficients[k] = all[k].total();
 }
 
-// The size of the terms of W(u), or |W(u)| where they are not known.
+// The size of the terms of W(u), with u W'(u) where that is not of their size; or |W(u)| where they are not known.
 template <class W>
 [[gnu::always_inline]] inline double size_of(const W& w, double u, double value) {
   if constexpr (requires { w.size(u); }) return w.size(u);

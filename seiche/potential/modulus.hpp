@@ -29,7 +29,7 @@ class ModulusPotential final : public PointwisePotential {
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
     return sum_points_and_sizes(
         u.size() / 2, [&](std::size_t j) { return w_.value(density(u, j)); },
-        [](std::size_t, double value) { return std::abs(value); });
+        [&](std::size_t j, double value) { return size_of(w_, density(u, j), value); });
   }
 
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {

@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
-#include <seiche/potential/chain.hpp>
+#include <seiche/potential/polynomials.hpp>
+#include <seiche/potential/sum.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/grid_options.hpp>
 #include <seiche/problem/wave.hpp>
@@ -30,9 +31,9 @@ Problem chain(const Chain& options) {
   p.fields = {"u", "p"};
   p.M(1, 1) = Stencil::identity(1 / options.mass);
   p.damping.constant(1, 1) = -options.neighbour_damping * R;
-  const Polynomial<4> bond{{0, 0, 0, 0, options.neighbour_cubic / 4}};
-  const Polynomial<4> ground{{0, 0, 0, 0, options.ground_cubic / 4}};
-  p.potential = std::make_shared<ChainPotential<Polynomial<4>>>(bond, ground, options.boundary);
+  const auto bonds = bond_polynomial({0, 0, 0, 0, options.neighbour_cubic / 4}, options.boundary);
+  const auto ground = nodal_polynomial({0, 0, 0, 0, options.ground_cubic / 4});
+  p.potential = options.ground_cubic == 0 ? bonds : sum_of({{bonds, 0}, {ground, 0}}, 1);
 
   const Index n = grid.unknowns();
   if (options.initial == Chain::Initial::first_mode) {

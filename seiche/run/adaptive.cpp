@@ -67,14 +67,15 @@ class AdaptiveLoop {
     const bool is_last = h_ * (1 + 1e-10) >= left;
     // What is left is cut in two equal parts before it, so that no step is far shorter than the one before.
     const bool is_cut = !is_last && 2 * h_ > left;
-    const double h = is_last && std::abs(h_ - left) > 1e-10 * left ? left : is_cut ? left / 2 : h_;
+    const bool is_left =
+        std::abs(h_ - left) <= 8 * epsilon * std::max(std::abs(options_.t_end), left);  // but for round-off in t
+    const double h = is_last && !is_left ? left : is_cut ? left / 2 : h_;
     StepReport step = stepper_.attempt(state_, h);
     recording_.count(step);
     if (!step.solved()) return reject(StepController::rounded(h / 4), step.message);
     const std::optional<double> error = stepper_.error(state_);
     if (!error && !is_last) return hold_back(h, step);
-    double noise = 8 * epsilon * state_.z.norm() / std::sqrt(static_cast<double>(state_.z.size()));
-    if (error && *error > controller_.allowed() * h) noise = std::max(noise, unseen_by_energy());
+    const double noise = 8 * epsilon * state_.z.norm() / std::sqrt(static_cast<double>(state_.z.size()));
     if (error && !controller_.accepts(*error, h, noise)) {
       stepper_.undo(state_);
       return reject(controller_.next(h), too_inaccurate(h, *error));
@@ -92,19 +93,11 @@ class AdaptiveLoop {
     return accept();
   }
 
-  // How far round-off in H may move a state along its own direction to a value of H, as projections do. Near rest, where H is flat, that is far more than
-  // round-off of the state, and no shorter step makes it less.
-  double unseen_by_energy() {
-    const double round_off = system_.energy_terms(state_.z).round_off();
-    Vector slope(state_.z.size());
-    system_.gradient(state_.z, slope);
-    return std::min(round_off * state_.z.norm() / std::abs(state_.z.dot(slope)), std::sqrt(round_off));
-  }
-
   // The first step of a method with history: the next one tells its error. It must not hold an event, since what follows one
   // would have to be taken back too.
   bool hold_back(double h, const StepReport& step) {
-    if (h > least_step() * 1e3 && events_.any_crossing(state_)) {
+    const auto inside = [this](double t, Vector& z) { stepper_.interpolate(state_, t, z); };
+    if (h > least_step() * 1e3 && events_.any_crossing(state_, inside)) {
       stepper_.undo(state_);
       return reject(StepController::rounded(h / 4), "an event lies in the first step");
     }
@@ -153,6 +146,7 @@ class AdaptiveLoop {
     unproven_ = false;
     recording_.enter(first_step_);
     note(first_h_);
+    events_.start(first_);
     std::swap(state_, first_);
     const bool good = recording_.record(false);
     std::swap(state_, first_);

@@ -38,16 +38,17 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
     const double round_off = has_modified_energy_ ? std::max(reading.modified_round_off, last_.modified_round_off)
                                                   : std::max(reading.round_off, last_.round_off);
     const double allowed = round_off * static_cast<double>(n - last_n_);
-    // Round-off that explains more than all there was at the start says that the numbers mean nothing any more, and no law holds.
-    const double explained = std::min(allowed, size_);
-    if (increase > explained && !first_violation_.found) first_violation_ = {t, increase, explained, true};
+    if (increase > allowed && !violation_.found) violation_ = {t, increase, allowed, true};
+    // Round-off explains it, and would explain more than all there was at the start: nobody can tell any more.
+    if (increase > size_ && increase <= allowed && !drowned_.found) drowned_ = {t, allowed, size_, true};
   }
   reopened_ = false;
   last_ = reading;
   last_n_ = n;
 }
 
-// At rest where V = 0 nothing has a size yet: the largest of the first records then stands for the start.
+// At rest where V = 0 nothing has a size yet: the largest of the first records then stands for the start. Below the squares of
+// what is next to the least number, terms are no more than at rest.
 void EnergyBook::take_size(const EnergyReading& reading) {
   constexpr int first_records = 100;
   constexpr double nothing = 1e-290;
@@ -64,13 +65,22 @@ void EnergyBook::write_to(RunReport& report) const {
   report.law_reason = promise_.reason;
   if (!promise_.promised) {
     report.law = LawVerdict::not_promised;
-  } else if (!first_violation_.found) {
-    report.law = LawVerdict::holds;
-  } else {
+    return;
+  }
+  const char* const name = has_modified_energy_ ? "modified energy" : "energy H";
+  if (violation_.found) {
     report.law = LawVerdict::violated;
-    report.law_reason = fmt::format("the {} rose by {:.3g} up to t = {:.6g}, and round-off explains only {:.3g}",
-                                    has_modified_energy_ ? "modified energy" : "energy H", first_violation_.increase,
-                                    first_violation_.t, first_violation_.allowed);
+    report.law_reason = fmt::format("the {} rose by {:.3g} up to t = {:.6g}, and round-off explains only {:.3g}", name,
+                                    violation_.increase, violation_.t, violation_.round_off);
+  } else if (drowned_.found) {
+    // A modified energy is drowned by its shift C, which is the method's; H by the solution, which has grown so much.
+    report.law = has_modified_energy_ ? LawVerdict::violated : LawVerdict::not_promised;
+    report.law_reason = fmt::format(
+        "the {} can no longer be told from round-off: at t = {:.6g} that is {:.3g} in its terms, and all of them were {:.3g} at the "
+        "start",
+        name, drowned_.t, drowned_.round_off, drowned_.size);
+  } else {
+    report.law = LawVerdict::holds;
   }
 }
 

@@ -15,7 +15,12 @@ class EnergyBook {
   // One reading per recorded step, in order. `n` counts steps, so that round-off may add up over those in between.
   void add(const EnergyReading& reading, double t, std::int64_t n);
   bool has(std::int64_t n) const { return !empty_ && n == last_n_; }  // was the last reading taken at step n?
-  void reopen() { reopened_ = true; }  // the next reading starts anew: no increase from the last one to it
+  // The next reading starts anew: no increase from the last one to it.
+  void reopen() {
+    reopened_ = true;
+    records_ = 0;
+    size_ = 0;
+  }
   void write_to(RunReport& report) const;
 
  private:
@@ -33,9 +38,13 @@ class EnergyBook {
   EnergyReading last_;
   EnergySummary energy_, modified_;
   struct Violation {
-    double t = 0.0, increase = 0.0, allowed = 0.0;
+    double t = 0.0, increase = 0.0, round_off = 0.0;
     bool found = false;
-  } first_violation_;
+  } violation_;  // the first
+  struct Drowned {
+    double t = 0.0, round_off = 0.0, size = 0.0;
+    bool found = false;
+  } drowned_;  // where that happened first
 };
 
 }  // namespace seiche

@@ -28,18 +28,33 @@ double EventFinder::value(std::size_t i, double t, const Vector& z) const {
 }
 
 void EventFinder::start(const State& state) {
-  t_ = state.t;
   for (std::size_t i = 0; i < events_.size(); ++i) {
     const bool just_now = std::find(happened_.begin(), happened_.end(), &events_[i]) != happened_.end();
-    values_[i] = just_now ? 0.0 : value(i, state.t, state.z);
+    left_[i] = {state.t, just_now ? 0.0 : value(i, state.t, state.z), just_now};
   }
   happened_.clear();
 }
 
-bool EventFinder::any_crossing(const State& state) {
+// A ball that touches the ground again within a step is seen to be above it in between, unless it is back in a 64th of the step.
+void EventFinder::leave_surfaces(const State& state, Inside inside) {
+  constexpr double soon = 1.0 / 64;
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    if (!left_[i].on_surface) continue;
+    const double t = left_[i].t + soon * (state.t - left_[i].t);
+    z_.resizeLike(state.z);
+    inside(t, z_);
+    left_[i] = {t, value(i, t, z_), false};
+  }
+}
+
+bool EventFinder::any_crossing(const State& state, Inside inside) {
+  const std::vector<Left> before = left_;  // to be kept: the step may yet be taken back
+  leave_surfaces(state, inside);
+  bool any = false;
   for (std::size_t i = 0; i < events_.size(); ++i)
-    if (is_crossing(values_[i], value(i, state.t, state.z), events_[i].direction)) return true;
-  return false;
+    any = any || is_crossing(left_[i].g, value(i, state.t, state.z), events_[i].direction);
+  left_ = before;
+  return any;
 }
 
 double EventFinder::locate(std::size_t i, double after, const State& state, Inside inside) {
@@ -50,7 +65,7 @@ double EventFinder::locate(std::size_t i, double after, const State& state, Insi
     return value(i, t, z_);
   };
   std::uintmax_t iterations = 100;
-  return boost::math::tools::toms748_solve(g, t_, state.t, values_[i], after,
+  return boost::math::tools::toms748_solve(g, left_[i].t, state.t, left_[i].g, after,
                                            boost::math::tools::eps_tolerance<double>(50), iterations)
       .second;
 }
@@ -60,12 +75,13 @@ EventFinder::Found EventFinder::find(const State& state, Inside inside) {
     const Event* event;
     double t;
   };
+  leave_surfaces(state, inside);
   std::vector<Crossing> crossings;
   Found found{.t = std::numeric_limits<double>::infinity(), .events = {}};
   std::vector<double> after(events_.size());
   for (std::size_t i = 0; i < events_.size(); ++i) {
     after[i] = value(i, state.t, state.z);
-    if (!is_crossing(values_[i], after[i], events_[i].direction)) continue;
+    if (!is_crossing(left_[i].g, after[i], events_[i].direction)) continue;
     crossings.push_back({&events_[i], locate(i, after[i], state, inside)});
     found.t = std::min(found.t, crossings.back().t);
   }
@@ -73,8 +89,7 @@ EventFinder::Found EventFinder::find(const State& state, Inside inside) {
   for (const Crossing& crossing : crossings)
     if (crossing.t <= found.t + same) found.events.push_back(crossing.event);
   happened_ = found.events;
-  values_ = after;
-  t_ = state.t;
+  for (std::size_t i = 0; i < events_.size(); ++i) left_[i] = {state.t, after[i], false};
   return found;
 }
 

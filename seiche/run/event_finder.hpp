@@ -11,10 +11,10 @@ namespace seiche {
 
 class EventFinder {
  public:
-  explicit EventFinder(std::span<const Event> events) : events_(events), values_(events.size()) {}
+  explicit EventFinder(std::span<const Event> events) : events_(events), left_(events.size()) {}
 
-  // The values from which signs change. Those of events that have just happened count as zero, from which nothing crosses:
-  // the state stands on their surface, on either side by round-off.
+  // The values from which signs change. The state stands on the surface of events that have just happened, on either side by
+  // round-off: for them the sign counts that g has a little later, inside the next step.
   void start(const State& state);
 
   using Inside = FunctionRef<void(double t, Vector& z)>;  // z ← the solution at a time inside the last step
@@ -27,16 +27,20 @@ class EventFinder {
   // The first events inside the last step, located on the solution inside it to round-off in t (TOMS 748). Throws Error
   // where an event function is no number.
   Found find(const State& state, Inside inside);
-  bool any_crossing(const State& state);  // is there any, without locating it?
+  bool any_crossing(const State& state, Inside inside);  // is there any, without locating it?
 
  private:
   double value(std::size_t i, double t, const Vector& z) const;
+  void leave_surfaces(const State& state, Inside inside);
   double locate(std::size_t i, double after, const State& state, Inside inside);
 
   std::span<const Event> events_;
-  std::vector<double> values_;
+  struct Left {
+    double t = 0, g = 0;
+    bool on_surface = false;
+  };
+  std::vector<Left> left_;  // of each event, from where its sign may change
   std::vector<const Event*> happened_;
-  double t_ = 0.0;
   Vector z_;
 };
 

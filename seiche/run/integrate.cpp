@@ -35,8 +35,8 @@ class FixedLoop {
 
   std::string remark() const {
     if (!grid_.last_is_shortened() || state_.t != grid_.end) return "";
-    return fmt::format("; h = {:.9g} does not divide the time {:.9g}, so the last step was shortened to {:.9g}",
-                       grid_.h, grid_.end - grid_.start, grid_.last_h);
+    return fmt::format("; h = {:.9g} does not divide the time {:.9g}{}, so the last step was shortened to {:.9g}",
+                       grid_.h, grid_.end - grid_.start, met_event_ ? " behind the last event" : "", grid_.last_h);
   }
 
  private:
@@ -91,7 +91,7 @@ class FixedLoop {
     stepper_.begin(state_);
     recording_.reopen();
     grid_ = TimeGrid(state_.t, grid_.h, grid_.end);
-    restarted_ = true;
+    restarted_ = met_event_ = true;
     if (!recording_.record(!goes_on || grid_.steps == 0) || !goes_on) return false;
     events_.start(state_);
     return true;
@@ -104,7 +104,7 @@ class FixedLoop {
   Recording& recording_;
   EventFinder events_;
   State left_, between_;  // where there are events
-  bool restarted_ = false;
+  bool restarted_ = false, met_event_ = false;
 };
 
 }  // namespace

@@ -23,6 +23,12 @@ void validate(const Problem& problem, const SolveOptions& o) {
   if (o.z0 && !o.z0->allFinite()) throw Error("z0 holds a number that is not finite");
   for (std::size_t i = 0; i < o.events.size(); ++i)
     if (!o.events[i].g) throw Error("event {} has no function", i + 1);
+  if (o.ledger && o.t_eval)
+    throw Error(
+        "the ledger is kept at the ends of steps, and t_eval asks for times inside them: leave out one of the two");
+  if (o.ledger && o.tolerance && !o.events.empty())
+    throw Error(
+        "an event inside a step of variable size leaves the ledger with a step too many: give h instead of a tolerance");
   if (!o.t_eval) return;
   if (!std::is_sorted(o.t_eval->begin(), o.t_eval->end())) throw Error("the times of t_eval must ascend");
   for (const double t : *o.t_eval)

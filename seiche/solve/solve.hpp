@@ -50,7 +50,7 @@ struct SolveOptions {
   std::int64_t record_every = 1;  // steps, where there is no t_eval; the law is judged at these steps
   std::vector<SolveEvent> events = {};
   bool dense_output = false;  // keep what Solution::sol needs: a state of the method for every step
-  bool ledger = false;        // of every recorded time: where the change of H comes from
+  bool ledger = false;        // of every recorded step: where the change of H comes from; without t_eval
 
   std::function<bool(const SolveStep& step)> observer = {};  // after every record_every-th step; false ends the run
   const std::atomic<bool>* stop = nullptr;                   // set elsewhere: the run ends after the current step
