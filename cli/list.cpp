@@ -3,76 +3,16 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 #include <seiche/backend/backends.hpp>
-#include <seiche/config/custom_case.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/method/methods.hpp>
-#include <seiche/problem/problems.hpp>
+#include <seiche/study/lists.hpp>
 
 #include <iterator>
 #include <memory>
 
 namespace seiche::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr auto what_auto_is =
-    "one of these, chosen by tolerance, stiffness, damping and friction of the case; a run says which and why";
-
-Json methods_json() {
-  Json list = Json::array();
-  for (const MethodEntry& method : methods()) {
-    list.push_back({{"name", method.name},
-                    {"closure", to_string(method.closure)},
-                    {"propagator", to_string(method.propagator)},
-                    {"composition", to_string(method.composition)},
-                    {"order", method.order},
-                    {"law", method.law},
-                    {"projection", method.projects() ? Json(to_string(method.projection)) : Json(nullptr)},
-                    {"reference", method.reference}});
-  }
-  list.push_back({{"name", "auto"},
-                  {"closure", nullptr},
-                  {"propagator", nullptr},
-                  {"composition", nullptr},
-                  {"order", nullptr},
-                  {"law", nullptr},
-                  {"projection", nullptr},
-                  {"reference", what_auto_is}});
-  return list;
-}
-
-std::vector<ProblemEntry> listed_problems() {
-  std::vector<ProblemEntry> list(problems().begin(), problems().end());
-  list.push_back(custom_in_list());
-  return list;
-}
-
-Json problems_json() {
-  Json list = Json::array();
-  for (const ProblemEntry& problem : listed_problems()) {
-    Json parameters = Json::array();
-    for (const Parameter& parameter : problem.parameters) {
-      parameters.push_back(
-          {{"name", parameter.name}, {"default", parameter.default_value}, {"meaning", parameter.meaning}});
-    }
-    list.push_back({{"name", problem.name},
-                    {"equation", problem.equation},
-                    {"reference", problem.reference},
-                    {"fields", problem.fields},
-                    {"initial", problem.presets},
-                    {"parameters", parameters}});
-  }
-  return list;
-}
-
-Json backends_json() {
-  Json list = Json::array();
-  for (const BackendEntry& backend : backends()) list.push_back({{"name", backend.name}, {"summary", backend.summary}});
-  return list;
-}
 
 std::string methods_text() {
   constexpr auto row = "{:<13} {:<8} {:<12} {:<12} {:>5}  {:<11} {:<11} {}\n";
@@ -105,7 +45,7 @@ std::string backends_text() {
 
 struct List {
   std::string name;
-  Json (*json)();
+  std::string (*json)();
   std::string (*text)();
 };
 const std::vector<List> lists = {{"methods", methods_json, methods_text},
@@ -117,7 +57,7 @@ ExitCode print_list(const std::string& name, bool json) {
   for (const List& list : lists) {
     names.push_back(list.name);
     if (list.name != name) continue;
-    print_data(json ? list.json().dump(2) + "\n" : list.text());
+    print_data(json ? list.json() + "\n" : list.text());
     return success;
   }
   throw unknown_name("list", name, names);

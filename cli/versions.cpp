@@ -2,27 +2,13 @@
 
 #include <fmt/format.h>
 #include <CLI/Version.hpp>
-#include <nlohmann/json.hpp>
-#include <seiche/backend/backends.hpp>
-#include <seiche/config/library_versions.hpp>
-#include <seiche/core/multiversion.hpp>
-#include <seiche/output/hdf5.hpp>
-#include <seiche/version.hpp>
+#include <seiche/study/versions.hpp>
 
 namespace seiche::cli {
+
 std::map<std::string, std::string> versions() {
-  std::map<std::string, std::string> all = backend_library_versions();
-  all.merge(config_library_versions());
-  all["hdf5"] = hdf5_version();
-  all["seiche"] = version_number;
-  all["git"] = version_commit;
-  all["compiler"] = version_compiler;
-  all["build_type"] = version_build_type;
-  all["instruction_set"] = instruction_set();  // of the hot loops; FFTW chooses its own
-  all["fmt"] = fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
+  std::map<std::string, std::string> all = versions_in_use();
   all["cli11"] = CLI11_VERSION;
-  all["json"] =
-      fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
   return all;
 }
 

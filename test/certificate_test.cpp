@@ -1,4 +1,5 @@
 // The certificate: each hypothesis graded rightly, with a witness that can be checked.
+#include "support/error_of.hpp"
 #include "support/paper_cases.hpp"
 
 #include <seiche/config/formula_compiler.hpp>
@@ -13,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace seiche::test {
 namespace {
@@ -97,6 +99,11 @@ TEST(Certificate, PromisesTheLawExactlyWhereTheRunDoes) {
     });
     EXPECT_FALSE(violated && c.law.promised) << name;
   }
+}
+
+TEST(Certificate, IsNotFinishedWhereItIsToStop) {
+  const std::atomic<bool> stop = true;
+  EXPECT_EQ(error_of([&] { certify(gkdv_case(), {.t_end = 1, .stop = &stop}); }), "interrupted");
 }
 
 }  // namespace

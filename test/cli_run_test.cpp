@@ -198,7 +198,7 @@ TEST_F(Cli, EveryCaseFileRuns) {
     EXPECT_EQ(result.exit, 0) << entry.path() << ": " << result.err;
     ++count;
   }
-  EXPECT_GE(count, 4);
+  EXPECT_GE(count, 34) << "a case file of cases/ was not run, or fewer are there";
 }
 
 TEST_F(Cli, MeasuredPlansAreKeptAndUsedAgain) {

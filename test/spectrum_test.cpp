@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <atomic>
 #include <cmath>
 #include <complex>
 #include <map>
@@ -311,6 +312,11 @@ TEST(Spectrum, WhereNothingIsLinearASentenceStandsForATableOfZeros) {
   };
   EXPECT_THAT(table(0.0), testing::AllOf(HasSubstr("all its rates are zero"), testing::Not(HasSubstr("phase error"))));
   EXPECT_THAT(table(0.1), testing::AllOf(HasSubstr("phase error"), testing::Not(HasSubstr("all its rates"))));
+}
+
+TEST(Spectrum, IsNotFinishedWhereItIsToStop) {
+  const std::atomic<bool> stop = true;
+  EXPECT_EQ(error_of([&] { spectrum(damped_oscillator(1.0, 0.1), {.method = "seisav"}, 0.1, &stop); }), "interrupted");
 }
 
 }  // namespace

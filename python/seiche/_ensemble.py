@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any, Sequence
+from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
 
 from . import _core
-from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, run_case, thread_count
-from ._result import Result
+from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count
+from ._result import Answer, about_it, coordinates_of, field_of
 from ._solve import _span
 
+if TYPE_CHECKING:
+    import xarray
 
-class EnsembleResult(Result):
-    """What an ensemble leaves.
+
+class EnsembleResult(Answer):
+    """What an ensemble leaves; keys are attributes too.
 
     Attributes
     ----------
@@ -33,7 +36,73 @@ class EnsembleResult(Result):
         What differs between the members of a case.
     running : (times,) array
         How many members still run.
+    in_lanes : bool
+        Were members stepped side by side?
+    wall_seconds : float
+    method : str
+    h : float
+        Step size.
+    problem : Problem
+        That of the first member.
     """
+
+    def field(self, name: str) -> np.ndarray:
+        """One field of the last states on the grid, of shape (members, points along each axis); a view of y."""
+        return field_of(self.y, self.problem, name)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """The last states and parameters by `member`, and the energies over `t` by `statistic`, as an `xarray.Dataset`.
+
+        Members are numbered from 0. Names and attributes of the fields are those of solution.h5; where the grids of members have
+        different lengths, places have no coordinates.
+        """
+        import xarray
+
+        layout = self.problem._core.layout
+        names = [name for name, _ in layout["axes"]]
+        shape = (len(self.y), *(self.problem.shape if names else ()))
+        coordinates: dict[str, Any] = {
+            "t": ("t", self.t, about_it("time")),
+            "member": ("member", np.arange(len(self.y)), {"long_name": "member, from 0"}),
+            "statistic": ("statistic", list(self.energy)),
+        }
+        if self._one_grid:
+            coordinates |= coordinates_of(self.problem)
+        coordinates |= {name: ("member", values, about_it("parameter")) for name, values in self.parameters.items()}
+        data: dict[str, Any] = {
+            shown: (("member", *names), self.field(name).reshape(shape), about_it(f"{meaning} at the end"))
+            for name, (shown, meaning) in zip(self.problem.fields, layout["fields"])
+        }
+        for name, meaning in {"energy": "energy H = ½zᵀMz + V(z), summed over points", "modified_energy": "modified energy"}.items():
+            if self[name] is not None:
+                data[name] = (("statistic", "t"), np.array(list(self[name].values())), about_it(meaning))
+        data["final_energy"] = ("member", self.final_energy, about_it("energy at the end"))
+        data["running"] = ("t", self.running, {"long_name": "members that still run"})
+        for name in ("status", "law", "message"):
+            data[name] = ("member", self[name])
+        about = {"method": self.method, "h": self.h, "problem": self.problem.name}
+        return xarray.Dataset(data, coords=coordinates, attrs=about)
+
+
+def _members(problem: Any, given: Problem | Case) -> list[Problem]:
+    """One problem for all members, or one for each: of one size, and with the same fields and points."""
+    if not isinstance(problem, (list, tuple)):
+        return [as_problem(given)]
+    problems = [as_problem(p) for p in problem]
+    first = problems[0]
+    for k, other in enumerate(problems):
+        if other.size != first.size:
+            raise ValueError(
+                f"the members of an ensemble have one size, but the state of problem 0 has {first.size} numbers and that of "
+                f"problem {k} has {other.size}"
+            )
+        if (other.fields, other.shape) != (first.fields, first.shape):
+            raise ValueError(
+                f"the members of an ensemble have the same fields and points, but problem 0 has {', '.join(first.fields)} at "
+                f"{' × '.join(map(str, first.shape))} and problem {k} has {', '.join(other.fields)} at "
+                f"{' × '.join(map(str, other.shape))}"
+            )
+    return problems
 
 
 def solve_ensemble(
@@ -61,6 +130,8 @@ def solve_ensemble(
     """
     refuse_other_names(options)
     several = isinstance(problem, (list, tuple))
+    if several and not problem:
+        raise ValueError("the list of problems is empty: give one for each member")
     given = problem if isinstance(problem, Case) else as_problem(problem[0] if several else problem)
     default_end = given.t_end if isinstance(given, Case) else run_case(given, {}).t_end if given._text else None
     start, end = _span(t_span, default_end)
@@ -69,14 +140,19 @@ def solve_ensemble(
     case = run_case(given, {"t_end": end, "method": method, "backend": backend, "h": h} | options)
     if z0 is None and isinstance(given, Case) and case.is_ensemble:
         held = _core.ensemble_of_case(case, thread_count(threads))
+        one_grid = "length" not in held.parameters
     else:
-        problems = [as_problem(p) for p in problem] if several else [as_problem(given)]
+        problems = _members(problem, given)
+        one_grid = all(np.array_equal(a, b) for p in problems for a, b in zip(p.axes, problems[0].axes))
+        if z0 is None:
+            for stated in problems:
+                require_start(stated, "seiche.solve_ensemble")
         states = [p.z0 for p in problems] if z0 is None else list(np.atleast_2d(real_array("z0", z0)))
         if several and len(states) != len(problems):
             raise ValueError(f"z0 has {len(states)} rows for {len(problems)} problems")
         held = _core.ensemble_of_problems([p._core for p in problems], states, case, thread_count(threads))
     has_modified = any(m["name"] == case.method and m["law"] == "H_modified" for m in _core.methods())
-    return EnsembleResult(
+    result = EnsembleResult(
         t=held.t,
         y=held.y,
         energy=held.H,
@@ -91,5 +167,8 @@ def solve_ensemble(
         in_lanes=held.in_lanes,
         wall_seconds=held.wall_seconds,
         method=case.method,
+        h=case.h,
         problem=as_problem(given),
     )
+    object.__setattr__(result, "_one_grid", one_grid)
+    return result

@@ -157,6 +157,8 @@ class Problem:
             for name, value in {"gradient": gradient, "z0": z0, "gamma": gamma}.items():
                 if value is not None:
                     raise ValueError(f"{name} belongs to a problem by parts; by formulas write V, initial and D")
+            if grows_outward:
+                raise ValueError("grows_outward belongs to a problem by parts; of formulas it is found out")
             named = None if isinstance(fields, numbers.Integral) else list(fields)
             stated = problem("custom", fields=named, H=H, M=M, V=V, S=S, D=D, **({"initial": "zero"} | written))
             self._core, self._text = stated._core, stated._text
@@ -226,18 +228,21 @@ class Problem:
 
 
 class Case:
-    """A case file as read: a problem, and how to run it. Give it to `solve`, `solve_ensemble` or `check`."""
+    """A case file as it was when it was read: a problem, and how to run it. Give it to `solve`, `solve_ensemble` or `check`."""
 
     def __init__(self, file: str | os.PathLike, overrides: Sequence[str]):
         self._file = os.fspath(file)
         self._overrides = list(overrides)
+        self._written = _core.case_text(self._file)  # once: what is edited later belongs to another case
         self._core = self._read([])
         self.problem = Problem._of_case(self._core, None)
         self.problem._file = self._file
 
     def _read(self, overrides: Sequence[str]) -> _core.Case:
         try:
-            return _core.read_case(self._file, [*self._overrides, *overrides])
+            return _core.parse_case(
+                self._written, self._file, [*self._overrides, *overrides], os.path.dirname(self._file)
+            )
         except ValueError as error:
             raise _refused(error) from None
 
@@ -280,6 +285,16 @@ def as_problem(given: "Problem | Case | str") -> "Problem":
     if isinstance(given, Problem):
         return given
     raise _no_right_hand_side(given)
+
+
+def require_start(given: Problem, *callers: str) -> None:
+    """Refuses a problem whose initial state nobody gave: its zeros would look like an answer."""
+    if given._has_initial:
+        return
+    if given._text is None:
+        raise ValueError(f"z0 is missing: give it to {' or to '.join(('seiche.Problem', *callers))}")
+    also = f", or z0 to {' or to '.join(callers)}" if callers else ""
+    raise ValueError(f"the initial state is missing: give initial to seiche.Problem{also}")
 
 
 _SECTIONS = {

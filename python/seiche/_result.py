@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
+from ._problem import real_array
 
 if TYPE_CHECKING:
     import xarray
@@ -18,7 +19,8 @@ if TYPE_CHECKING:
 class Status(int):
     """How a run ended: SciPy's number, which also equals the word for it.
 
-    −1 "failed", 0 "success", 1 "event" (an event ended the run), 2 "interrupted".
+    −1 "failed", 0 "success", 1 "event" (an event ended the run), 2 "interrupted". It is no key of a dictionary or a set,
+    since no hash agrees with both: there take ``status.word``, or ``int(status)``.
     """
 
     _words = {-1: "failed", 0: "success", 1: "event", 2: "interrupted"}
@@ -33,7 +35,8 @@ class Status(int):
     def __ne__(self, other: object) -> bool:
         return not self == other
 
-    __hash__ = int.__hash__
+    def __hash__(self) -> int:
+        raise TypeError("a status equals a number and a word, and has no hash: take status.word, or int(status)")
 
     def __str__(self) -> str:
         return self.word
@@ -54,7 +57,7 @@ class DenseOutput:
         self.t_min, self.t_max = solution.sol_span
 
     def __call__(self, t: Any) -> np.ndarray:
-        times = np.asarray(t, dtype=float)
+        times = real_array("t", t)
         if times.ndim > 1:
             raise ValueError(f"t has the shape {times.shape}; it must be a number or a list of them")
         order = np.argsort(times.ravel(), kind="stable")  # times inside one step, one after the other, cost one step
@@ -63,7 +66,54 @@ class DenseOutput:
         return values[0] if times.ndim == 0 else values.T
 
 
-class Result(dict):
+class Answer(dict):
+    """What a computation leaves; keys are attributes too."""
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"a result has no {name!r}; it has {', '.join(self)}") from None
+
+    __setattr__ = dict.__setitem__  # type: ignore[assignment]
+    __delattr__ = dict.__delitem__  # type: ignore[assignment]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self]
+
+    def __repr__(self) -> str:
+        def shown(value: Any) -> str:
+            if isinstance(value, np.ndarray):
+                return f"array of shape {value.shape}"
+            text = repr(value)
+            return text if len(text) <= 100 else text[:99] + "…"
+
+        width = max(map(len, self), default=0)
+        return "\n".join(f"{key:>{width}}: {shown(value)}" for key, value in self.items())
+
+
+def field_of(states: np.ndarray, problem: "Problem", name: str) -> np.ndarray:
+    """One field of states, (count, size), on the grid: of shape (count, points along each axis); a view."""
+    names = problem.fields
+    if name not in names:
+        raise ValueError(f"{problem.name} has no field {name!r}; it has {', '.join(names)}")
+    return states.reshape(len(states), len(names), *problem.shape)[:, names.index(name)]
+
+
+def about_it(meaning: str) -> dict[str, str]:
+    """The attributes of an array, as solution.h5 has them."""
+    return {"long_name": meaning, "units": "1"}  # an equation has units of its own
+
+
+def coordinates_of(problem: "Problem") -> dict[str, tuple]:
+    """The places of the grid, as coordinates of an `xarray.Dataset`."""
+    return {
+        name: (name, values.astype(int) if name == "point" else values, about_it(meaning))
+        for (name, meaning), values in zip(problem._core.layout["axes"], problem.axes)
+    }
+
+
+class Result(Answer):
     """The solution and its energies, in the manner of ``scipy.integrate.solve_ivp``; keys are attributes too.
 
     Attributes
@@ -104,34 +154,9 @@ class Result(dict):
     problem : Problem
     """
 
-    def __getattr__(self, name: str) -> Any:
-        try:
-            return self[name]
-        except KeyError:
-            raise AttributeError(f"a result has no {name!r}; it has {', '.join(self)}") from None
-
-    __setattr__ = dict.__setitem__  # type: ignore[assignment]
-    __delattr__ = dict.__delitem__  # type: ignore[assignment]
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self]
-
-    def __repr__(self) -> str:
-        def shown(value: Any) -> str:
-            if isinstance(value, np.ndarray):
-                return f"array of shape {value.shape}"
-            text = repr(value)
-            return text if len(text) <= 100 else text[:99] + "…"
-
-        width = max(map(len, self), default=0)
-        return "\n".join(f"{key:>{width}}: {shown(value)}" for key, value in self.items())
-
     def field(self, name: str) -> np.ndarray:
         """One field on the grid, of shape (times, points along each axis); a view of y."""
-        names = self.problem.fields
-        if name not in names:
-            raise ValueError(f"{self.problem.name} has no field {name!r}; it has {', '.join(names)}")
-        return self.y.T.reshape(len(self.t), len(names), *self.problem.shape)[:, names.index(name)]
+        return field_of(self.y.T, self.problem, name)
 
     def to_xarray(self) -> "xarray.Dataset":
         """The fields on their grid and the energies as an `xarray.Dataset`.
@@ -141,14 +166,9 @@ class Result(dict):
         """
         import xarray
 
-        def about_it(meaning: str) -> dict[str, str]:
-            return {"long_name": meaning, "units": "1"}  # an equation has units of its own
-
         layout = self.problem._core.layout
         names = [name for name, _ in layout["axes"]]
-        coordinates: dict[str, Any] = {"t": ("t", self.t, about_it("time"))}
-        for (name, meaning), values in zip(layout["axes"], self.problem.axes):
-            coordinates[name] = (name, values.astype(int) if name == "point" else values, about_it(meaning))
+        coordinates = {"t": ("t", self.t, about_it("time"))} | coordinates_of(self.problem)
         shape = (len(self.t), *(self.problem.shape if names else ()))
         data = {
             shown: (("t", *names), self.field(name).reshape(shape), about_it(meaning))

@@ -7,7 +7,7 @@ from typing import Any, Callable, Sequence
 import numpy as np
 
 from . import _core
-from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, run_case, thread_count
+from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count
 from ._result import Result, result_of
 
 
@@ -111,13 +111,15 @@ def solve(
     """
     refuse_other_names(options)
     given = as_problem(problem) if isinstance(problem, str) else problem
+    if isinstance(given, Case) and given._core.is_ensemble:
+        raise ValueError(f"{given._file} has a section [ensemble]: call seiche.solve_ensemble, or give its problem for one run")
     stated = as_problem(given)
     default_end = given.t_end if isinstance(given, Case) else None
     if default_end is None and stated._text is not None and t_span is None:
         default_end = run_case(stated, {}).t_end
     start, end = _span(t_span, default_end)
-    if z0 is None and not stated._has_initial:
-        raise ValueError("z0 is missing: give it to seiche.Problem or to seiche.solve")
+    if z0 is None:
+        require_start(stated, "seiche.solve")
     case = run_case(
         given,
         {

@@ -5,15 +5,26 @@ from __future__ import annotations
 import json
 from typing import Any, Sequence
 
+import numpy as np
+
 from . import _core
-from ._problem import Case, Problem, as_problem, run_case
+from ._problem import Case, Problem, as_problem, require_start, run_case
 
 
-def _case(problem: Problem | Case, values: dict[str, Any]) -> _core.Case:
-    given = as_problem(problem) if isinstance(problem, str) else problem
-    if not isinstance(given, Case) and given._text is None and values.get("h") is None and not values.get("tolerance"):
-        values = values | {"h": values.get("t_end") or 1.0}  # the question is not about a step size
-    return run_case(given, values)
+def _given(problem: Problem | Case | str) -> Problem | Case:
+    return problem if isinstance(problem, Case) else as_problem(problem)
+
+
+def _followed(given: Problem | Case, t_end: Any, options: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a study along a solution, which needs a start and an end. It asks for no step size of its own."""
+    values = {"t_end": t_end, "energy_every": 10**12} | options  # no file is written, whose size the parser would guard
+    if isinstance(given, Case) or given._text is not None:
+        require_start(as_problem(given))
+        return values
+    if t_end is None:
+        raise ValueError("t_end is missing: give the end of the time that is looked at")
+    require_start(given)
+    return {"h": t_end} | values
 
 
 def check(
@@ -21,9 +32,15 @@ def check(
 ) -> dict[str, Any]:
     """Which hypotheses of the energy law hold up to t_end, how each is known, and which law they promise.
 
-    Returns {"hypotheses": [{"name", "grade", "statement", …}], "law": {"promised", "reason", …}}.
+    By default t_end is that of the case, or of the problem's example; a problem by parts has none. Ctrl-C is answered between
+    two hypotheses: one that is verified by a factorisation is finished first.
+
+    Returns the document of ``seiche check --json``:
+    {"hypotheses": [{"hypothesis", "grade", "statement", "margin", "witness"}, …], "law": {"promised", "reason", "theorem"}}.
     """
-    return json.loads(_core.check(as_problem(problem)._core, _case(problem, {"t_end": t_end, "method": method} | options)))
+    given = _given(problem)
+    case = run_case(given, _followed(given, t_end, {"method": method} | options))
+    return json.loads(_core.check(as_problem(given)._core, case))
 
 
 def spectrum(
@@ -31,24 +48,36 @@ def spectrum(
 ) -> dict[str, Any]:
     """Is the damping physical? Decay and frequency that one step gives each mode of the linear part, and the exact ones.
 
+    By default h is that of the case, or of the problem's example; a problem by parts has none. Ctrl-C is answered between two
+    modes: the eigenvectors of a full matrix are finished first.
+
     Returns the document of ``seiche spectrum --json``.
     """
-    return json.loads(_core.spectrum(as_problem(problem)._core, _case(problem, {"method": method, "h": h} | options)))
+    given = _given(problem)
+    if isinstance(given, Problem) and given._text is None and h is None:
+        raise ValueError('h is missing, and spectrum looks at one step: give h, such as "1/64"')
+    return json.loads(_core.spectrum(as_problem(given)._core, run_case(given, {"method": method, "h": h} | options)))
 
 
 def converge(
     problem: Problem | Case | str,
-    methods: Sequence[str],
-    h: Sequence[float],
+    methods: str | Sequence[str],
+    h: float | str | Sequence[float | str],
     t_end: float | None = None,
     timed: bool = True,
     **options: Any,
 ) -> dict[str, Any]:
     """Errors, orders, energy errors and cost of methods at several step sizes, against a tight reference.
 
+    Fractions may be texts: ["1/32", "1/64"]. By default t_end is that of the case, or of the problem's example; a problem by parts
+    has none. Ctrl-C ends the study within a step.
+
     Returns the document of ``seiche converge --json``; its "rows" make a table.
     """
-    case = _case(problem, {"t_end": t_end} | options)
-    return json.loads(
-        _core.converge(as_problem(problem)._core, list(methods), [float(step) for step in h], case, timed)
-    )
+    given = _given(problem)
+    names = [methods] if isinstance(methods, str) else list(methods)
+    sizes = [h] if np.ndim(h) == 0 else list(h)
+    values = _followed(given, t_end, options)
+    case = run_case(given, values)
+    steps = [run_case(given, values | {"h": size, "tolerance": None}).h for size in sizes]  # read as everywhere
+    return json.loads(_core.converge(as_problem(given)._core, names, steps, case, timed))

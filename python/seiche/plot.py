@@ -11,7 +11,7 @@ import typing as _typing
 
 import numpy as _np
 
-from . import _problem, _result, _studies
+from . import _ensemble, _problem, _result, _studies, _styles
 
 if _typing.TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,22 +50,22 @@ def _symbol(name: str) -> str:
     return f"${name}$" if len(name) == 1 else "$\\mathit{" + name.replace("_", r"\_") + "}$"
 
 
-def _size(result: _result.Result) -> str:
+def _size(h: float | None, tolerance: float | None) -> str:
     """The tolerance, or the step size as a power of two where it is one."""
-    if result.report.get("tolerance") is not None:
-        return f"tolerance {result.report['tolerance']:g}"
-    h = result.report.get("h")
+    if tolerance is not None:
+        return f"tolerance {tolerance:g}"
     if h is None:
         return ""
     mantissa, exponent = _math.frexp(h)
     return f"$h = 2^{{{exponent - 1}}}$" if mantissa == 0.5 else f"$h$ = {h:g}"
 
 
-def _title(result: _result.Result, what: str) -> str:
+def _title(result: _result.Result | _ensemble.EnsembleResult, what: str) -> str:
     """The problem, or its case file where it was written down and has no name of its own; method; size of steps; what."""
     problem, file = result.problem, result.problem._file
     name = problem.name if problem.name != "custom" else _pathlib.Path(file).stem if file else ""
-    return ", ".join(filter(None, (name, result.method, _size(result)))) + f": {what}"
+    sizes = result.get("report", result)
+    return ", ".join(filter(None, (name, result.method, _size(sizes.get("h"), sizes.get("tolerance"))))) + f": {what}"
 
 
 def _label(result: _result.Result, field: str) -> str:
@@ -74,7 +74,13 @@ def _label(result: _result.Result, field: str) -> str:
     return _symbol(field) if meaning.startswith("field ") else f"{meaning} {_symbol(field)}"
 
 
+def _one_run(result: _typing.Any, caller: str) -> None:
+    if isinstance(result, _ensemble.EnsembleResult):
+        raise ValueError(f"{caller} draws one run, and an ensemble keeps the last states alone: result.field(name); energy draws it")
+
+
 def _named(result: _result.Result, field: str | None, dimension: int, caller: str) -> str:
+    _one_run(result, caller)
     if len(result.problem._core.layout["axes"]) != dimension:
         axes = ", ".join(name for name, _ in result.problem._core.layout["axes"]) or "none"
         raise ValueError(f"{caller} draws fields over {dimension} axes; {result.problem.name} has: {axes}")
@@ -82,9 +88,9 @@ def _named(result: _result.Result, field: str | None, dimension: int, caller: st
 
 
 def _diverging(ax: "Axes") -> _typing.Any:
-    from matplotlib.colors import LinearSegmentedColormap, to_rgb
+    from matplotlib.colors import LinearSegmentedColormap
 
-    dark = sum(to_rgb(ax.get_facecolor())) < 1.5
+    dark = _styles.is_dark(ax)
     return LinearSegmentedColormap.from_list("berlin" if dark else "vik", _BERLIN if dark else _VIK)
 
 
@@ -117,12 +123,38 @@ def _bar(mesh: _typing.Any, ax: _typing.Any, values: _np.ndarray, label: str) ->
     mesh.figure.colorbar(mesh, ax=ax, label=label, extend=extend)
 
 
-def energy(result: _result.Result, ax: "Axes | None" = None, **style: _typing.Any) -> "Axes":
-    """H over time, and the modified energy where the method has one."""
+def _curve(ax: "Axes", x: _np.ndarray, y: _np.ndarray, style: dict[str, _typing.Any], **defaults: _typing.Any) -> _typing.Any:
+    """One more curve, in the colour that is next."""
+    (line,) = ax.plot(x, y, **_styles.with_style({"color": _styles.next_colour(ax)} | defaults, style))
+    return line
+
+
+def _energy_of_members(result: _ensemble.EnsembleResult, ax: "Axes", style: dict[str, _typing.Any]) -> None:
+    for name, label, dash in (("energy", "$H$", "-"), ("modified_energy", "modified energy", "--")):
+        statistics = result[name]
+        if statistics is None:
+            continue
+        line = _curve(ax, result.t, statistics["mean"], style, linestyle=dash, label=f"{label}, mean")
+        band = {"color": line.get_color(), "alpha": 0.2, "linewidth": 0}
+        if name == "energy":  # that of the modified energy would lie on it
+            ax.fill_between(result.t, statistics["q05"], statistics["q95"], label="$H$, 5 to 95 per cent", **band)
+    ax.legend()
+
+
+def energy(
+    result: _result.Result | _ensemble.EnsembleResult, ax: "Axes | None" = None, **style: _typing.Any
+) -> "Axes":
+    """H over time, and the modified energy where the method has one; of an ensemble, their means and the spread of H."""
     ax = _axes(ax)
-    ax.plot(result.t, result.energy, label="$H$", **style)
+    if isinstance(result, _ensemble.EnsembleResult):
+        _energy_of_members(result, ax, style)
+        members, held = len(result.law), result.law.count("holds")
+        law = "law holds" if held == members else f"law holds for {held}"
+        ax.set(xlabel="time $t$", ylabel="energy $H$", title=_title(result, f"energy of {members} members, {law}"))
+        return ax
+    _curve(ax, result.t, result.energy, style, label="$H$")
     if result.modified_energy is not None:
-        ax.plot(result.t, result.modified_energy, "--", label="modified energy", **style)
+        _curve(ax, result.t, result.modified_energy, style, linestyle="--", label="modified energy")
         ax.legend()
     ax.set(xlabel="time $t$", ylabel="energy $H$", title=_title(result, f"energy, law {result.law}"))
     return ax
@@ -204,12 +236,13 @@ def phase_portrait(
     ax: "Axes | None" = None,
     **style: _typing.Any,
 ) -> "Axes":
-    """One field over another, by default the second over the first, with the start (open) and the end (filled).
+    """One field over another, by default the second over the first, with the start (open circle) and the end (filled square).
 
     Every point is a curve, unless `point` chooses one, from 0. Where fewer than 24 states make a turn they are shown as dots on a
     thin line, and where fewer than 6 do, without it: corners are not of the solution, and a smaller step between records, or
     t_eval, gives more states.
     """
+    _one_run(result, "phase_portrait")
     fields = result.problem.fields
     if len(fields) < 2:
         raise ValueError(f"{result.problem.name} has one field, {fields[0]}; a phase portrait draws two")
@@ -226,9 +259,9 @@ def phase_portrait(
     if corner > _np.pi / 12:
         dots = {"marker": ".", "markersize": 3, "linewidth": 0.4} | ({"linestyle": "none"} if corner > _np.pi / 3 else {})
     for a, b in zip(across.T, up.T):
-        (line,) = ax.plot(a, b, **(dots | style))
-        ax.plot(a[0], b[0], "o", mfc="none", color=line.get_color())
-        ax.plot(a[-1], b[-1], "s", color=line.get_color())
+        _curve(ax, a, b, style, **dots)
+        ax.plot(a[0], b[0], "o", mfc="none", color=_styles.on_ground(ax, "#000000"))
+        ax.plot(a[-1], b[-1], "s", color=_styles.on_ground(ax, "#000000"))
     ax.set(xlabel=_label(result, x), ylabel=_label(result, y), title=_title(result, "phase portrait"))
     return ax
 
@@ -245,8 +278,12 @@ def spectrum(
     rows = study["modes"]
     of = {key: _np.array([row[key] for row in rows], dtype=float) for key in rows[0] if key.startswith(("exact", "numerical"))}
     ax = _axes(ax)
-    ax.plot(of["exact_frequency"], of["exact_decay"], "o", mfc="none", color="grey", label="exact")
-    ax.plot(of["numerical_frequency"], of["numerical_decay"], ".", label=study["method"])
+    ink = _styles.on_ground(ax, "#000000")
+    ax.plot(of["exact_frequency"], of["exact_decay"], "o", mfc="none", color=ink, label="exact")
+    colour = _styles.of_method(ax, study["method"])["color"]
+    ax.plot(of["numerical_frequency"], of["numerical_decay"], ".", color=colour, label=study["method"])
+    ax.update_datalim([(of["exact_frequency"][0], 0.0)])  # or round-off would fill the axis
+    ax.autoscale_view()
     ax.set(xlabel="frequency", ylabel="decay rate", title=f"{study['problem']}, h = {study['h']:.4g}")
     ax.legend()
     return ax
@@ -254,8 +291,8 @@ def spectrum(
 
 def work_precision(
     problem: _problem.Problem | _problem.Case,
-    methods: _typing.Sequence[str],
-    h: _typing.Sequence[float],
+    methods: str | _typing.Sequence[str],
+    h: float | str | _typing.Sequence[float | str],
     t_end: float | None = None,
     ax: "Axes | None" = None,
     **options: _typing.Any,
@@ -263,9 +300,10 @@ def work_precision(
     """The error of methods at several step sizes over the CPU time it took, against a tight reference."""
     rows = _studies.converge(problem, methods, h, t_end, **options)["rows"]
     ax = _axes(ax)
-    for method in methods:
+    for method in dict.fromkeys(row["method"] for row in rows):
         mine = [row for row in rows if row["method"] == method and row["error"] and row["cpu_seconds"]]
-        ax.loglog([row["cpu_seconds"] for row in mine], [row["error"] for row in mine], "o-", label=method)
+        x, y = ([row[key] for row in mine] for key in ("cpu_seconds", "error"))
+        ax.loglog(x, y, **_styles.of_method(ax, method), label=method)
     ax.set(xlabel="CPU time in seconds", ylabel="error (max norm)")
     ax.legend()
     return ax

@@ -6,6 +6,7 @@ namespace seiche::python {
 namespace {
 
 thread_local bool interrupted = false;
+thread_local int scopes = 0;
 
 }  // namespace
 
@@ -15,7 +16,10 @@ Callable::Callable(py::object function)
         delete held;
       }) {}
 
-void Interruption::forget() { interrupted = false; }
+Interruption::Scope::Scope() {
+  if (scopes++ == 0) interrupted = false;
+}
+Interruption::Scope::~Scope() { --scopes; }
 bool Interruption::seen() { return interrupted; }
 void Interruption::note() { interrupted = true; }
 

@@ -27,10 +27,17 @@ class Callable {
   std::shared_ptr<py::object> function_;
 };
 
-// Was the run on this thread interrupted by Ctrl-C? `forget` before it, `seen` after.
+// Was the run on this thread interrupted by Ctrl-C? The outermost scope begins without an interruption. A run inside a callback of
+// another one leaves what it has seen, so that both end.
 class Interruption {
  public:
-  static void forget();
+  class Scope {
+   public:
+    Scope();
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+  };
   static bool seen();
   static void note();
 };
@@ -52,7 +59,7 @@ auto with_gil(const Call& call) {
 // KeyboardInterrupt is raised after all.
 template <class Call>
 auto without_gil(const Call& call) {
-  Interruption::forget();
+  const Interruption::Scope scope;
   try {
     const py::gil_scoped_release released;
     return call();

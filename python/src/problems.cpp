@@ -147,9 +147,7 @@ void bind_problems(py::module_& module) {
   module.def("parse_case",
              [](const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                 const std::string& folder) { return parse_case(text, name, overrides, folder); });
-  module.def("read_case", [](const std::string& file, const std::vector<std::string>& overrides) {
-    return read_case(file, overrides);
-  });
+  module.def("case_text", [](const std::string& file) { return py::bytes(case_text(file)); });
   module.def("make_problem",
              [](const RunSpec& spec) { return HeldProblem{std::make_shared<const Problem>(make_problem(spec))}; });
   module.def("problem_by_parts", &by_parts);

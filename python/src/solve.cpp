@@ -2,11 +2,9 @@
 #include "bind.hpp"
 
 #include <pybind11/stl.h>
-#include <seiche/backend/backends.hpp>
-#include <seiche/config/library_versions.hpp>
 #include <seiche/output/summary.hpp>
 #include <seiche/solve/solve.hpp>
-#include <seiche/version.hpp>
+#include <seiche/study/versions.hpp>
 
 #include <limits>
 #include <memory>
@@ -63,14 +61,6 @@ std::function<bool(const SolveStep&)> observer_from(const py::object& function) 
       return !(PyBool_Check(answer.ptr()) != 0 && !answer.cast<bool>());
     });
   };
-}
-
-std::map<std::string, std::string> versions() {
-  std::map<std::string, std::string> all = backend_library_versions();
-  all.merge(config_library_versions());
-  all["seiche"] = version_number;
-  all["git"] = version_commit;
-  return all;
 }
 
 HeldSolution run(const HeldProblem& problem, const RunSpec& spec, double t_start, double t_end,
@@ -130,7 +120,7 @@ py::dict ledger_of(const HeldSolution& held) {
 std::string report_json(const HeldSolution& held) {
   RunIdentity identity = held.identity;
   identity.certificate = certificate_json(held.solution->certificate);
-  identity.versions = versions();
+  identity.versions = versions_in_use();
   return summary_json(identity, held.solution->report);
 }
 

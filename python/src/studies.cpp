@@ -12,45 +12,55 @@
 namespace seiche::python {
 namespace {
 
-std::string check(const HeldProblem& held, const RunSpec& spec) {
-  return without_gil([&] {
-    const Simulation simulation(*held.problem, simulation_options(spec));  // refuses what `solve` refuses
-    return certificate_json(certify(*held.problem, {.method = std::string(simulation.method().name),
-                                                    .method_options = simulation.method_options(),
-                                                    .t_end = spec.t_end,
-                                                    .at_start = &simulation}));
-  });
-}
-
-std::string spectrum_of(const HeldProblem& held, const RunSpec& spec) {
-  if (spec.h == 0) throw Error("a tolerance without h, and spectrum looks at one step: give h, such as \"1/64\"");
-  return without_gil([&] { return spectrum_json(spectrum(*held.problem, simulation_options(spec), spec.h)); });
-}
-
 // However the wait ends, before the thread is waited for.
 struct StopsAtEnd {
   std::atomic<bool>& stop;
   ~StopsAtEnd() { stop = true; }
 };
 
-// On a thread of its own, while this one looks for Ctrl-C.
-std::string converge_of(const HeldProblem& held, const std::vector<std::string>& methods,
-                        const std::vector<double>& step_sizes, const RunSpec& spec, bool timed) {
+// study(stop) on a thread of its own, while this one looks for Ctrl-C.
+template <class Study>
+std::string interruptible(const Study& study) {
   std::atomic<bool> stop = false;
-  const ConvergeOptions options{.t_end = spec.t_end,
-                                .backend = spec.backend,
-                                .method_options = spec.method_options,
-                                .reference = {.stop = &stop},
-                                .timed = timed,
-                                .timing = {.stop = &stop},
-                                .stop = &stop};
   return without_gil([&] {
-    auto study = std::async(std::launch::async, [&] { return converge(*held.problem, methods, step_sizes, options); });
+    auto document = std::async(std::launch::async, [&] { return study(&stop); });
     const StopsAtEnd stops{stop};
     SignalCheck signals;
-    while (study.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
+    while (document.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
       if (signals()) throw Error("interrupted");
-    return converge_json(study.get());
+    return document.get();
+  });
+}
+
+std::string check(const HeldProblem& held, const RunSpec& spec) {
+  return interruptible([&](const std::atomic<bool>* stop) {
+    const Simulation simulation(*held.problem, simulation_options(spec));  // refuses what `solve` refuses
+    return certificate_json(certify(*held.problem, {.method = std::string(simulation.method().name),
+                                                    .method_options = simulation.method_options(),
+                                                    .t_end = spec.t_end,
+                                                    .at_start = &simulation,
+                                                    .stop = stop}));
+  });
+}
+
+std::string spectrum_of(const HeldProblem& held, const RunSpec& spec) {
+  if (spec.h == 0) throw Error("a tolerance without h, and spectrum looks at one step: give h, such as \"1/64\"");
+  return interruptible([&](const std::atomic<bool>* stop) {
+    return spectrum_json(spectrum(*held.problem, simulation_options(spec), spec.h, stop));
+  });
+}
+
+std::string converge_of(const HeldProblem& held, const std::vector<std::string>& methods,
+                        const std::vector<double>& step_sizes, const RunSpec& spec, bool timed) {
+  return interruptible([&](const std::atomic<bool>* stop) {
+    const ConvergeOptions options{.t_end = spec.t_end,
+                                  .backend = spec.backend,
+                                  .method_options = spec.method_options,
+                                  .reference = {.stop = stop},
+                                  .timed = timed,
+                                  .timing = {.stop = stop},
+                                  .stop = stop};
+    return converge_json(converge(*held.problem, methods, step_sizes, options));
   });
 }
 

@@ -170,9 +170,9 @@ def test_exceptions_of_functions_come_out():
         ({"gradient": lambda u: u * (1 + 0j)}, "gradient returned complex numbers; it must return real ones"),
         ({"M": np.eye(6) * (1 + 1j)}, "M is complex; it must be real"),
         ({"z0": np.zeros(3)}, "z0 has 3 entries, but M is 12 × 12"),
-        ({"S": np.eye(2 * N)}, "S"),
-        ({"M": np.ones((2, 3))}, "M"),
-        ({"gamma": "0.1 + sin(q)"}, "gamma: "),
+        ({"S": np.eye(2 * N)}, r"^S \+ Sᵀ must be negative semidefinite, but zᵀSz = 1 for a z of norm 1 that is largest at entry 1$"),
+        ({"M": np.ones((2, 3))}, "^M is 2 × 3 and must be square$"),
+        ({"gamma": "0.1 + sin(q)"}, "^gamma: formula, column 11: unknown name 'q'. Allowed: t, pi"),
     ],
 )
 def test_mistakes_are_value_errors(changes, sentence):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import seiche
 from matplotlib.colors import to_hex
+from seiche import _styles
 
 
 @pytest.fixture(scope="module")
@@ -103,6 +104,58 @@ def test_colours_are_those_of_the_program(wave):
     assert mesh.cmap.name == "viridis"
     for s, colour in ((0.0, program["viridis"][0]), (1.0, program["viridis"][-1])):
         assert to_hex(mesh.cmap(s)).upper() == colour
+
+
+def test_curves_have_the_colours_of_the_program(wave):
+    text = (SOURCE / "seiche/figure/style.cpp").read_text(encoding="utf-8")
+    program = re.findall(r"#[0-9A-F]{6}", re.search(r"6> colours = \{(.*?)\}", text)[1])
+    conventions = (SOURCE / "docs/conventions.md").read_text(encoding="utf-8")
+    assert re.findall(r"`(#[0-9A-F]{6})`", conventions) == program == list(_styles.CURVES)
+    rows = re.findall(r'\{"(\w+)", +"[^"]*", +\{"(#\w+)", +(\w+), +(\w+), +(\w+),', text)
+    assert len(rows) == len(_styles.METHODS) == len(seiche.methods()) - 1  # "auto" is one of the others
+    assert {name: (colour, shape, filled == "true", dash) for name, colour, shape, filled, dash in rows} == _styles.METHODS
+
+    r = seiche.solve(wave, 1.0, h=0.0625)
+    ax = seiche.plot.energy(r)
+    assert [line.get_color() for line in ax.lines] == program[:2]
+    seiche.plot.energy(seiche.solve(wave, 1.0, method="seavf", h=0.0625), ax)
+    assert [line.get_color() for line in ax.lines] == program[:3], "one more run is one more colour"
+    assert seiche.plot.energy(r, c="red").lines[0].get_color() == "red"
+    ax = seiche.plot.phase_portrait(seiche.solve(oscillator(points=2), 1.0, h=0.0625))
+    assert [line.get_color() for line in ax.lines] == [program[0], "#000000", "#000000", program[1], "#000000", "#000000"]
+    ax = seiche.plot.work_precision(seiche.problem("oscillator"), ["seisav", "savf"], ["1/8", "1/16"], t_end=1.0)
+    assert [(line.get_color(), line.get_marker(), line.get_linestyle(), line.get_markerfacecolor()) for line in ax.lines] == [
+        ("#D55E00", "s", "-", "#D55E00"),
+        ("#2AA198", "o", "--", "none"),
+    ]
+    ax = seiche.plot.spectrum(wave, "seilm", 0.1)
+    assert ax.lines[1].get_color() == "#0072B2" and ax.get_ylim()[0] <= 0
+
+
+def test_curves_are_lighter_on_a_dark_ground(wave):
+    r = seiche.solve(wave, 1.0, h=0.0625)
+    with plt.style.context("dark_background"):
+        blue, vermilion = (line.get_color() for line in seiche.plot.energy(r).lines)
+        mark = seiche.plot.phase_portrait(r, point=3).lines[1].get_color()
+    assert (blue, vermilion, mark) == ("#5DA5CE", "#DE8036", "#E6E8EA")
+    program = (SOURCE / "seiche/figure/rendering.cpp").read_text(encoding="utf-8")
+    assert '.ink = "#E6E8EA"' in program and "light_enough = 0.58" in program and "0.30 * c[0] + 0.59 * c[1] + 0.11 * c[2]" in program
+    figure, ax = plt.subplots()
+    ax.set_facecolor("none")  # the ground is then that of the figure
+    assert seiche.plot.energy(r, ax).lines[0].get_color() == "#0072B2"
+
+
+def test_the_energy_of_an_ensemble_is_its_mean_and_spread(wave):
+    e = seiche.solve_ensemble(wave, 1.0, np.outer(np.linspace(0.5, 1.5, 20), wave.z0), method="seisav", h=0.0625)
+    ax = seiche.plot.energy(e)
+    assert np.array_equal(ax.lines[0].get_ydata(), e.energy["mean"])
+    assert np.array_equal(ax.lines[1].get_ydata(), e.modified_energy["mean"])
+    low, high = ax.collections[0].get_paths()[0].get_extents().get_points()[:, 1]
+    assert low == e.energy["q05"].min() and high == e.energy["q95"].max()
+    assert ax.get_title() == "klein_gordon, seisav, $h = 2^{-4}$: energy of 20 members, law holds"
+    for draw in (seiche.plot.space_time, seiche.plot.slices, seiche.plot.phase_portrait):
+        with pytest.raises(ValueError, match=f"^{draw.__name__} draws one run, and an ensemble keeps the last states alone"):
+            draw(e)
 
 
 def test_a_scale_that_ends_before_the_values_has_pointed_ends():

@@ -149,6 +149,31 @@ def test_cases(tmp_path):
         seiche.load(file)
 
 
+def test_a_case_stays_as_it_was_read(tmp_path, monkeypatch):
+    file = tmp_path / "case.toml"
+    text = '[problem]\nname = "oscillator"\nalpha = {}\n[method]\nname = "egc4"\nh = {}\n[time]\nend = 1.0\n'
+    file.write_text(text.format(1.0, 0.125))
+    case = seiche.load(file)
+    before = seiche.solve(case)
+    file.write_text(text.format(5.0, 0.25))
+    after = seiche.solve(case)
+    assert after.steps == 8 and np.array_equal(after.y, before.y)
+    assert seiche.solve(case, h="1/32").steps == 32
+    assert seiche.solve(seiche.load(file)).steps == 4
+    file.unlink()
+    assert np.array_equal(seiche.solve(case).y, before.y)
+    with pytest.raises(ValueError, match="the case file .*case.toml does not exist"):
+        seiche.load(file)
+
+
+def test_a_status_has_a_hash_for_none_of_what_it_equals():
+    status = seiche.solve(oscillator(), 1.0, h=0.1).status
+    assert status == 0 == int(status) and status == "success" == status.word
+    with pytest.raises(TypeError, match="a status equals a number and a word, and has no hash: take status.word"):
+        hash(status)
+    assert {status.word: 1} == {"success": 1}
+
+
 def test_fields_as_xarray(wave):
     data = seiche.solve(wave, 1.0, h=0.125).to_xarray()
     assert data["u"].dims == ("t", "x") and data.sizes == {"t": 9, "x": 16}

@@ -419,15 +419,19 @@ class Reader {
 
 }  // namespace
 
-RunSpec read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                  const std::vector<std::string>& methods) {
+std::string case_text(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw Error("the case file {} does not exist", file.string());
   if (std::filesystem::is_directory(file)) throw Error("{} is a folder, not a case file", file.string());
   std::ifstream input(file, std::ios::binary);
   std::ostringstream text;
   if (input.peek() != std::ifstream::traits_type::eof()) text << input.rdbuf();  // nothing to copy is a failure to <<
   if (!input.is_open() || input.bad() || text.fail()) throw Error("the case file {} cannot be read", file.string());
-  return parse_case(text.str(), file.string(), overrides, file.parent_path(), methods);
+  return text.str();
+}
+
+RunSpec read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                  const std::vector<std::string>& methods) {
+  return parse_case(case_text(file), file.string(), overrides, file.parent_path(), methods);
 }
 
 RunSpec parse_case(std::string_view text, std::string_view name, const std::vector<std::string>& overrides,

@@ -3,6 +3,7 @@
 #include <seiche/figure/curves.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/picture_choice.hpp>
+#include <seiche/figure/style.hpp>
 #include <seiche/figure/symbols.hpp>
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ constexpr const char* energy_change_label = "'{/:Italic H} − {/:Italic H}(0)'"
 constexpr Index few_points = 4;
 constexpr Index most_states = 20000;  // of a curve over time: more are not seen, and take long to read
 
-const std::array<std::string, 6> colours = {"#0072B2", "#D55E00", "#117733", "#AA4499", "#E69F00", "#707070"};
+const std::array<std::string, 6>& colours = curve_colours();
 constexpr std::array dashes = {Dash::solid, Dash::dashed, Dash::dash_dotted, Dash::dotted};
 
 double span_of(const std::vector<double>& values) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <vector>
 
@@ -78,7 +77,7 @@ constexpr double unit = 0.55;  // gnuplot's size of a marker of size 1
 
 // For curves that belong to no method.
 LineStyle neutral_line(int index) {
-  static const std::array<std::string, 6> colours = {"#0072B2", "#D55E00", "#117733", "#AA4499", "#E69F00", "#707070"};
+  const auto& colours = curve_colours();
   static const std::array<Marker, 6> markers = {Marker::triangle, Marker::square,   Marker::circle,
                                                 Marker::diamond,  Marker::pentagon, Marker::triangle_down};
   const auto i = static_cast<std::size_t>(index) % colours.size();
@@ -125,6 +124,11 @@ LineStyle curve_line(std::string_view curve_name, int nth, int index) {
   // Three dashes of one colour are too many to tell apart.
   if (nth > 1) line.colour = "#808080";
   return line;
+}
+
+const std::array<std::string, 6>& curve_colours() {
+  static const std::array<std::string, 6> colours = {"#0072B2", "#D55E00", "#117733", "#AA4499", "#E69F00", "#707070"};
+  return colours;
 }
 
 LineStyle reference_line() { return {.colour = "#000000", .width = 0.5}; }

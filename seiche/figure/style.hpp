@@ -3,6 +3,7 @@
 // open and dashed Cayley. Colours stay apart in print and for colour-blind readers; shapes repeat what they say.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -36,6 +37,9 @@ LineStyle method_line(std::string_view name);     // black if unknown
 // of several curves of one method the `nth` (from 0) keeps its colour and changes dash and filling.
 std::string_view method_of_curve(std::string_view curve_name);  // "" if the first word is no method
 LineStyle curve_line(std::string_view curve_name, int nth, int index);
+
+// Colours of curves that belong to no method, one after the other (docs/conventions.md, Pictures).
+const std::array<std::string, 6>& curve_colours();
 
 LineStyle reference_line();
 

@@ -118,12 +118,13 @@ class PowerWatch final : public Observer {
   Vector gradient_, scratch_, gradient_H_;
 };
 
-Hypothesis sampled_condition(const Problem& problem, double t_end, const std::string& name) {
+Hypothesis sampled_condition(const Problem& problem, const CertificateOptions& options, const std::string& name) {
   Simulation simulation(problem, {.method = "egc4", .variable_steps = true});
   PowerWatch watch(simulation.system());
   const std::vector<Observer*> observers = {&watch};
-  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                                              {.tolerance = 1e-5, .t_end = t_end}, observers);
+  const RunReport report =
+      integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                         {.tolerance = 1e-5, .t_end = options.t_end, .stop = options.stop}, observers);
   const std::string where = fmt::format("at {} points of a solution up to t = {:.6g}", watch.points, report.t);
   if (watch.smallest < -100 * epsilon)
     return {name, Grade::violated, "the exact energy rises where ∇HᵀDz − ∇HᵀS∇H < 0", watch.smallest,
@@ -147,7 +148,7 @@ Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOpti
   if (law.promised) return {name, Grade::by_structure, law.reason + ", by the form of V"};
   if (!options.sample_solution || options.t_end <= 0)
     return {name, Grade::sampled, "not looked at: no solution was followed; seiche check follows one"};
-  return sampled_condition(problem, options.t_end, name);
+  return sampled_condition(problem, options, name);
 }
 
 Hypothesis hypothesis_of_margin(const Simulation& simulation) {
@@ -179,13 +180,18 @@ std::string theorem(const Problem& problem, const MethodEntry& method) {
 Certificate certify(const Problem& problem, const CertificateOptions& options) {
   const MethodEntry& method = find_method(options.method);
   require_finite_rates(problem, options.t_start, options.t_end);
+  const auto go_on = [&] {
+    if (options.stop != nullptr && options.stop->load(std::memory_order_relaxed)) throw Error("interrupted");
+  };
   const OperatorFindings findings = look_at_operators(problem);
+  go_on();
   const LawPromise law = promise_energy_law(problem, options.t_end, findings);
   Certificate certificate;
   auto& list = certificate.hypotheses;
   list.push_back(hypothesis_of_S(problem, findings));
   list.push_back(hypothesis_of_M(problem, findings));
   list.push_back(hypothesis_of_rate(problem, options.t_end));
+  go_on();
   Hypothesis MD = hypothesis_of_MD(problem, findings);
   // γ(x, t) does not commute with M where M couples points: the projector of the rate then says nothing.
   if (problem.damping.field_rate && !law.promised && MD.grade == Grade::verified)
@@ -193,7 +199,9 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   list.push_back(MD);
   const Hypothesis touch = hypothesis_of_touch(problem);
   list.push_back(touch);
+  go_on();
   list.push_back(hypothesis_of_condition(problem, options, law, MD, touch));
+  go_on();
   list.push_back(hypothesis_of_commuting(problem));
   if (problem.friction) list.push_back(hypothesis_of_friction(problem, options.t_end));
   if (problem.has_forces()) list.push_back(hypothesis_of_forces(problem));
@@ -204,6 +212,7 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
       own.emplace(problem, SimulationOptions{.method = options.method, .method_options = options.method_options});
     return *own;
   };
+  go_on();
   if (problem.structure) list.push_back(hypothesis_of_structure(problem, at_start().system()));
   if (method.closure == ClosureKind::sav) list.push_back(hypothesis_of_margin(at_start()));
   const bool bent = std::any_of(list.begin(), list.end(), [](const Hypothesis& h) {

@@ -5,6 +5,7 @@
 #include <seiche/core/hypothesis.hpp>
 #include <seiche/core/run_report.hpp>
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct CertificateOptions {
   bool sample_solution = true;  // follow a solution of its own, where structure decides nothing
   // One with this method, at its start: what is known of C is read off it instead of one made for that.
   const Simulation* at_start = nullptr;
+  const std::atomic<bool>* stop = nullptr;  // ends it with an Error, between two hypotheses or inside that solution
 };
 
 // Nothing here is taken from the numbers that a method computes with: operators are looked at mode by mode or by

@@ -1,3 +1,4 @@
+#include <seiche/core/error.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/study/one_step.hpp>
@@ -97,7 +98,12 @@ Problem linear_part_of(const Problem& problem) {
   return linear;
 }
 
+void OneStep::go_on() const {
+  if (stop_ != nullptr && stop_->load(std::memory_order_relaxed)) throw Error("interrupted");
+}
+
 Vector OneStep::operator()(const Vector& z) {
+  go_on();
   State state;
   state.z.setZero(simulation_.system().space->size());
   simulation_.system().space->from_physical(z, state.z);

@@ -3,6 +3,8 @@
 
 #include <seiche/config/simulation.hpp>
 
+#include <atomic>
+
 namespace seiche {
 
 // V = 0, and every rate at t = 0 for good.
@@ -10,15 +12,18 @@ Problem linear_part_of(const Problem& problem);
 
 class OneStep {
  public:
-  OneStep(const Problem& linear, const SimulationOptions& options, double h) : simulation_(linear, options), h_(h) {}
-  // z⁺, from t = 0. Throws std::runtime_error, with the method's sentence, where the step fails.
+  OneStep(const Problem& linear, const SimulationOptions& options, double h, const std::atomic<bool>* stop = nullptr)
+      : simulation_(linear, options), h_(h), stop_(stop) {}
+  // z⁺, from t = 0. Throws std::runtime_error, with the method's sentence, where the step fails, and Error where it is to stop.
   Vector operator()(const Vector& z);
   Vector derivative(const Vector& z) const;  // SMz − D(0)z
+  void go_on() const;                        // throws Error where it is to stop
   const Simulation& simulation() const { return simulation_; }
 
  private:
   Simulation simulation_;
   double h_;
+  const std::atomic<bool>* stop_;
 };
 
 struct Linearity {

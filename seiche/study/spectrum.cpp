@@ -111,6 +111,7 @@ class GridSpectrum {
     if (is_linear) measure_all();
     std::vector<SpectrumRow> rows;
     for (Index k = 0; k < modes_.count(); ++k) {
+      step_.go_on();
       Block L = problem_.S.symbol(modes_[k]) * problem_.M.symbol(modes_[k]) - D_.symbol(modes_[k]);
       if (!modes_.are_pairs()) L.imag().setZero();
       const EigenPairs of_L = eigenpairs(L, noise_of_symbol * L.cwiseAbs());
@@ -243,6 +244,7 @@ std::vector<SpectrumRow> rows_of_matrix(const Problem& linear, OneStep& step, do
   const auto pairs_of = [&](const Eigen::MatrixXd& A, double relative) {
     return eigenpairs(A.cast<Complex>(), Eigen::MatrixXd::Constant(n, n, relative * A.cwiseAbs().maxCoeff()));
   };
+  step.go_on();
   const EigenPairs of_L = pairs_of(balanced(L), noise_of_symbol);
   std::vector<Pair> pairs;
   if (is_linear) {
@@ -265,7 +267,7 @@ bool varies(const LinearDamping& damping) {
 
 }  // namespace
 
-Spectrum spectrum(const Problem& problem, const SimulationOptions& options, double h) {
+Spectrum spectrum(const Problem& problem, const SimulationOptions& options, double h, const std::atomic<bool>* stop) {
   const Problem linear = linear_part_of(problem);
   const bool has_modes = !linear.matrices && !linear.damping.field_rate;
   if (!has_modes && problem.size() > spectrum_matrix_limit)
@@ -280,7 +282,7 @@ Spectrum spectrum(const Problem& problem, const SimulationOptions& options, doub
   plain.method_options = {};  // most of them speak of V
   plain.method_options.linear = options.method_options.linear;
   plain.variable_steps = false;
-  OneStep step(linear, plain, h);
+  OneStep step(linear, plain, h, stop);
 
   Spectrum result;
   result.problem = problem.name;

@@ -4,6 +4,7 @@
 
 #include <seiche/config/simulation.hpp>
 
+#include <atomic>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -44,7 +45,9 @@ inline constexpr Index spectrum_matrix_limit = 2048;
 inline constexpr Index spectrum_single_mode_limit = 16384;
 
 // Throws Error where the method does not apply to `problem`, and above these limits; std::runtime_error where a step fails.
-Spectrum spectrum(const Problem& problem, const SimulationOptions& options, double h);
+// `stop` ends it with an Error, between two modes or steps; the eigenvectors of a full matrix are found without a look at it.
+Spectrum spectrum(const Problem& problem, const SimulationOptions& options, double h,
+                  const std::atomic<bool>* stop = nullptr);
 
 // What the rows come to.
 struct SpectrumVerdict {

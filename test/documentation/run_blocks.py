@@ -3,19 +3,19 @@
 
     run_blocks.py --program build/release/seiche [--python build/release/python] [--work DIR] [PAGE.md ...]
 
-Every page (by default all of docs/site) is played from top to bottom in a fresh directory that has `seiche` on its PATH and the
-repository's cases/ beside it. A fenced block is, by its language,
+Every page (by default README.md and all of docs/site) is played from top to bottom in a fresh directory that has `seiche` on its
+PATH and as build/release/seiche, and the repository's cases/ beside it. A fenced block is, by its language,
 
     toml   a file: its first line is a comment with its name, # wave.toml
     sh     run by bash, stopping at the first command that fails; a block of `make` commands alone is asked of `make -n`
-    python goes on with the Python blocks above it on its page, with the package `seiche` that --python has. Where the package
-           is not built these blocks are left out, and counted
+    python goes on with the Python blocks above it on its page, with the package `seiche` that --python has. Without --python
+           these blocks are left out, and counted
     text   what the sh or python block just before it printed, on stdout and stderr together. A number agrees to one unit of its last digit
            shown, an integer exactly; … stands for any text within a line, and alone on a line for any lines
     cpp    the whole text of a program in examples/ or test/package/, which are compiled elsewhere; cmake likewise
 
 <!-- file: cases/toda.toml --> is where the site shows that file. Anything else is a mistake. Exit code 0: all pages do what they
-say; 1: the first mistake of each page, with its line, is on stderr.
+say; 1: the first mistake of each page, with its line, is on stderr; 2: there is no package where --python says.
 """
 import argparse
 import dataclasses
@@ -125,7 +125,7 @@ def run_shell(block, directory, environment):
 
 
 def has_package(directory):
-    return bool(directory) and any(pathlib.Path(directory).glob("seiche/_core.*so"))
+    return any(pathlib.Path(directory).glob("seiche/_core.*so"))
 
 
 def run_python(blocks, directory, environment, package):
@@ -152,7 +152,10 @@ def play(page, program, directory, package=None):
     directory = pathlib.Path(directory)
     path = directory / ".bin"
     path.mkdir(parents=True)
-    (path / "seiche").symlink_to(pathlib.Path(program).resolve())
+    built = directory / "build/release"  # where README.md calls it
+    built.mkdir(parents=True)
+    for place in (path, built):
+        (place / "seiche").symlink_to(pathlib.Path(program).resolve())
     (directory / "cases").symlink_to(SOURCE / "cases")
     environment = {**os.environ, "PATH": f"{path}:{os.environ['PATH']}", "NO_COLOR": "1", "LC_ALL": "C.UTF-8"}
     printed, left_out = {}, set()
@@ -168,7 +171,7 @@ def play(page, program, directory, package=None):
             elif block.language == "sh":
                 printed[index] = run_shell(block, directory, environment)
             elif block.language == "python":
-                if has_package(package):
+                if package:
                     above = [entry for entry in blocks[:index + 1] if entry.language == "python"]
                     printed[index] = run_python(above, directory, environment, package)
                 else:
@@ -197,7 +200,9 @@ def main():
     arguments.add_argument("--work", help="keep what the pages make here, in a folder for each")
     arguments.add_argument("pages", nargs="*", type=pathlib.Path)
     options = arguments.parse_args()
-    pages = options.pages or sorted((SOURCE / "docs/site").rglob("*.md"))
+    if options.python and not has_package(options.python):
+        arguments.error(f"{options.python} has no compiled package seiche; leave --python out to leave its blocks out")
+    pages = options.pages or [SOURCE / "README.md", *sorted((SOURCE / "docs/site").rglob("*.md"))]
     mistakes = count = left_out = 0
     with tempfile.TemporaryDirectory() as scratch:
         for page in pages:
@@ -209,7 +214,7 @@ def main():
                 mistakes += 1
                 print(f"{page}, {mistake}", file=sys.stderr)
     print(f"{count} blocks on {len(pages)} pages, {mistakes} pages with a mistake"
-          + (f"; {left_out} blocks left out, since the Python package is not built" if left_out else ""))
+          + (f"; {left_out} blocks left out for want of --python" if left_out else ""))
     return 1 if mistakes or not count else 0
 
 

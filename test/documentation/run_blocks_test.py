@@ -6,6 +6,7 @@ import pathlib
 import re
 import shutil
 import struct
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -69,6 +70,21 @@ class Pages(unittest.TestCase):
             (pathlib.Path(package) / "seiche/_core.so").touch()
             self.assertEqual(self.play(page.format(1), package), 3)
             self.assertIn("not printed:\nx is 2", self.mistake(page.format(2), package))
+
+    def test_a_package_that_is_asked_for_has_to_be_there(self):
+        with tempfile.TemporaryDirectory() as directory:
+            page = pathlib.Path(directory) / "page.md"
+            page.write_text("```python\nprint(1)\n```\n\n```sh\ntrue\n```\n", encoding="utf-8")
+            command = [sys.executable, run_blocks.__file__, "--program", "/bin/true", str(page)]
+            done = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("1 blocks left out for want of --python", done.stdout)
+            done = subprocess.run([*command, "--python", directory], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("has no compiled package seiche", done.stderr)
+
+    def test_the_program_is_where_the_pages_call_it(self):
+        self.assertEqual(self.play("```sh\nseiche\nbuild/release/seiche\n```\n"), 1)
 
     def test_every_page_and_case_of_the_gallery_has_its_place(self):
         site = run_blocks.SOURCE / "docs/site"

@@ -1,0 +1,64 @@
+#include <seiche/backend/backends.hpp>
+#include <seiche/config/custom_case.hpp>
+#include <seiche/method/methods.hpp>
+#include <seiche/study/lists.hpp>
+
+#include <nlohmann/json.hpp>
+
+namespace seiche {
+using Json = nlohmann::ordered_json;
+
+std::vector<ProblemEntry> listed_problems() {
+  std::vector<ProblemEntry> list(problems().begin(), problems().end());
+  list.push_back(custom_in_list());
+  return list;
+}
+
+std::string methods_json() {
+  Json list = Json::array();
+  for (const MethodEntry& method : methods()) {
+    list.push_back({{"name", method.name},
+                    {"closure", to_string(method.closure)},
+                    {"propagator", to_string(method.propagator)},
+                    {"composition", to_string(method.composition)},
+                    {"order", method.order},
+                    {"law", method.law},
+                    {"projection", method.projects() ? Json(to_string(method.projection)) : Json(nullptr)},
+                    {"reference", method.reference}});
+  }
+  list.push_back({{"name", "auto"},
+                  {"closure", nullptr},
+                  {"propagator", nullptr},
+                  {"composition", nullptr},
+                  {"order", nullptr},
+                  {"law", nullptr},
+                  {"projection", nullptr},
+                  {"reference", what_auto_is}});
+  return list.dump(2);
+}
+
+std::string problems_json() {
+  Json list = Json::array();
+  for (const ProblemEntry& problem : listed_problems()) {
+    Json parameters = Json::array();
+    for (const Parameter& parameter : problem.parameters) {
+      parameters.push_back(
+          {{"name", parameter.name}, {"default", parameter.default_value}, {"meaning", parameter.meaning}});
+    }
+    list.push_back({{"name", problem.name},
+                    {"equation", problem.equation},
+                    {"reference", problem.reference},
+                    {"fields", problem.fields},
+                    {"initial", problem.presets},
+                    {"parameters", parameters}});
+  }
+  return list.dump(2);
+}
+
+std::string backends_json() {
+  Json list = Json::array();
+  for (const BackendEntry& backend : backends()) list.push_back({{"name", backend.name}, {"summary", backend.summary}});
+  return list.dump(2);
+}
+
+}  // namespace seiche

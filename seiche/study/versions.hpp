@@ -1,0 +1,11 @@
+// Which Seiche computes: its number and commit, what compiled it, its libraries, and the instruction set in use.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace seiche {
+
+std::map<std::string, std::string> versions_in_use();  // for summary.json
+
+}  // namespace seiche
