@@ -49,8 +49,9 @@ TEST(FailureMode, WithAToleranceTheSameRunIsAccurateAtTheCostOfShortSteps) {
   EXPECT_EQ(report.status, RunReport::Status::success) << report.message;
   EXPECT_EQ(report.law, LawVerdict::holds);
   EXPECT_GT(report.rejected, 0);
-  const Vector z = simulation.physical();
-  EXPECT_NEAR(z[0], reference.state(1)[0], 2e-5);
+  const Vector z = simulation.physical();  // velocities are a hundred times the places
+  EXPECT_NEAR(z[0], reference.state(1)[0], 1e-7);
+  EXPECT_NEAR(z[1], reference.state(1)[1], 1e-5);
 }
 
 class AllSteps final : public Observer {

@@ -36,6 +36,7 @@ double smallest_growth(const PointwisePotential& V) {
       growth += u[f] * gradient[f];
       size += std::abs(u[f] * gradient[f]);
     }
+    EXPECT_TRUE(std::isfinite(growth));
     smallest = std::min(smallest, growth + 1e-12 * size);
   }
   return smallest;

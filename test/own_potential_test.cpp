@@ -184,6 +184,30 @@ TEST(OwnPotential, SteepPotentialsHideNoWrongGradientAndNoiseIsNone) {
   }
 }
 
+// Noise of single precision is neither a rise of the energy nor a force along the step, as it would be with h → 0.
+TEST(OwnPotential, InSinglePrecisionKeepsTheLawToItsOwnRoundOff) {
+  Problem problem = klein_gordon({.alpha = 1.0, .gamma = nullptr});
+  const auto cube = [](double x) { return static_cast<float>(x) * static_cast<float>(x) * static_cast<float>(x); };
+  problem.potential = own_potential({.value =
+                                         [cube](Values u) {
+                                           float sum = 0;
+                                           for (const double x : u) sum += cube(x) * static_cast<float>(x) / 4;
+                                           return static_cast<double>(sum);
+                                         },
+                                     .gradient =
+                                         [cube](Values u, std::span<double> g) {
+                                           for (std::size_t j = 0; j < u.size(); ++j) g[j] = cube(u[j]);
+                                         }});
+  const Problem in_double = klein_gordon({.alpha = 1.0, .gamma = nullptr});
+  for (const char* method : {"avf", "seilm", "egc4"}) {
+    const SolveOptions options{.method = method, .h = 1.0 / 256, .t_end = 0.5};
+    const Solution single = solve(problem, options), exact = solve(in_double, options);
+    ASSERT_TRUE(single.success()) << method << ": " << single.report.message;
+    EXPECT_NE(single.report.law, LawVerdict::violated) << method << ": " << single.report.law_reason;
+    for (std::size_t i = 0; i < exact.z.size(); ++i) ASSERT_NEAR(single.z[i], exact.z[i], 1e-4) << method;
+  }
+}
+
 TEST(OwnPotential, ARunWithAWrongGradientDoesNotBegin) {
   Problem problem = klein_gordon({.alpha = 1.0, .gamma = nullptr});
   OwnPotential wrong = quartic();

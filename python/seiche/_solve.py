@@ -91,7 +91,7 @@ def solve(
     record_every : int
         Without t_eval: record every so many steps. The energy law is judged at these steps.
     ledger : bool
-        Keep the books of the energy: ``result.ledger``.
+        Keep the books of the energy, step by step: ``result.ledger``. Not with t_eval.
     backend : str
         One of `seiche.backends()`; by default "auto".
     threads : int
@@ -139,7 +139,7 @@ def solve(
     if times is not None and not np.isfinite(times).all():
         raise ValueError("t_eval holds a time that is no finite number")
     functions = [] if events is None else list(events) if isinstance(events, (list, tuple)) else [events]
-    with_ledger = case.ledger if ledger is None else ledger
+    with_ledger = case.ledger and times is None if ledger is None else ledger
     solution = _core.solve(
         stated._core,
         case,

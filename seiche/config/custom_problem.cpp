@@ -208,7 +208,7 @@ class Builder {
     }
     if (!found)
       throw Error(
-          "problem.H = \"{}\": its quadratic part, {}, is not ≥ 0 whatever products of fields go to V, and ½zᵀMz has to be",
+          "problem.H = \"{}\": its quadratic part, {}, is not ≥ 0 in any of the ways tried to put products of fields into V, and ½zᵀMz has to be",
           custom_.H, whole);
     p_.notes.push_back(fmt::format("H = ½zᵀMz + V with ½zᵀMz = {} and V = {}", split.quadratic_text, split.rest_text));
     note_left_out(split);

@@ -24,6 +24,11 @@ double size_of(const Vector& u) {
   return largest > 0 ? largest : 1.0;
 }
 
+double precision_of(std::span<const double> values) {
+  const auto is_single = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };
+  return std::all_of(values.begin(), values.end(), is_single) ? std::numeric_limits<float>::epsilon() : epsilon;
+}
+
 // ∂V/∂(direction) at u by differences over ±d and ±2d, with the round-off of that: fourth differences of a smooth V are next to
 // nothing, so that they show how much of V is noise, as of terms that cancel. Noise of single precision may be the same in
 // all values, and is told by their digits.
@@ -37,11 +42,8 @@ Slope slope_along(const OwnPotential& own, const Vector& u, const Vector& direct
   double noise = 0;
   for (std::size_t k = 0; k + 4 < v.size(); ++k)
     noise = std::max(noise, std::abs((v[k] + v[k + 4]) - 4 * (v[k + 1] + v[k + 3]) + 6 * v[k + 2]));
-  const bool is_single =
-      std::all_of(v.begin(), v.end(), [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
-  const double digits = is_single ? std::numeric_limits<float>::epsilon() : epsilon;
   const double difference = (8 * (v[4] - v[2]) - (v[5] - v[1])) / (12 * d);
-  return {difference, (2 * noise + 8 * digits * std::abs(v[3])) / d};
+  return {difference, (2 * noise + 8 * precision_of(v) * std::abs(v[3])) / d};
 }
 
 // How far apart a claimed slope and the differences are, where they are: over a step of d and over a shorter one, since
@@ -96,6 +98,17 @@ std::string complaint_at(const OwnPotential& own, const Vector& u, const std::st
 }
 
 }  // namespace
+
+double relative_precision(const OwnPotential& own, std::span<const double> u) {
+  constexpr int samples = 8;
+  Vector at = Eigen::Map<const Vector>(u.data(), std::ssize(u));
+  std::vector<double> values;
+  for (int k = 0; k < samples; ++k) {  // not at 0 alone, where many a V is 0
+    at.array() += 0.1 * size_of(at);
+    values.push_back(own.value(span(at)));
+  }
+  return precision_of(values);
+}
 
 std::string gradient_complaint(const OwnPotential& own, std::span<const double> u) {
   constexpr int states = 3;

@@ -28,7 +28,7 @@ class Own final : public PointwisePotential {
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
     Vector slope(std::ssize(u));
     const double v = value_and_gradient(u, span(slope));
-    return {v, std::abs(v) + vector(u).cwiseAbs().dot(slope.cwiseAbs())};
+    return {v, (std::abs(v) + vector(u).cwiseAbs().dot(slope.cwiseAbs())) * (precision_ / epsilon)};
   }
 
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {
@@ -48,7 +48,7 @@ class Own final : public PointwisePotential {
     const double va = own_.value(a);
     const double vb = own_.value(b);
     const double defect = (vb - va) - sum.dot(step);
-    const double round_off = 8 * epsilon * (std::abs(va) + std::abs(vb) + sum.cwiseAbs().dot(step.cwiseAbs()));
+    const double round_off = 8 * precision_ * (std::abs(va) + std::abs(vb) + sum.cwiseAbs().dot(step.cwiseAbs()));
     if (std::abs(defect) > round_off) sum += (defect / step.squaredNorm()) * step;
     vector(mean) = sum;
   }
@@ -57,6 +57,7 @@ class Own final : public PointwisePotential {
     if (checked_) return "";  // the functions are the same at every start
     std::string text = gradient_complaint(own_, u);
     checked_ = text.empty();
+    precision_ = relative_precision(own_, u);
     return text;
   }
 
@@ -69,6 +70,7 @@ class Own final : public PointwisePotential {
  private:
   OwnPotential own_;
   mutable std::atomic<bool> checked_ = false;
+  mutable std::atomic<double> precision_ = epsilon;  // of V, once it was looked at
   std::vector<GaussNode> rule_ = gauss_rule(4);
 };
 

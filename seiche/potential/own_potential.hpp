@@ -28,4 +28,7 @@ std::shared_ptr<const PointwisePotential> own_potential(OwnPotential own);
 // at a random state is no complaint.
 std::string gradient_complaint(const OwnPotential& own, std::span<const double> u);
 
+// What V is computed to: ε, or that of single precision where its values around u have no more digits.
+double relative_precision(const OwnPotential& own, std::span<const double> u);
+
 }  // namespace seiche
