@@ -1,10 +1,13 @@
 #include "command_line.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
@@ -27,9 +30,19 @@ void print_data(std::string_view text) {
   }
 }
 
-void print_note(std::string_view text) { fmt::print(stderr, "seiche: {}\n", text); }
+void print_note(std::string_view text) { print_lines(fmt::format("seiche: {}\n", text)); }
 
-void print_lines(std::string_view text) { fmt::print(stderr, "{}", text); }
+// Whoever closed stderr, or let its disk fill up, wants the result all the same.
+void print_lines(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+void prepare_process() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing, which is told
+  // The lowest number that is free is given to the next file that is opened. Opened the wrong way round, reading and writing
+  // fail as they do with a closed one.
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(number, F_GETFD) < 0 && errno == EBADF)
+      ::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
 
 std::vector<std::string> with_set_repeated(const std::vector<std::string>& arguments) {
   std::vector<std::string> out;

@@ -27,7 +27,11 @@ void add_new(CLI::App& app, Action& action);
 
 void print_data(std::string_view text);   // to stdout; throws std::runtime_error where it cannot be written
 void print_note(std::string_view text);   // one line to stderr, after "seiche: "
-void print_lines(std::string_view text);  // to stderr as it is
+void print_lines(std::string_view text);  // to stderr as it is; never throws
+
+// Before anything is opened: no file of a run takes the number of a closed standard stream, and limits of the size of files
+// are errors.
+void prepare_process();
 
 // Every argument after --set that looks like key=value gets a --set of its own, so that one --set may take several
 // and never swallows the case file.

@@ -76,7 +76,6 @@ ExitCode exit_code(const Convergence& study, const RunSpec& spec, const LawPromi
 }
 
 ExitCode converge_case(const ConvergeArguments& arguments) {
-  const std::atomic<bool>& stop = stop_on_signal();
   std::vector<std::string> methods = arguments.methods;
   for (std::string& name : methods) {
     name = without_blanks(name);
@@ -99,10 +98,9 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
   ConvergeOptions options;
   options.t_end = spec.t_end;
   options.backend = spec.backend;
+  options.backend_options = simulation_options(spec).backend_options;
   options.method_options = spec.method_options;
   options.threads = arguments.threads;
-  options.stop = &stop;
-  options.reference.stop = &stop;
   options.reference.kind = find_reference(arguments.reference);
   if (const std::string unknown = options_left_out(methods, spec.method_options); !unknown.empty())
     spec.notes.push_back(unknown);
@@ -114,8 +112,11 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
     Simulation(problem, {.method = method,
                          .backend = spec.backend,
                          .method_options = options_for(method, spec.method_options),
-                         .backend_options = {}});
+                         .backend_options = options.backend_options});
   }
+  const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
+  options.stop = &stop;
+  options.reference.stop = &stop;
   Convergence study;
   try {
     study = converge(problem, methods, step_sizes, options);

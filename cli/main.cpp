@@ -77,6 +77,7 @@ ExitCode run_program(const std::vector<std::string>& arguments) {
 
 int main(int count, char** values) {
   using namespace seiche::cli;
+  prepare_process();
   try {
     return run_program({values + std::min(count, 1), values + count});
   } catch (const seiche::Error& error) {

@@ -9,7 +9,9 @@
 #include <seiche/figure/paper_pictures.hpp>
 #include <seiche/figure/report.hpp>
 #include <seiche/output/atomic_file.hpp>
+#include <seiche/output/folder_lock.hpp>
 #include <seiche/output/progress_bar.hpp>
+#include <seiche/output/run_folder.hpp>
 #include <seiche/study/paper.hpp>
 
 #include <memory>
@@ -69,16 +71,18 @@ std::string draw(const PaperResults& results, const std::string& directory) {
 std::string default_directory(bool quick) { return quick ? "out/paper-quick" : "out/paper"; }
 
 ExitCode paper(const PaperArguments& arguments) {
-  const std::atomic<bool>& stop = stop_on_signal();
   const std::string directory = arguments.directory_given ? arguments.directory : default_directory(arguments.quick);
   if (directory.empty()) throw Error("--out must not be empty");
   PaperOptions options;
   options.quick = arguments.quick;
   options.reference = find_reference(arguments.reference);
   make_directory(directory);
+  const FolderLock lock(directory);
+  require_own_report(directory);
   StudyProgress progress(arguments.quiet);
   options.threads = arguments.threads;
   options.progress = [&](double done, std::string_view what) { progress(done, what); };
+  const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
   options.stop = &stop;
   try {
     const PaperResults results = run_paper(options);

@@ -5,6 +5,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/figure/rendering.hpp>
 #include <seiche/figure/run_report.hpp>
+#include <seiche/output/folder_lock.hpp>
+#include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_reader.hpp>
 
 #include <algorithm>
@@ -55,6 +57,8 @@ ExitCode plot(const PlotArguments& arguments) {
     throw Error("{} is no directory of a finished run: it has no solution.h5", run.directory.string());
   if (!arguments.film_fields.empty())
     options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.directory / "solution.h5"));
+  const FolderLock lock(run.directory);
+  require_own_report(run.directory);
   try {
     const RunPictures pictures = draw_run(run, history, options);
     write_run_report(run, history, pictures);
@@ -67,8 +71,9 @@ ExitCode plot(const PlotArguments& arguments) {
       if (!film.dark_file.empty())
         print_lines(fmt::format("{:<10} {}\n", "", (run.directory / film.dark_file).string()));
     }
-  } catch (const Error& error) {  // the run and its files are what they were
-    write_run_report(run, history, {}, error.what());
+  } catch (const Error& error) {  // the run and its files are what they were, and so are pictures of an earlier call
+    if (!std::filesystem::exists(run.directory / "figures" / "energy.png"))
+      write_run_report(run, history, {}, error.what());
     print_note(error.what());
     return computation_failed;
   }

@@ -15,7 +15,9 @@
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
+#include <seiche/output/folder_lock.hpp>
 #include <seiche/output/progress.hpp>
+#include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_file.hpp>
 #include <seiche/output/summary.hpp>
 #include <seiche/problem/problems.hpp>
@@ -95,6 +97,16 @@ void write_page(const std::filesystem::path& directory, bool ledger) {
   write_run_report(read_run(directory), history, {});
 }
 
+// A summary that does not tell of the failure must not stay: where there is no room for another one, there is none.
+void write_failure(const std::filesystem::path& path, const RunIdentity& identity, const RunReport& report) {
+  try {
+    write_summary(path, identity, report);
+  } catch (const Error&) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+}
+
 ExitCode run(const RunArguments& arguments) {
   hdf5_without_cleanup_at_exit();
   RunSpec spec = load_case(arguments.case_argument);
@@ -125,6 +137,10 @@ ExitCode run(const RunArguments& arguments) {
   if (!remarks.empty() && !arguments.quiet) print_note(remarks);
 
   make_directory(directory);
+  const FolderLock lock(directory);
+  require_own_files(directory, RunKind::run, spec.report);
+  remove_earlier_results(directory);
+  remove_own_report(directory);
   remove_pictures(directory);
   write_file(directory / "case.toml", write_case(spec));
   if (spec.measure_plans) write_file(wisdom, planning_wisdom());
@@ -139,9 +155,6 @@ ExitCode run(const RunArguments& arguments) {
   if (ProgressBar::is_wanted(arguments.quiet)) observers.push_back(&progress);
 
   RunReport report = integrate(simulation, spec, law, stop, observers);
-  const std::string told = report.full();  // the remarks stand above it already
-  if (!remarks.empty()) report.message += "; " + remarks;
-
   const RunIdentity identity{.problem = problem.name,
                              .method = spec.method,
                              .backend = simulation.backend(),
@@ -149,18 +162,23 @@ ExitCode run(const RunArguments& arguments) {
                              .tolerance = spec.tolerance,
                              .certificate = certificate_json(certificate),
                              .versions = versions()};
+  const auto with_remarks = [&] {
+    RunReport all = report;
+    if (!remarks.empty()) all.message += "; " + remarks;
+    return all;
+  };
   try {
     write_final_state(directory / "final.txt", simulation.physical());
-    write_summary(directory / "summary.json", identity, report);
+    write_summary(directory / "summary.json", identity, with_remarks());
     if (spec.report) write_page(directory, spec.ledger);
   } catch (const Error& error) {  // not the user's mistake any more: the directory was writable at the start
     report.status = RunReport::Status::failed;
     report.message += fmt::format("; {}", error.what());
-    print_note(error.what());
+    write_failure(directory / "summary.json", identity, with_remarks());
   }
-  if (arguments.json) print_data(summary_json(identity, report));
+  if (arguments.json) print_data(summary_json(identity, with_remarks()));
   if (!arguments.quiet) {
-    print_lines(told);
+    print_lines(report.full());  // the remarks stand above it already
     if (law.promised && report.law != LawVerdict::not_promised)
       print_lines(fmt::format("{:<10} {}\n", "theorem", certificate.theorem));
     print_lines(fmt::format("{:<10} {}\n", "files", directory.string()));
@@ -169,7 +187,7 @@ ExitCode run(const RunArguments& arguments) {
                              report.steps, report.replaced.count == 1 ? "was" : "were"));
   } else if (report.status == RunReport::Status::failed || report.law == LawVerdict::violated ||
              !report.remark_on_replaced().empty()) {
-    print_note(report.message);
+    print_note(with_remarks().message);
   } else if (!problem.friction && !negative_rate(simulation.problem())
                                        .empty()) {  // mostly a sign typed wrong; of friction it may be the point
     print_note(fmt::format("{}: it feeds energy, and no energy law is promised", negative_rate(simulation.problem())));

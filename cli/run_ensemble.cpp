@@ -10,8 +10,11 @@
 #include <seiche/core/law.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/ensemble/members.hpp>
+#include <seiche/figure/run_pictures.hpp>
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/output/csv_row.hpp>
+#include <seiche/output/folder_lock.hpp>
+#include <seiche/output/run_folder.hpp>
 #include <seiche/study/certificate.hpp>
 
 #include <algorithm>
@@ -40,7 +43,7 @@ class StatisticsFile {
   }
 
   void write(const EnsembleRecord& record) {
-    if (!first_) first_ = record;
+    if (last_.running == 0) first_ = record;
     last_ = record;
     row_.clear();
     row_.add(record.t);
@@ -51,7 +54,8 @@ class StatisticsFile {
   }
   void commit() { file_.commit(); }
 
-  const EnsembleRecord& first() const { return *first_; }
+  // Of members whose energy was a number; without any, statistics of nothing.
+  const EnsembleRecord& first() const { return first_; }
   const EnsembleRecord& last() const { return last_; }
 
  private:
@@ -61,8 +65,8 @@ class StatisticsFile {
   AtomicFile file_;
   bool has_modified_;
   CsvRow row_;
-  std::optional<EnsembleRecord> first_;
-  EnsembleRecord last_;
+  EnsembleRecord first_{.H = statistics({}), .modified = statistics({})};
+  EnsembleRecord last_ = first_;
 };
 
 std::string csv_text(std::string_view text) {
@@ -87,8 +91,9 @@ void write_members(const fs::path& path, const Members& members, const EnsembleR
     std::string row = fmt::format("{}", m + 1);
     for (const double value : members.values[m]) row += fmt::format(",{:.17g}", value);
     row += fmt::format(",{},{},{:.17g}", to_string(report.status), report.steps, report.t);
-    row += energy_columns(report.energy);
-    if (has_modified) row += energy_columns(report.modified);
+    const bool started = result.members[m].final.size() > 0;
+    row += started ? energy_columns(report.energy) : ",,,";
+    if (has_modified) row += started ? energy_columns(report.modified) : ",,,";
     row += fmt::format(",{},{},{},{},{}\n", to_string(report.law), report.scalar_iterations, report.fallbacks,
                        report.replaced.count, csv_text(report.message));
     file.write(row);
@@ -128,14 +133,20 @@ Json statistics_json(const Statistics& s) {
 }
 
 struct Outcome {
-  std::int64_t succeeded, failed, interrupted, replaced, violated, not_promised;
+  std::int64_t succeeded, failed, interrupted, replaced;
+  std::int64_t holds, violated, not_promised;  // a law that was kept up to a failure is none of these
   std::string message;
+  bool is_written = true;  // is all on disk?
 
   explicit Outcome(const EnsembleResult& result)
       : succeeded(of(result, RunReport::Status::success)),
         failed(of(result, RunReport::Status::failed)),
         interrupted(of(result, RunReport::Status::interrupted)),
         replaced(count(result, holds_replaced)),
+        holds(count(result,
+                    [](const RunReport& r) {
+                      return r.law == LawVerdict::holds && r.status != RunReport::Status::failed;
+                    })),
         violated(count(result, [](const RunReport& r) { return r.law == LawVerdict::violated; })),
         not_promised(count(result, [](const RunReport& r) { return r.law == LawVerdict::not_promised; })) {
     message = fmt::format("{} of {} members reached the end", succeeded, result.members.size());
@@ -150,15 +161,23 @@ struct Outcome {
     say_first(
         result, not_promised, "promise no energy law",
         [](const RunReport& r) { return r.law == LawVerdict::not_promised; }, &RunReport::law_reason);
+    if (!result.failure.empty()) fail_to_write(result.failure);
+  }
+
+  void fail_to_write(const std::string& reason) {
+    if (message.find(reason) == std::string::npos) message += "; " + reason;
+    is_written = false;
   }
 
   RunReport::Status status() const {
-    if (failed > 0) return RunReport::Status::failed;
+    if (failed > 0 || !is_written) return RunReport::Status::failed;
     return interrupted > 0 ? RunReport::Status::interrupted : RunReport::Status::success;
   }
-  LawVerdict law() const {
-    if (violated > 0) return LawVerdict::violated;
-    return not_promised > 0 ? LawVerdict::not_promised : LawVerdict::holds;
+  // "" where every member failed and none broke a law.
+  std::string law() const {
+    if (violated > 0) return to_string(LawVerdict::violated);
+    if (not_promised > 0) return to_string(LawVerdict::not_promised);
+    return holds > 0 ? to_string(LawVerdict::holds) : "";
   }
 
  private:
@@ -183,7 +202,7 @@ struct Outcome {
 };
 
 ExitCode exit_code(const Outcome& outcome) {
-  if (outcome.failed > 0) return computation_failed;
+  if (outcome.failed > 0 || !outcome.is_written) return computation_failed;
   if (outcome.interrupted > 0) return interrupted;
   return outcome.violated > 0 ? law_violated : success;
 }
@@ -205,7 +224,7 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
   energy["modified"] = has_modified ? Json{{"initial", statistics_json(energies.first().modified)},
                                            {"final", statistics_json(energies.last().modified)}}
                                     : Json(nullptr);
-  energy["law"] = to_string(outcome.law());
+  energy["law"] = outcome.law().empty() ? Json(nullptr) : Json(outcome.law());
   Json about = Json::object();
   for (const auto& [name, version] : versions()) about[name] = version;
   const Json json = {
@@ -218,10 +237,7 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
       {"members", result.members.size()},
       {"side_by_side", result.in_lanes},
       {"statuses", {{"success", outcome.succeeded}, {"failed", outcome.failed}, {"interrupted", outcome.interrupted}}},
-      {"laws",
-       {{"holds", static_cast<std::int64_t>(result.members.size()) - outcome.violated - outcome.not_promised},
-        {"violated", outcome.violated},
-        {"not promised", outcome.not_promised}}},
+      {"laws", {{"holds", outcome.holds}, {"violated", outcome.violated}, {"not promised", outcome.not_promised}}},
       {"steps", steps},
       {"t", energies.last().t},
       {"energy", energy},
@@ -255,7 +271,6 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
   const Problem& problem = *members.list.front().problem;
   const bool has_modified = find_method(spec.method).law == "H_modified";
   require_start(members, spec);
-  const std::atomic<bool>& stop = stop_on_signal();
   const std::string remarks = notes(spec, problem);
   if (!remarks.empty() && !options.quiet) print_note(remarks);
 
@@ -265,28 +280,50 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
                                                     .t_end = spec.t_end,
                                                     .sample_solution = false});
   const fs::path directory = spec.output_directory;
+  const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
   make_directory(directory);
+  const FolderLock lock(directory);
+  require_own_files(directory, RunKind::ensemble, false);
+  remove_earlier_results(directory);
+  remove_own_report(directory);
+  remove_pictures(directory);
   write_file(directory / "case.toml", write_case(spec));
   StatisticsFile energies(directory / "energy.csv", has_modified);
-  const EnsembleResult result =
-      run_ensemble(members.list,
-                   {.simulation = simulation_options(spec),
-                    .h = spec.h,
-                    .t_end = spec.t_end,
-                    .energy_every = spec.energy_every,
-                    .threads = options.threads,
-                    .promise = [&](const Simulation& simulation) { return promise_energy_law(simulation, spec.t_end); },
-                    .objection = negative_rate,
-                    .on_record = [&](const EnsembleRecord& record) { energies.write(record); },
-                    .stop = &stop});
-  const Outcome outcome(result);
+  EnsembleResult result;
+  try {
+    result = run_ensemble(members.list,
+                          {.simulation = simulation_options(spec),
+                           .h = spec.h,
+                           .t_end = spec.t_end,
+                           .energy_every = spec.energy_every,
+                           .threads = options.threads,
+                           .promise =
+                               [&](const Simulation& simulation) { return promise_energy_law(simulation, spec.t_end); },
+                           .objection = negative_rate,
+                           .on_record = [&](const EnsembleRecord& record) { energies.write(record); },
+                           .stop = &stop});
+  } catch (const Error& error) {
+    if (!stop) throw;
+    print_note(error.what());
+    return interrupted;
+  }
+  Outcome outcome(result);
+  // Each gets its chance to be whole, also where another one was not.
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const Error& error) {
+      outcome.fail_to_write(error.what());
+    }
+  };
+  attempt([&] { energies.commit(); });
+  attempt([&] { write_members(directory / "members.csv", members, result, has_modified); });
+  attempt([&] { write_finals(directory / "finals.csv", problem, result); });
   const std::string backend =
       spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
-  const std::string json = summary(spec, backend, result, outcome, energies, has_modified, certificate);
-  energies.commit();
-  write_members(directory / "members.csv", members, result, has_modified);
-  write_finals(directory / "finals.csv", problem, result);
-  write_file(directory / "summary.json", json);
+  const auto summarised = [&] { return summary(spec, backend, result, outcome, energies, has_modified, certificate); };
+  attempt([&] { write_file(directory / "summary.json", summarised()); });
+  const std::string json = summarised();
 
   if (options.json) print_data(json);
   if (!options.quiet) {
@@ -294,7 +331,7 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
     print_lines(fmt::format("{:<10} mean {:.9g} → {:.9g}\n{:<10} {} members in {:.3g} s\n{:<10} {}\n", "H",
                             energies.first().H.mean, energies.last().H.mean, "time", result.members.size(),
                             result.wall_seconds, "files", directory.string()));
-  } else if (outcome.failed > 0 || outcome.violated > 0 || outcome.replaced > 0) {
+  } else if (outcome.failed > 0 || !outcome.is_written || outcome.violated > 0 || outcome.replaced > 0) {
     print_note(outcome.message);
   }
   return exit_code(outcome);

@@ -5,9 +5,11 @@
 #include <seiche/core/error.hpp>
 #include <seiche/figure/spectrum_pictures.hpp>
 #include <seiche/output/atomic_file.hpp>
+#include <seiche/output/folder_lock.hpp>
 #include <seiche/study/spectrum.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace seiche::cli {
 namespace {
@@ -33,14 +35,22 @@ ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
   options.backend_options.threads = arguments.threads;
   const std::string remarks = notes(spec, problem);
   if (!remarks.empty()) print_note(remarks);
-  const Spectrum result = spectrum(problem, options, spec.h);
+  const std::filesystem::path directory = arguments.directory;
+  std::optional<FolderLock> lock;
   if (arguments.directory_given) {
-    const std::filesystem::path directory = arguments.directory;
     make_directory(directory);
+    lock.emplace(directory);
+  }
+  const Spectrum result = spectrum(problem, options, spec.h);
+  print_data(arguments.json ? spectrum_json(result) : spectrum_table(result));
+  if (!arguments.directory_given) return success;
+  try {
     write_file(directory / "spectrum.csv", spectrum_csv(result));
     draw_spectrum(result, directory);
+  } catch (const Error& error) {  // what was computed is said, and no mistake of the user's
+    print_note(error.what());
+    return computation_failed;
   }
-  print_data(arguments.json ? spectrum_json(result) : spectrum_table(result));
   return success;
 }
 

@@ -1,4 +1,5 @@
 // The other commands: list, converge, spectrum, paper.
+#include "support/background.hpp"
 #include "support/program.hpp"
 
 #include <gmock/gmock.h>
@@ -8,8 +9,12 @@
 #include <seiche/method/methods.hpp>
 #include <seiche/problem/problems.hpp>
 
+#include <cmath>
+#include <csignal>
 #include <filesystem>
+#include <iterator>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace seiche {
@@ -17,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::Background;
 using test::Cli;
 using Result = Cli::Result;
 using testing::AllOf;
@@ -111,6 +117,37 @@ TEST_F(Cli, SpectrumTellsWhetherTheDampingIsPhysical) {
   EXPECT_THAT(seiche("spectrum case.toml").out, HasSubstr("γ as it is at t = 0"));
   write_case("", "tolerance = 1e-6");
   EXPECT_THAT(refused("spectrum case.toml"), AllOf(HasSubstr("give --set method.h="), HasSubstr("tells the sizes")));
+}
+
+TEST_F(Cli, SpectrumWithoutGnuplotSaysAndKeepsWhatItComputed) {
+  write_case();
+  const Result result = seiche("spectrum case.toml --out out", "PATH=/nonexistent");
+  EXPECT_EQ(result.exit, 1);
+  EXPECT_THAT(result.out, HasSubstr("The damping is physical: every"));
+  EXPECT_THAT(result.err, HasSubstr("gnuplot was not found"));
+  EXPECT_EQ(lines("out/spectrum.csv").size(), 1U + 5U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory / "out"), {}), 1);
+}
+
+TEST_F(Cli, ConvergeTakesTheBackendOfTheCase) {
+  const std::string sparse = "converge '" SEICHE_SOURCE_DIR
+                             "/cases/sparse.toml' --json --h 1/2,1/4 --set time.end=1 "
+                             "method.name=seisav backend.name=sparse backend.exponential=pade backend.pade_degree=";
+  const auto error = [&](const std::string& degree) {
+    const Result result = seiche(sparse + degree);
+    EXPECT_EQ(result.exit, 0) << result.err;
+    return json::parse(result.out)["rows"][0]["error"].get<double>();
+  };
+  EXPECT_GT(std::abs(error("1") - error("8")), 1e-6);
+}
+
+TEST_F(Cli, ASignalDuringSetUpEndsTheProgram) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  Background waiting(directory, {"converge", "-"}, ends[0]);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(waiting.end(SIGINT), -SIGINT);
+  for (const int end : ends) close(end);
 }
 
 TEST_F(Cli, SpectrumLeavesATableAndFigures) {

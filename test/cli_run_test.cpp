@@ -162,6 +162,49 @@ TEST_F(Cli, CtrlCLeavesWholeFilesAndExitsWith130) {
   }
 }
 
+TEST_F(Cli, AFailureOfTheLastFilesIsToldOnceAndEverywhereTheSame) {
+  write_case();
+  for (const std::string quiet : {"", " --quiet"}) {
+    fs::remove_all(directory / "out");
+    fs::create_directories(directory / "out/report.html.partial");  // where the report would be written
+    const Result result = seiche("run case.toml --out out --json" + quiet);
+    EXPECT_EQ(result.exit, 1);
+    const json summary = json::parse(result.out);
+    EXPECT_EQ(summary["status"], "failed");
+    EXPECT_THAT(summary["message"].get<std::string>(), HasSubstr("report.html: Is a directory"));
+    EXPECT_EQ(json::parse(text("out/summary.json")), summary);
+    const std::size_t said = result.err.find("cannot write");
+    EXPECT_NE(said, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("cannot write", said + 1), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("success"), std::string::npos) << result.err;
+    EXPECT_EQ(lines("out/final.txt").size(), 16U);
+  }
+}
+
+TEST_F(Cli, AFullDiskFailsTheRunAndKeepsTheSmallFiles) {
+  write_case();
+  const Result result = seiche("run case.toml --out out --set time.end=1000", "ulimit -f 100;");
+  EXPECT_EQ(result.exit, 1) << result.err;
+  EXPECT_EQ(json::parse(text("out/summary.json"))["status"], "failed");
+  EXPECT_THAT(result.err, HasSubstr("File too large"));
+}
+
+TEST_F(Cli, ARunDoesNotNeedStandardStreams) {
+  write_case();
+  for (const char* streams : {"2>/dev/full", "2>&-", "<&- >&- 2>&-"}) {
+    fs::remove_all(directory / "out");
+    const std::string command =
+        "cd '" + directory.string() + "' && '" SEICHE_PROGRAM "' run case.toml --out out --set method.h=0.3 " + streams;
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << streams;
+    EXPECT_EQ(lines("out/energy.csv").size(), 1U + 5U) << streams;
+    for (const auto& entry : fs::directory_iterator(directory / "out"))
+      EXPECT_EQ(text(entry.path()).find("success:"), std::string::npos) << entry.path() << " took the place of stderr";
+    EXPECT_EQ(SolutionReader(directory / "out/solution.h5").times().back(), 1.0) << streams;
+  }
+  const std::string closed = "'" SEICHE_PROGRAM "' list problems >&- 2>/dev/null";
+  EXPECT_EQ(WEXITSTATUS(std::system(closed.c_str())), 1) << "nothing came out";
+}
+
 TEST_F(Cli, AToleranceTakesStepsOfItsOwnAndShowsAskedTimes) {
   write_case();
   const Result result = seiche(

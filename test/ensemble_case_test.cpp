@@ -1,4 +1,5 @@
 // [ensemble] in a case file: its members, its mistakes, and the files that a run leaves.
+#include "support/background.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -13,9 +14,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace seiche::test {
@@ -109,12 +113,13 @@ TEST(EnsembleCase, MistakesAreOneSentenceWithTheKey) {
 class EnsembleProgram : public InTemporaryDirectory {
  protected:
   // The exit code of a run of this case into `out`.
-  int run_case(const std::string& ensemble, const std::string& more = "", const std::string& arguments = "") const {
+  int run_case(const std::string& ensemble, const std::string& more = "", const std::string& arguments = "",
+               const std::string& before = "") const {
     std::ofstream(directory / "case.toml") << "[problem]\nname = \"klein_gordon\"\nalpha = -1.0\n[method]\nh = 0.0625\n"
                                            << more << "[time]\nend = 1.0\n[ensemble]\n"
                                            << ensemble;
-    const std::string command = "cd '" + directory.string() +
-                                "' && '" SEICHE_PROGRAM "' run case.toml --out out --quiet " + arguments +
+    const std::string command = "cd '" + directory.string() + "' && " + before +
+                                " '" SEICHE_PROGRAM "' run case.toml --out out --quiet " + arguments +
                                 " >stdout.txt 2>stderr.txt";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -174,6 +179,58 @@ TEST_F(EnsembleProgram, SaysWhichMembersHoldReplacedSteps) {
   EXPECT_NE(message.find("hold replaced steps, the first of them member "), std::string::npos) << message;
   ASSERT_EQ(lines("stderr.txt").size(), 1U);
   EXPECT_NE(lines("stderr.txt")[0].find("no solution was found"), std::string::npos) << lines("stderr.txt")[0];
+}
+
+// V is unbounded below: large waves leave the numbers.
+TEST_F(EnsembleProgram, EndsWhereNoMemberRunsAnyMore) {
+  const std::string large =
+      "--set problem.alpha=-1 problem.initial='{u=\"40*sin(pi*x)\",v=\"0\"}' method.name=sav method.h=1/16 method.C=1e9 "
+      "method.auxiliary=frozen time.end=2000";
+  EXPECT_EQ(run_case("members = 3\nperturb_initial = 0.01\n", "", large), 1);
+  std::ifstream file(directory / "out/summary.json");
+  const nlohmann::json summary = nlohmann::json::parse(file);
+  ASSERT_EQ(summary["statuses"]["failed"], 3) << summary.dump(1);
+  EXPECT_TRUE(summary["energy"]["law"].is_null()) << summary.dump(1);
+  EXPECT_EQ(summary["laws"]["holds"], 0);
+  EXPECT_LT(summary["t"], 2000);
+  const std::vector<std::string> rows = lines("out/energy.csv");
+  EXPECT_LT(rows.size(), 32000U);
+  for (const std::string& row : rows) EXPECT_EQ(row.find("nan"), std::string::npos) << row;
+  EXPECT_EQ(rows.back().substr(0, rows.back().find(',')), fmt::format("{:.17g}", summary["t"].get<double>()));
+  for (const std::string& row : lines("out/members.csv")) EXPECT_EQ(row.find("nan"), std::string::npos) << row;
+}
+
+TEST_F(EnsembleProgram, CtrlCLeavesWholeFilesHoweverFarRecordsLieApart) {
+  ASSERT_EQ(run_case("members = 3\nperturb_initial = 0.01\n"), 0);
+  std::filesystem::remove_all(directory / "out");
+  Background run(directory, {"run", "case.toml", "--out", "out", "--json", "--set", "time.end=1e7",
+                             "output.energy_every=100000000"});
+  ASSERT_TRUE(Background::wait_until([&] { return std::filesystem::exists(directory / "out/energy.csv.partial"); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_EQ(run.end(SIGINT), 130);
+  std::ifstream file(directory / "out/summary.json");
+  const nlohmann::json summary = nlohmann::json::parse(file);
+  EXPECT_EQ(summary["status"], "interrupted");
+  EXPECT_EQ(summary["statuses"]["interrupted"], 3);
+  EXPECT_GT(summary["t"], 0);
+  EXPECT_EQ(lines("out/energy.csv").size(), 3U);
+  EXPECT_EQ(std::stod(lines("out/energy.csv").back()), summary["t"]);
+  EXPECT_EQ(lines("out/members.csv").size(), 4U);
+  EXPECT_EQ(lines("out/finals.csv").size(), 4U);
+}
+
+TEST_F(EnsembleProgram, ADiskThatFillsUpCostsOnlyWhatDoesNotFit) {
+  // No file of more than 100 KiB.
+  EXPECT_EQ(run_case("members = 3\nperturb_initial = 0.01\n", "", "--set time.end=1000", "ulimit -f 100;"), 1);
+  EXPECT_EQ(lines("out/members.csv").size(), 4U);
+  EXPECT_EQ(lines("out/finals.csv").size(), 4U);
+  std::ifstream file(directory / "out/summary.json");
+  const nlohmann::json summary = nlohmann::json::parse(file);
+  EXPECT_EQ(summary["status"], "failed");
+  const std::string message = summary["message"];
+  EXPECT_NE(message.find("energy.csv: File too large"), std::string::npos) << message;
+  EXPECT_EQ(message.find("energy.csv", message.find("energy.csv") + 1), std::string::npos) << "said once: " << message;
+  ASSERT_EQ(lines("stderr.txt").size(), 1U);
 }
 
 TEST_F(EnsembleProgram, RefusesACaseThatIsWrongBeforeAnythingIsWritten) {

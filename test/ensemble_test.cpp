@@ -1,4 +1,5 @@
 // Ensembles: every member runs as it would alone, whatever its neighbours do.
+#include "support/error_of.hpp"
 #include "support/paper_cases.hpp"
 #include "support/worst.hpp"
 
@@ -12,9 +13,12 @@
 #include <seiche/problem/variable_wave.hpp>
 #include <seiche/run/integrate.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -24,6 +28,7 @@ namespace seiche::test {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
+using testing::HasSubstr;
 
 Matrix fourier(Index n) {
   Matrix T(n, n);
@@ -295,6 +300,54 @@ TEST(Ensemble, RefusesToRunWhereNoMemberCanStart) {
   options.simulation = {.method = "seisv"};
   EXPECT_THROW(run_ensemble(members, options), Error);
   EXPECT_THROW(run_ensemble({}, {.h = 0.1, .t_end = 1.0}), Error);
+}
+
+TEST(Ensemble, MembersOfDifferentSizesAreRefusedWithBoth) {
+  std::vector<EnsembleMember> members = scaled_members(klein_gordon_case(), 2);
+  const Problem small = duffing_case();
+  const auto other = std::make_shared<const Problem>(small);
+  const std::string two = std::to_string(small.size()), many = std::to_string(members[0].problem->size());
+  members.push_back({other, other->initial});
+  const EnsembleOptions options{.simulation = {.method = "seisav"}, .h = 0.1, .t_end = 1.0};
+  EXPECT_THAT(test::error_of([&] { run_ensemble(members, options); }),
+              HasSubstr("member 3 has " + two + " unknowns and member 1 has " + many));
+  members[2] = {members[0].problem, other->initial};
+  EXPECT_THAT(test::error_of([&] { run_ensemble(members, options); }),
+              HasSubstr("the initial state of member 3 has " + two));
+}
+
+TEST(Ensemble, StopsBetweenRecordsThatLieFarApartAndRecordsWhere) {
+  const std::vector<EnsembleMember> members = scaled_members(klein_gordon_case(), 20);
+  std::vector<EnsembleRecord> records;
+  std::atomic<bool> stop = false;
+  const auto begin = std::chrono::steady_clock::now();
+  const EnsembleResult result = run_ensemble(
+      members, {.simulation = {.method = "seisav"},
+                .h = 1.0 / 64,
+                .t_end = 1e8,
+                .energy_every = 1000000000,
+                .on_record = [&](const EnsembleRecord& record) { records.push_back(record); },
+                .on_pause = [&] { stop = std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(300); },
+                .stop = &stop});
+  ASSERT_EQ(records.size(), 2U) << "the first and the last state";
+  for (const MemberResult& member : result.members) {
+    EXPECT_EQ(member.report.status, RunReport::Status::interrupted);
+    EXPECT_EQ(member.report.t, records[1].t);
+    EXPECT_GT(member.report.t, 0);
+  }
+  EXPECT_NEAR(records[1].H.mean, result.members[0].report.energy.final, 10);
+}
+
+TEST(Ensemble, EndsWithWhatARecordCouldNotDo) {
+  const std::vector<EnsembleMember> members = scaled_members(klein_gordon_case(), 3);
+  int records = 0;
+  const EnsembleResult result =
+      run_ensemble(members, {.simulation = {.method = "seisav"}, .h = 0.1, .t_end = 1.0, .on_record = [&](const auto&) {
+                               if (++records == 4) throw Error("the disk is full");
+                             }});
+  EXPECT_EQ(result.failure, "the disk is full");
+  EXPECT_EQ(records, 4);
+  for (const MemberResult& member : result.members) EXPECT_GT(member.final.size(), 0);
 }
 
 bool are_same(const Statistics& a, const Statistics& b) {

@@ -10,6 +10,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -87,6 +88,19 @@ TEST_F(Output, AFullDiskIsAnErrorAndNotSilence) {
     file.commit();
   });
   EXPECT_THAT(message, HasSubstr(std::strerror(ENOSPC)));
+}
+
+// As on a file system that tells only then that there was no room.
+TEST_F(Output, AFileThatCannotBeClosedIsNotThere) {
+  AtomicFile file(directory / "x");
+  for (const auto& open : fs::directory_iterator("/proc/self/fd")) {
+    std::error_code gone;
+    if (fs::read_symlink(open.path(), gone) == fs::canonical(directory) / "x.partial") {
+      ASSERT_EQ(::close(std::stoi(open.path().filename().string())), 0);
+    }
+  }
+  EXPECT_THAT(error_of([&] { file.commit(); }), HasSubstr(std::strerror(EBADF)));
+  EXPECT_FALSE(fs::exists(directory / "x"));
 }
 
 TEST_F(Output, TheFinalStateReadsBackToTheLastBit) {

@@ -97,14 +97,14 @@ TEST_F(RunReports, ARunLeavesAReportThatNeedsNothingBesideIt) {
 TEST_F(RunReports, PicturesOfAnEarlierRunDoNotStandBesideANewOne) {
   run("oscillator");
   fs::create_directories(out() / "figures/film");
-  for (const char* old : {"figures/energy.png", "figures/film/0001.png", "figures/film.mp4", "figures/film_dark.mp4",
-                          "figures/notes.txt"})
+  for (const char* old : {"figures/energy.png", "figures/film/u_0001.png", "figures/film_u.mp4",
+                          "figures/film_u_dark.mp4", "figures/notes.txt"})
     std::ofstream(out() / old) << "old";
   run("oscillator", "output.report=off");
   EXPECT_FALSE(fs::exists(out() / "report.html"));
   EXPECT_FALSE(fs::exists(out() / "figures/energy.png"));
   EXPECT_FALSE(fs::exists(out() / "figures/film"));
-  EXPECT_FALSE(fs::exists(out() / "figures/film_dark.mp4"));
+  EXPECT_FALSE(fs::exists(out() / "figures/film_u_dark.mp4"));
   EXPECT_TRUE(fs::exists(out() / "figures/notes.txt")) << "only what plot draws";
 }
 

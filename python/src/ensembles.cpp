@@ -30,9 +30,9 @@ void run(HeldEnsemble& held, const std::vector<EnsembleMember>& members, const R
                                 .threads = threads,
                                 .promise = [&](const Simulation& s) { return promise_energy_law(s, spec.t_end); },
                                 .objection = negative_rate,
-                                .on_record =
-                                    [&](const EnsembleRecord& record) {
-                                      held.records.push_back(record);
+                                .on_record = [&](const EnsembleRecord& record) { held.records.push_back(record); },
+                                .on_pause =
+                                    [&] {
                                       if (signals()) stop = true;
                                     },
                                 .stop = &stop};

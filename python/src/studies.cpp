@@ -55,6 +55,7 @@ std::string converge_of(const HeldProblem& held, const std::vector<std::string>&
   return interruptible([&](const std::atomic<bool>* stop) {
     const ConvergeOptions options{.t_end = spec.t_end,
                                   .backend = spec.backend,
+                                  .backend_options = simulation_options(spec).backend_options,
                                   .method_options = spec.method_options,
                                   .reference = {.stop = stop},
                                   .timed = timed,

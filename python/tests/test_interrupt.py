@@ -118,3 +118,20 @@ print(seiche.solve(inner, 1.0, h=0.1).status)
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
     assert done.stdout == "interrupted True\nsuccess\n", done.stdout + done.stderr
+
+
+def test_an_ensemble_stops_between_its_records():
+    program = """
+import os, signal, threading, time, seiche
+import numpy as np
+wave = seiche.problem("klein_gordon", points=8, alpha=1.0)
+threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+begin = time.time()
+try:
+    e = seiche.solve_ensemble(wave, 1e7, np.outer([0.5, 1.0], wave.z0), method="seisav", h=1e-3, energy_every=10**9)
+    print("interrupted" if set(e.status) == {"interrupted"} else e.status, time.time() - begin < 20)
+except KeyboardInterrupt:
+    print("interrupted", time.time() - begin < 20)
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.stdout == "interrupted True\n", done.stderr

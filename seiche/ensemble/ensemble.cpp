@@ -20,11 +20,13 @@ constexpr double not_running = std::numeric_limits<double>::quiet_NaN();
 struct Records {
   Index members = 0;
   std::vector<std::int64_t> steps;
+  bool is_full;  // no further record fits beside them
   std::vector<double> H, modified;
 
-  Records(Index count, std::vector<std::int64_t> at)
+  Records(Index count, std::vector<std::int64_t> at, bool full = false)
       : members(count),
         steps(std::move(at)),
+        is_full(full),
         H(steps.size() * static_cast<std::size_t>(count), not_running),
         modified(H) {}
   std::size_t place(std::size_t record, Index member) const {
@@ -39,16 +41,15 @@ class Run {
 
   EnsembleResult run() {
     const auto begin = std::chrono::steady_clock::now();
+    require_one_size();
     make_blocks();
-    std::int64_t n = 0;
-    for (std::int64_t next = -1; n < grid_.steps || next < 0;) {
-      Records records(count(), next_records(next));
-      parallel_for(block_count(), options_.threads, [&](Index block) { advance(block, next < 0 ? 0 : n, records); });
-      n = next = records.steps.back();
-      publish(records);
-      if (stopped()) break;
-    }
     EnsembleResult result;
+    try {
+      advance_all();
+    } catch (const Error& error) {
+      if (!is_publishing_) throw;
+      result.failure = error.what();
+    }
     result.members.resize(members_.size());
     result.in_lanes = dynamic_cast<const LaneBlock*>(blocks_.front().get()) != nullptr;
     for (Index m = 0; m < count(); ++m) result.members[static_cast<std::size_t>(m)] = member_result(m);
@@ -63,19 +64,30 @@ class Run {
   const MemberStatus& status(Index member) { return block_of(member).status(member % lanes); }
   bool stopped() const { return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed); }
 
-  void make_blocks() {
+  void require_one_size() const {
     if (members_.empty()) throw Error("an ensemble has at least one member");
+    const Index size = members_.front().problem->size();
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+      if (members_[m].problem->size() != size)
+        throw Error("member {} has {} unknowns and member 1 has {}; all members of an ensemble have the same number",
+                    m + 1, members_[m].problem->size(), size);
+      if (members_[m].initial.size() != size)
+        throw Error("the initial state of member {} has {} values, and its problem has {} unknowns", m + 1,
+                    members_[m].initial.size(), size);
+    }
+  }
+
+  void make_blocks() {
     blocks_.resize(static_cast<std::size_t>(block_count()));
     books_.assign(members_.size(), EnergyBook({}, false));
     parallel_for(block_count(), options_.threads, [&](Index b) {
+      if (stopped()) throw Error("stopped before the members were set up");
       const auto begin = static_cast<std::size_t>(b * lanes);
       const std::size_t size = std::min(members_.size() - begin, static_cast<std::size_t>(lanes));
       blocks_[static_cast<std::size_t>(b)] = make_block(members_.subspan(begin, size), options_.simulation);
       for (std::size_t m = begin; m < begin + size; ++m) open_book(static_cast<Index>(m));
     });
-    for (Index m = 0; m < count(); ++m)
-      if (status(m).running) return;
-    throw Error(status(0).message);
+    if (!any_runs()) throw Error(status(0).message);
   }
 
   void open_book(Index member) {
@@ -87,34 +99,87 @@ class Run {
         EnergyBook(law, find_method(options_.simulation.method).law == "H_modified");
   }
 
-  // The next few steps at which energies are recorded, after step `last` (−1: from the start).
-  std::vector<std::int64_t> next_records(std::int64_t last) const {
-    constexpr Index most_values = 1 << 16;  // in memory at once, and between two looks at `stop`
-    const auto most = static_cast<std::size_t>(std::max<Index>(1, most_values / count()));
-    std::vector<std::int64_t> steps;
-    while (steps.size() < most && (steps.empty() || steps.back() < grid_.steps)) {
-      const std::int64_t before = steps.empty() ? last : steps.back();
-      steps.push_back(
-          before < 0 ? 0 : std::min(before - before % options_.energy_every + options_.energy_every, grid_.steps));
-    }
-    return steps;
+  bool any_runs() {
+    for (Index m = 0; m < count(); ++m)
+      if (status(m).running) return true;
+    return false;
   }
 
-  void advance(Index b, std::int64_t n, Records& records) {
+  // In batches: between two of them all members have done the same number of steps.
+  void advance_all() {
+    std::int64_t n = 0;
+    std::int64_t recorded = -1;
+    while (recorded < grid_.steps && any_runs()) {
+      const auto begin = std::chrono::steady_clock::now();
+      Records records = next_records(recorded, n);
+      const std::int64_t end = records.is_full ? records.steps.back() : std::min(n + batch_steps_, grid_.steps);
+      advance_all(n, end, records);
+      n = end;
+      if (!records.steps.empty()) recorded = records.steps.back();
+      publish(records);
+      set_batch_steps(std::chrono::steady_clock::now() - begin);
+      if (options_.on_pause) options_.on_pause();
+      if (!stopped()) continue;
+      if (n > recorded) record_at(n);
+      return;
+    }
+  }
+
+  void advance_all(std::int64_t n, std::int64_t end, Records& records) {
+    parallel_for(block_count(), options_.threads, [&](Index block) { advance(block, n, end, records); });
+  }
+
+  void record_at(std::int64_t n) {
+    Records records(count(), {n});
+    advance_all(n, n, records);
+    publish(records);
+  }
+
+  // Nobody waits long for the end after `stop`, and threads are started seldom; results do not depend on it.
+  void set_batch_steps(std::chrono::duration<double> took) {
+    constexpr double seconds = 0.1;
+    if (took.count() < seconds / 2) batch_steps_ = std::min(2 * batch_steps_, std::max<std::int64_t>(1, grid_.steps));
+    if (took.count() > 2 * seconds) batch_steps_ = std::max<std::int64_t>(1, batch_steps_ / 2);
+  }
+
+  // The steps of the next batch at which energies are recorded, after step `last` (−1: from the start); the batch begins at n.
+  Records next_records(std::int64_t last, std::int64_t n) const {
+    constexpr Index most_values = 1 << 16;  // in memory at once
+    const auto most = static_cast<std::size_t>(std::max<Index>(1, most_values / count()));
+    std::vector<std::int64_t> steps;
+    for (;;) {
+      const std::int64_t before = steps.empty() ? last : steps.back();
+      const std::int64_t next =
+          before < 0 ? 0 : std::min(before - before % options_.energy_every + options_.energy_every, grid_.steps);
+      if (next == before || next > n + batch_steps_) return {count(), std::move(steps)};
+      steps.push_back(next);
+      if (steps.size() == most) return {count(), std::move(steps), true};
+    }
+  }
+
+  void advance(Index b, std::int64_t n, std::int64_t end, Records& records) {
+    MemberBlock& block = *blocks_[static_cast<std::size_t>(b)];
+    const auto step_to = [&](std::int64_t last) {
+      for (; n < last; ++n) block.step(n + 1, grid_.time(n), grid_.step_size(n + 1), grid_.time(n + 1));
+    };
+    for (std::size_t record = 0; record < records.steps.size(); ++record) {
+      step_to(records.steps[record]);
+      read(b, n, record, records);
+    }
+    step_to(end);
+  }
+
+  void read(Index b, std::int64_t n, std::size_t record, Records& records) {
     MemberBlock& block = *blocks_[static_cast<std::size_t>(b)];
     std::array<EnergyReading, lanes> readings;
-    for (std::size_t record = 0; record < records.steps.size(); ++record) {
-      for (; n < records.steps[record]; ++n)
-        block.step(n + 1, grid_.time(n), grid_.step_size(n + 1), grid_.time(n + 1));
-      block.read(readings);
-      for (Index l = 0; l < block.size(); ++l) {
-        if (!block.status(l).running) continue;
-        const EnergyReading& reading = readings[static_cast<std::size_t>(l)];
-        const Index member = b * lanes + l;
-        books_[static_cast<std::size_t>(member)].add(reading, grid_.time(n), n);
-        records.H[records.place(record, member)] = reading.H;
-        records.modified[records.place(record, member)] = reading.modified;
-      }
+    block.read(readings);
+    for (Index l = 0; l < block.size(); ++l) {
+      if (!block.status(l).running) continue;
+      const EnergyReading& reading = readings[static_cast<std::size_t>(l)];
+      const Index member = b * lanes + l;
+      books_[static_cast<std::size_t>(member)].add(reading, grid_.time(n), n);
+      records.H[records.place(record, member)] = reading.H;
+      records.modified[records.place(record, member)] = reading.modified;
     }
   }
 
@@ -130,7 +195,10 @@ class Run {
       row.H = statistics(H);
       row.modified = statistics(modified);
     });
-    for (const EnsembleRecord& row : rows) options_.on_record(row);
+    is_publishing_ = true;
+    for (const EnsembleRecord& row : rows)
+      if (row.running > 0) options_.on_record(row);
+    is_publishing_ = false;
   }
 
   static std::vector<double> of_running(const std::vector<double>& all, const Records& records, std::size_t record) {
@@ -179,6 +247,8 @@ class Run {
   TimeGrid grid_;
   std::vector<std::unique_ptr<MemberBlock>> blocks_;
   std::vector<EnergyBook> books_;  // one for every member
+  std::int64_t batch_steps_ = 1;
+  bool is_publishing_ = false;  // does on_record speak?
 };
 
 }  // namespace

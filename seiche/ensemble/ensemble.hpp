@@ -29,8 +29,11 @@ struct EnsembleOptions {
   int threads = 1;                                            // results do not depend on it, to the last bit
   std::function<LawPromise(const Simulation&)> promise = {};  // none: no law is promised
   std::function<std::string(const Problem&)> objection = {};  // why a promise is withdrawn after all, or ""
-  std::function<void(const EnsembleRecord&)> on_record = {};  // in the order of time, on the calling thread
-  const std::atomic<bool>* stop = nullptr;                    // the run ends soon after it is set
+  // In the order of time, on the calling thread, while any member runs. What it throws as Error ends the run.
+  std::function<void(const EnsembleRecord&)> on_record = {};
+  std::function<void()> on_pause =
+      {};  // on the calling thread, about every tenth of a second, however far records lie apart
+  const std::atomic<bool>* stop = nullptr;  // the run ends soon after it is set, and records where
 };
 
 struct MemberResult {
@@ -41,11 +44,13 @@ struct MemberResult {
 struct EnsembleResult {
   std::vector<MemberResult> members;
   bool in_lanes = false;  // were members stepped side by side?
+  std::string failure;    // what on_record threw, or ""
   double wall_seconds = 0.0;
 };
 
 // Every member runs as it would alone, from t = 0 to t_end, by fixed steps of which the last is shortened; one that fails
-// stops with its message, and the others go on. Throws Error where no member can start, with the reason of the first.
+// stops with its message, and the others go on. Throws Error where no member can start, with the reason of the first, where
+// members differ in their number of unknowns, and where it is stopped before they are set up.
 EnsembleResult run_ensemble(std::span<const EnsembleMember> members, const EnsembleOptions& options);
 
 }  // namespace seiche

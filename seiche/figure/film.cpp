@@ -18,15 +18,20 @@ constexpr std::size_t frames_at_once = 16;  // of one script: its numbers are te
 // What went wrong, or "".
 std::string encode(const fs::path& figures, const std::string& frames, const std::string& file,
                    const std::vector<std::string>& codec) {
+  PartialPath film(figures / file);
   std::vector<std::string> command = {"ffmpeg", "-nostdin",       "-y",  "-loglevel",    "error",    "-framerate", "15",
                                       "-i",     "film/" + frames, "-vf", "scale=720:-2", "-pix_fmt", "yuv420p"};
   command.insert(command.end(), codec.begin(), codec.end());
-  command.push_back(file);
+  // By its temporary name ffmpeg does not know the kind.
+  command.insert(command.end(),
+                 {"-f", film.path().extension().string().substr(1), film.temporary().filename().string()});
   ChildProgram program(
       command, "", figures,
       "ffmpeg was not found on the PATH; it joins the frames in figures/film to a film (Debian package "
       "ffmpeg)");
-  return program.finish();
+  std::string failure = program.finish();
+  if (failure.empty()) film.commit();
+  return failure;
 }
 
 // The file, from the folder of the run; "" with a reason in `note`.
@@ -41,11 +46,10 @@ std::string joined(const fs::path& figures, const std::string& field, const Them
 
 }  // namespace
 
-Film draw_film(const RunFiles& run, const SolutionReader& solution, Index field) {
+Film draw_film(const RunFiles& run, const SolutionReader& solution, Index field, const fs::path& figures) {
   Film film;
   film.field = solution.fields()[static_cast<std::size_t>(field)];
   if (solution.axes().size() != 2 || solution.count() < 2) return film;
-  const fs::path figures = run.directory / "figures";
   make_directory(figures / "film");
 
   const std::vector<Index> times = spread(solution.count(), most_frames);

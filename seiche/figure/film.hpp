@@ -18,7 +18,7 @@ struct Film {
   std::string note;    // why there is no file
 };
 
-// Into `run.directory`/figures. Throws Error where gnuplot is missing or fails.
-Film draw_film(const RunFiles& run, const SolutionReader& solution, Index field);
+// Into `figures`, wherever that lies. Throws Error where gnuplot is missing or fails.
+Film draw_film(const RunFiles& run, const SolutionReader& solution, Index field, const std::filesystem::path& figures);
 
 }  // namespace seiche

@@ -1,9 +1,9 @@
 #include <seiche/core/error.hpp>
 #include <seiche/figure/coincide.hpp>
 #include <seiche/figure/curves.hpp>
+#include <seiche/figure/drawing_folder.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/paper_pictures.hpp>
-#include <seiche/output/atomic_file.hpp>
 
 #include <fmt/format.h>
 
@@ -306,7 +306,7 @@ std::vector<CurvePicture> paper_pictures(const PaperResults& results) {
 
 void draw_paper(const PaperResults& results, const std::filesystem::path& directory) {
   const std::filesystem::path figures = directory / "figures";
-  make_directory(figures);
+  DrawingFolder drawing(figures);
   // Two processes: starting gnuplot once per picture would take longer than drawing.
   std::vector<std::string> scripts(2);
   std::size_t next = 0;
@@ -322,7 +322,8 @@ void draw_paper(const PaperResults& results, const std::filesystem::path& direct
     scripts[next++ % scripts.size()] += plot_script(picture.plot);
   }
   std::erase(scripts, std::string());
-  run_gnuplot(scripts, figures);
+  run_gnuplot(scripts, drawing.path());
+  drawing.commit();
 }
 
 }  // namespace seiche

@@ -5,6 +5,7 @@
 #include <seiche/figure/report_style.hpp>
 #include <seiche/figure/report_tables.hpp>
 #include <seiche/output/atomic_file.hpp>
+#include <seiche/output/run_folder.hpp>
 
 #include <fmt/format.h>
 
@@ -60,10 +61,10 @@ std::string figure(const Page& page, const CurvePicture& picture) {
 
 std::string page_head(const Page& page) {
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<title>The paper’s numerical experiments{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n",
-      page.results.quick ? " (quick run)" : "", report_style);
+      report_mark, page.results.quick ? " (quick run)" : "", report_style);
 }
 
 std::string summary(const Page& page) {

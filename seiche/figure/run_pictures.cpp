@@ -1,40 +1,73 @@
-#include <seiche/core/error.hpp>
+#include <seiche/figure/drawing_folder.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/picture_choice.hpp>
 #include <seiche/figure/run_pictures.hpp>
-#include <seiche/output/atomic_file.hpp>
 
 #include <algorithm>
+#include <string_view>
 
 namespace seiche {
 namespace fs = std::filesystem;
 
+namespace {
+
+void take_off(std::string& name, std::string_view end) {
+  if (name.ends_with(end)) name.resize(name.size() - end.size());
+}
+
+bool is_one_of(const std::vector<std::string>& all, std::string_view one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+bool begins_with_one_of(std::string_view name, const std::vector<std::string>& beginnings) {
+  return std::any_of(beginnings.begin(), beginnings.end(), [&](const std::string& beginning) {
+    return name.size() > beginning.size() && name.starts_with(beginning);
+  });
+}
+
+// By their names: those of energy_curves, bars_picture, solution_maps, solution_curves and draw_film.
+bool is_picture(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  std::string stem = file.stem().string();
+  take_off(stem, dark_theme().suffix);
+  if (extension == ".mp4" || extension == ".webm") return begins_with_one_of(stem, {"film_"});
+  if (extension.empty() || !is_one_of(picture_formats(), extension.substr(1))) return false;
+  return is_one_of({"energy", "ledger", "bars", "fields"}, stem) ||
+         begins_with_one_of(stem, {"portrait_", "profiles_", "space_time_", "slices_", "planes_"});
+}
+
+// u_0001.png and u_0001_dark.png.
+bool is_frame(const fs::path& file) {
+  std::string stem = file.stem().string();
+  take_off(stem, dark_theme().suffix);
+  const std::size_t end = stem.find_last_not_of("0123456789");
+  return file.extension() == ".png" && end != std::string::npos && end > 0 && stem[end] == '_' &&
+         stem.size() == end + 5;
+}
+
+void remove_files(const fs::path& folder, bool (*is_ours)(const fs::path&)) {
+  std::error_code ignored;
+  std::vector<fs::path> ours;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.is_regular_file(ignored) && is_ours(entry.path())) ours.push_back(entry.path());
+  for (const fs::path& file : ours) fs::remove(file, ignored);
+}
+
+}  // namespace
+
 void remove_pictures(const fs::path& directory) {
   const fs::path figures = directory / "figures";
-  std::error_code ignored;
-  fs::remove(directory / "report.html", ignored);
-  fs::remove_all(figures / "film", ignored);
-  std::vector<fs::path> pictures;
-  for (const auto& entry : fs::directory_iterator(figures, ignored)) {
-    const std::string extension = entry.path().extension().string();
-    const std::vector<std::string>& formats = picture_formats();
-    const bool film =
-        (extension == ".mp4" || extension == ".webm") && entry.path().filename().string().starts_with("film");
-    const bool picture =
-        extension.size() > 1 && std::find(formats.begin(), formats.end(), extension.substr(1)) != formats.end();
-    if (film || picture) pictures.push_back(entry.path());
-  }
-  for (const fs::path& picture : pictures) fs::remove(picture, ignored);
+  remove_files(figures, is_picture);
+  remove_files(figures / "film", is_frame);
+  std::error_code still_holds_something;
+  fs::remove(figures / "film", still_holds_something);
 }
 
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options) {
   RunPictures pictures;
   pictures.formats = options.formats;
-  if (std::find(pictures.formats.begin(), pictures.formats.end(), "png") == pictures.formats.end())
-    pictures.formats.insert(pictures.formats.begin(), "png");
-  const fs::path figures = run.directory / "figures";
-  remove_pictures(run.directory);
-  make_directory(figures);
+  if (!is_one_of(pictures.formats, "png")) pictures.formats.insert(pictures.formats.begin(), "png");
+  DrawingFolder drawing(run.directory / "figures");
 
   const SolutionReader solution(run.directory / "solution.h5");
   const Rendering light{.theme = &light_theme(), .formats = pictures.formats};
@@ -51,13 +84,15 @@ RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const Pi
   if (const auto bars = bars_picture(run, solution)) add_curves(*bars);
   for (const MapPicture& map : solution_maps(run, solution)) add_map(map);
   for (const CurvePicture& picture : solution_curves(run, solution)) add_curves(picture);
-  run_gnuplot(scripts, figures);
-  if (!options.film || solution.axes().size() != 2) return pictures;
+  run_gnuplot(scripts, drawing.path());
   std::vector<std::string> filmed = options.film_fields;
+  const bool films = options.film && solution.axes().size() == 2;
   if (filmed.empty()) filmed = {solution.fields().front()};
   for (std::size_t f = 0; f < solution.fields().size(); ++f)
-    if (std::find(filmed.begin(), filmed.end(), solution.fields()[f]) != filmed.end())
-      pictures.films.push_back(draw_film(run, solution, static_cast<Index>(f)));
+    if (films && is_one_of(filmed, solution.fields()[f]))
+      pictures.films.push_back(draw_film(run, solution, static_cast<Index>(f), drawing.path()));
+  remove_pictures(run.directory);  // of an earlier call, now that the new ones are there
+  drawing.commit();
   return pictures;
 }
 

@@ -7,6 +7,7 @@
 #include <seiche/figure/style.hpp>
 #include <seiche/figure/symbols.hpp>
 #include <seiche/output/atomic_file.hpp>
+#include <seiche/output/run_folder.hpp>
 
 #include <fmt/format.h>
 
@@ -49,10 +50,10 @@ std::string steps_text(const RunFiles& run) {
 std::string head(const RunFiles& run) {
   const std::string title = fmt::format("{} by {}", run_name(run), method_label(run.method));
   std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{4}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n<style>{1}{2}</style>\n"
       "</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p class=\"of\">{3}</p>\n",
-      html_escaped(title), report_style, run_report_style, html_text(run.equation));
+      html_escaped(title), report_style, run_report_style, html_text(run.equation), report_mark);
   std::string sentence = run.message;
   if (!sentence.empty()) sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
   text += fmt::format("<p>{} {}</p>\n<p>{}. {}, backend {}.</p>\n", status_mark(run), law_mark(run),

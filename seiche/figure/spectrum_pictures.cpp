@@ -1,4 +1,5 @@
 #include <seiche/figure/curves.hpp>
+#include <seiche/figure/drawing_folder.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/plot.hpp>
 #include <seiche/figure/spectrum_pictures.hpp>
@@ -67,10 +68,12 @@ void draw_spectrum(const Spectrum& spectrum, const std::filesystem::path& direct
   Series phase = series_of(over_frequency(spectrum, [](const SpectrumRow& row) { return row.phase_error(); }),
                            method_label(spectrum.method), style, 0);
   phase.marked = staggered(phase.x, 0, 1);
+  DrawingFolder drawing(directory);
   run_gnuplot(
       {plot_script(plot_of(spectrum, "spectrum_decay", "decay of the modes", "'decay rate'", {numerical, exact})),
        plot_script(plot_of(spectrum, "spectrum_phase", "error of the frequencies", "'relative error'", {phase}))},
-      directory);
+      drawing.path());
+  drawing.commit();
 }
 
 }  // namespace seiche

@@ -43,9 +43,9 @@ void AtomicFile::write(std::string_view text) {
 }
 
 void AtomicFile::commit() {
-  if (std::fflush(file_.get()) != 0) throw cannot_write(path_.path(), errno);
+  // Some file systems tell only at the end that there was no room.
+  if (std::fclose(file_.release()) != 0) throw cannot_write(path_.path(), errno);
   path_.commit();
-  file_.reset();
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {

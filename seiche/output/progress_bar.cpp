@@ -35,18 +35,22 @@ void ProgressBar::draw(double share, std::string_view text) {
   const int filled = static_cast<int>(share * bar_width);
   const char* bright = colour_ ? "\x1b[32m" : "";
   const char* plain = colour_ ? "\x1b[0m" : "";
-  fmt::print(terminal_, "\r{:>3.0f} % {}{:━<{}}{}{:<{}} {:<{}}", 100 * share, bright, "", filled, plain, "",
-             bar_width - filled, text, width_);
-  std::fflush(terminal_);
+  show(fmt::format("\r{:>3.0f} % {}{:━<{}}{}{:<{}} {:<{}}", 100 * share, bright, "", filled, plain, "",
+                   bar_width - filled, text, width_));
   width_ = std::max(width_, text.size());
   last_draw_ = Clock::now();
 }
 
 void ProgressBar::wipe() {
   if (width_ == 0) return;  // nothing was drawn
-  fmt::print(terminal_, "\r{:<{}}\r", "", bar_width + 7 + width_);
-  std::fflush(terminal_);
+  show(fmt::format("\r{:<{}}\r", "", bar_width + 7 + width_));
   width_ = 0;
+}
+
+// A terminal that went away must not end the run.
+void ProgressBar::show(const std::string& text) const {
+  std::fputs(text.c_str(), terminal_);
+  std::fflush(terminal_);
 }
 
 double ProgressBar::seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }

@@ -22,6 +22,7 @@ class ProgressBar {
 
  private:
   using Clock = std::chrono::steady_clock;
+  void show(const std::string& text) const;
   std::FILE* terminal_;
   bool colour_;
   Clock::time_point begin_, last_draw_;

@@ -7,11 +7,13 @@
 #include <seiche/study/audit.hpp>
 #include <seiche/study/csv_table.hpp>
 
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 
 namespace seiche {
@@ -64,6 +66,7 @@ class Auditor {
   }
 
   Audit run() {
+    origin();
     final_state();
     snapshots();
     summary();
@@ -84,6 +87,50 @@ class Auditor {
                     written, distance, allowed));
   }
 
+  // Files of two runs in one folder are no evidence of either.
+  void origin() {
+    std::vector<std::string> differences;
+    const auto number = [&](const char* key) {
+      const auto found = summary_.find(key);
+      return found != summary_.end() && found->is_number() ? found->get<double>() : std::nan("");
+    };
+    const auto compare_number = [&](const char* key, double of_case) {
+      if (number(key) != of_case)
+        differences.push_back(
+            fmt::format("{} = {:.17g} in case.toml and {:.17g} in summary.json", key, of_case, number(key)));
+    };
+    const std::string method = summary_["method"].is_string() ? summary_["method"].get<std::string>() : "";
+    if (method != spec_.method)
+      differences.push_back(fmt::format("method = {} in case.toml and {} in summary.json", spec_.method, method));
+    if (spec_.tolerance) {
+      compare_number("tolerance", *spec_.tolerance);
+    } else {
+      compare_number("h", spec_.h);
+    }
+    const double t = number("t");
+    const bool is_whole = summary_.value("status", Json()) == "success";
+    if (is_whole ? t != spec_.t_end : !(t <= spec_.t_end))
+      differences.push_back(fmt::format("end = {:.17g} in case.toml and t = {:.17g} in summary.json", spec_.t_end, t));
+    if (t != t_.back())
+      differences.push_back(fmt::format("t = {:.17g} in summary.json and {:.17g} in energy.csv", t, t_.back()));
+    add("case.toml, summary.json and energy.csv are of one run",
+        differences.empty() ? Verdict::confirmed : Verdict::contradicted,
+        differences.empty()
+            ? fmt::format("{}, the same {} and t = {:.6g} in all", method, spec_.tolerance ? "tolerance" : "h", t)
+            : fmt::format("{}", fmt::join(differences, "; ")));
+  }
+
+  void case_of(const SolutionReader& solution) {
+    const std::string claim = "solution.h5 is of the case in case.toml";
+    const std::string inside = solution.text("case");
+    if (inside.empty()) return add(claim, Verdict::not_checked, "it does not say of which case it is");
+    std::ifstream file(directory_ / "case.toml");
+    const std::string beside{std::istreambuf_iterator<char>(file), {}};
+    const bool same = inside == beside || inside == write_case(spec_);  // a comment makes no other case
+    add(claim, same ? Verdict::confirmed : Verdict::contradicted,
+        same ? "the case that it holds says the same" : "the case that it holds says something else");
+  }
+
   void final_state() {
     const EnergyTerms end = energies_.of(read_initial_file(directory_ / "final.txt", problem_));
     compare("the last H is that of final.txt", end.sum(), H_.back(), std::max(round_off_, end.round_off()));
@@ -95,6 +142,7 @@ class Auditor {
     if (static_cast<Index>(solution.fields().size()) * solution.points() != problem_.size())
       throw Error("solution.h5 has {} values at a time and the case {} unknowns",
                   static_cast<Index>(solution.fields().size()) * solution.points(), problem_.size());
+    case_of(solution);
     const std::vector<double> times = solution.times();
     const std::vector<double> beside = solution.energies();
     std::size_t in_both = 0;

@@ -171,7 +171,8 @@ Convergence converge(const Problem& problem, const std::vector<std::string>& met
     contenders.push_back({method,
                           {.method = method,
                            .backend = options.backend,
-                           .method_options = options_for(method, options.method_options)}});
+                           .method_options = options_for(method, options.method_options),
+                           .backend_options = options.backend_options}});
     static_cast<void>(Simulation(problem, contenders.back().options));  // refuses at once what does not apply
     for (const double h : step_sizes) {
       requests.push_back({.problem = &problem, .contender = contenders.back(), .h = h, .t_end = options.t_end});

@@ -15,6 +15,7 @@ namespace seiche {
 struct ConvergeOptions {
   double t_end = 1.0;
   std::string backend = "auto";
+  BackendOptions backend_options = {};
   MethodOptions method_options = {};  // each method takes those that mean something to it
   ReferenceOptions reference = {};
   bool timed = true;

@@ -1,0 +1,22 @@
+// The files that a run or an ensemble leaves in its folder, told from those of others by how they begin.
+#pragma once
+
+#include <filesystem>
+
+namespace seiche {
+
+enum class RunKind { run, ensemble };
+
+// In the head of every report.html of ours.
+inline constexpr const char* report_mark = "<meta name=\"generator\" content=\"Seiche\">";
+
+// Throws Error with the file where something that Seiche did not write has the name of a file that is to be written.
+void require_own_files(const std::filesystem::path& directory, RunKind kind, bool report);
+void require_own_report(const std::filesystem::path& directory);
+
+// Of an earlier run or ensemble everything but its pictures and fftw_wisdom: a program that is killed must not leave its
+// case beside another one's results.
+void remove_earlier_results(const std::filesystem::path& directory);
+void remove_own_report(const std::filesystem::path& directory);
+
+}  // namespace seiche
