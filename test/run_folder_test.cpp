@@ -95,6 +95,7 @@ TEST_F(RunFolders, AFileThatSeicheDidNotWriteIsRefusedAndKept) {
     EXPECT_EQ(seiche("run mine.toml --out here --quiet --set output.report=off").exit, 0);
   for (const char* name : {"report.html", "members.csv"}) EXPECT_EQ(text(fs::path("here") / name), "mine");
   EXPECT_EQ(seiche("plot here").exit, 2);
+  EXPECT_EQ(seiche("paper --quick --quiet --out here").exit, 2);
   EXPECT_EQ(text("here/report.html"), "mine");
 }
 
@@ -176,6 +177,26 @@ TEST_F(RunFolders, PicturesAreWholeOrThoseOfBefore) {
   EXPECT_EQ(names("out/figures"), (std::set<std::string>{"energy.png", "energy_dark.png", "profiles_u.svg"}));
   EXPECT_EQ(text("out/figures/energy.png"), "whole");
   EXPECT_THAT(text("out/report.html"), HasSubstr("with pictures")) << "they are in it";
+}
+
+// Frames, but an ffmpeg that gives up.
+TEST_F(RunFolders, AFilmIsWholeOrNotThere) {
+  write_case();
+  ASSERT_EQ(seiche("run case.toml --out out --quiet --set problem.points=[8,8] problem.length=[2.0,2.0] "
+                   "output.snapshot_every=16")
+                .exit,
+            0)
+      << text("stderr.txt");
+  fs::create_directories(directory / "bin");
+  const auto program = [&](const fs::path& name, const std::string& script) {
+    write("bin" / name, "#!/bin/sh\n" + script);
+    fs::permissions(directory / "bin" / name, fs::perms::owner_all);
+  };
+  program("gnuplot", "exit 0\n");
+  program("ffmpeg", "for last; do :; done\necho half >$last\nexit 1\n");
+  EXPECT_EQ(seiche("plot out", "PATH=\"" + (directory / "bin").string() + ":$PATH\"").exit, 0) << text("stderr.txt");
+  EXPECT_THAT(text("stderr.txt"), HasSubstr("5 frames"));
+  EXPECT_EQ(names("out/figures"), (std::set<std::string>{}));
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ bool is_foreign(const fs::path& path, bool (*is_ours)(const std::string&)) {
 
 void require_own(const fs::path& path, bool (*is_ours)(const std::string&)) {
   if (is_foreign(path, is_ours))
-    throw Error("{} would be replaced, and Seiche did not write it: give --out another folder, or move it away",
+    throw Error("{} would be replaced, and Seiche did not write it: move it away, or take another folder",
                 path.string());
 }
 
