@@ -48,6 +48,8 @@ TEST_P(RunPicturesOf, AreDrawnOnLightAndDarkGround) {
   std::set<std::string> stems = kind.pictures;
   stems.insert({"energy", "ledger"});
   expect_drawn(stems);
+  remove_pictures(out());
+  EXPECT_TRUE(fs::is_empty(out() / "figures")) << "what is drawn is known when the next run comes";
 }
 
 INSTANTIATE_TEST_SUITE_P(
