@@ -259,7 +259,8 @@ TEST_F(Solution, AnAuditSeesAChangedDigit) {
   const Audit after = audit(directory / "out");
   EXPECT_FALSE(after.confirms());
   for (const AuditEntry& entry : after.entries)
-    EXPECT_EQ(entry.verdict == AuditEntry::Verdict::contradicted, entry.claim.find("solution.h5") != std::string::npos)
+    EXPECT_EQ(entry.verdict == AuditEntry::Verdict::contradicted,
+              entry.claim.find("state in solution.h5") != std::string::npos)
         << entry.claim;
 }
 
