@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -61,6 +62,19 @@ Error not_real(const Expression& expression) {
   return Error("'{}' is not a real function that can be evaluated", text_of(expression));
 }
 
+// Of a number, or of the one that a product begins with.
+double bits_of(const Expression& base) {
+  double bits = 0;
+  const auto add = [&](const Expression& factor) {
+    if (!GiNaC::is_a<GiNaC::numeric>(factor) || !factor.info(GiNaC::info_flags::rational)) return;
+    const auto& number = GiNaC::ex_to<GiNaC::numeric>(factor);
+    bits += number.numer().int_length() + number.denom().int_length();
+  };
+  add(base);
+  for (std::size_t i = 0; GiNaC::is_a<GiNaC::mul>(base) && i < base.nops(); ++i) add(base.op(i));
+  return bits;
+}
+
 // Exact arithmetic takes powers of all numbers in the base: with exponents that have no end neither has it.
 Expression power(const Expression& base, const Expression& exponent) {
   constexpr int most = 1000;
@@ -68,6 +82,9 @@ Expression power(const Expression& base, const Expression& exponent) {
   if (is_number && !GiNaC::is_a<GiNaC::symbol>(base) && GiNaC::abs(exponent) > most)
     throw Error("the power ({})^{} is out of range; of anything but one name, exponents are at most {}", text_of(base),
                 text_of(exponent), most);
+  constexpr double most_bits = 20'000;  // then a power still takes milliseconds
+  if (is_number && bits_of(base) * std::abs(GiNaC::ex_to<GiNaC::numeric>(exponent).to_double()) > most_bits)
+    throw Error("the power ({})^{} is a number of too many digits", text_of(base), text_of(exponent));
   if (base.is_zero() && is_number && exponent.info(GiNaC::info_flags::negative))
     throw Error("0^({}) divides by zero", text_of(exponent));
   if (base.is_zero() && !is_number) throw Error("0^({}) has no derivative", text_of(exponent));
