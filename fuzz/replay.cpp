@@ -57,8 +57,11 @@ int main(int count, char** arguments) {
       seconds = std::atof(arguments[i]);
       continue;
     }
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      std::ifstream file(entry.path(), std::ios::binary);
+    using Entries = std::filesystem::directory_iterator;
+    std::vector<std::filesystem::path> paths(Entries(folder), Entries{});
+    std::sort(paths.begin(), paths.end());  // the same changes everywhere
+    for (const std::filesystem::path& path : paths) {
+      std::ifstream file(path, std::ios::binary);
       corpus.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
     }
   }

@@ -253,6 +253,7 @@ TEST(Custom, PowersWithoutEndAreRefusedAtOnce) {
         << power;
   EXPECT_THAT(complaint("H = \"p^2/2 + (1e300*q)^-1000\"\ninitial = { q = 1, p = 0 }"), HasSubstr("too many digits"));
   EXPECT_THAT(complaint("H = \"p^2/2 + (q - q)^-1\"\ninitial = { q = 1, p = 0 }"), HasSubstr("0^(-1) divides by zero"));
+  EXPECT_EQ(complaint("H = \"p^2/2 + q^4 + (q - q)^0\"\ninitial = { q = 1, p = 0 }"), "");
   EXPECT_EQ(complaint("H = \"p^2/2 + q^-12/12 - q^-6/6\"\ninitial = { q = 1, p = 0 }"), "");
 }
 

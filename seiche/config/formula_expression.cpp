@@ -88,7 +88,8 @@ Expression power(const Expression& base, const Expression& exponent) {
   if (base.is_zero() && is_number && exponent.info(GiNaC::info_flags::negative))
     throw Error("0^({}) divides by zero", text_of(exponent));
   if (base.is_zero() && !is_number) throw Error("0^({}) has no derivative", text_of(exponent));
-  return GiNaC::pow(base, exponent);
+  if (exponent.is_zero()) return 1;     // 0⁰ too, as where formulas are evaluated
+  return GiNaC::power(base, exponent);  // not pow, which loses memory where it throws
 }
 
 }  // namespace
