@@ -220,6 +220,28 @@ TEST(OwnPotential, ARunWithAWrongGradientDoesNotBegin) {
                 ThrowsMessage<Error>(HasSubstr("the gradient is not that of V: at the start, its component")));
 }
 
+// V = −log(1.01 − u) near its wall: it is asked for no farther from the start than differences of it reach.
+TEST(OwnPotential, IsNotAskedForBeyondWhereItExists) {
+  Problem problem = klein_gordon({.alpha = 1.0, .gamma = nullptr});
+  const std::size_t n = static_cast<std::size_t>(problem.grid.unknowns());
+  problem.initial.setZero();
+  problem.initial.head(static_cast<Index>(n)).setConstant(1);
+  problem.potential = own_potential({.value =
+                                         [](Values u) {
+                                           double sum = 0;
+                                           for (const double x : u) {
+                                             if (x >= 1.01) throw Error("no V at {}", x);
+                                             sum -= std::log(1.01 - x);
+                                           }
+                                           return sum;
+                                         },
+                                     .gradient =
+                                         [](Values u, std::span<double> g) {
+                                           for (std::size_t j = 0; j < u.size(); ++j) g[j] = 1 / (1.01 - u[j]);
+                                         }});
+  EXPECT_TRUE(solve(problem, {.method = "egc4", .h = 1.0 / 256, .t_end = 1.0 / 64}).success());
+}
+
 // A spring that only pushes, and a potential that is nowhere but at u > 0: nothing to complain of.
 TEST(OwnPotential, KinksOfTheGradientAndStatesWithoutAPotentialAreNoComplaint) {
   const OwnPotential contact{.value =

@@ -24,6 +24,9 @@ double size_of(const Vector& u) {
   return largest > 0 ? largest : 1.0;
 }
 
+// V is asked for as far as three of these from a state: it need not exist farther away.
+double probe_length(const Vector& u) { return 1e-3 * std::max(size_of(u), 1e-3); }
+
 double precision_of(std::span<const double> values) {
   const auto is_single = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };
   return std::all_of(values.begin(), values.end(), is_single) ? std::numeric_limits<float>::epsilon() : epsilon;
@@ -50,8 +53,7 @@ Slope slope_along(const OwnPotential& own, const Vector& u, const Vector& direct
 // what shrinks with the step is a kink nearby, or the error of the differences.
 std::optional<double> slope_instead(const OwnPotential& own, const Vector& u, const Vector& direction, double claimed,
                                     double size) {
-  const double scale = std::max(size_of(u), 1e-3);
-  const double d = 1e-3 * scale;
+  const double d = probe_length(u);
   const auto missed = [&](const Slope& found) {
     const double allowed = 1e-4 * (std::abs(claimed) + std::abs(found.value)) + 1e-9 * size + found.round_off;
     const double miss = std::abs(found.value - claimed);
@@ -100,11 +102,11 @@ std::string complaint_at(const OwnPotential& own, const Vector& u, const std::st
 }  // namespace
 
 double relative_precision(const OwnPotential& own, std::span<const double> u) {
-  constexpr int samples = 8;
-  Vector at = Eigen::Map<const Vector>(u.data(), std::ssize(u));
+  const Vector here = Eigen::Map<const Vector>(u.data(), std::ssize(u));
+  const double d = probe_length(here);
   std::vector<double> values;
-  for (int k = 0; k < samples; ++k) {  // not at 0 alone, where many a V is 0
-    at.array() += 0.1 * size_of(at);
+  for (const int k : {-3, -2, -1, 1, 2, 3}) {  // not at u alone, where V may be 0
+    const Vector at = here.array() + k * d;
     values.push_back(own.value(span(at)));
   }
   return precision_of(values);
