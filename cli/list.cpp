@@ -8,7 +8,6 @@
 #include <seiche/method/methods.hpp>
 #include <seiche/study/lists.hpp>
 
-#include <iterator>
 #include <memory>
 
 namespace seiche::cli {

@@ -2,7 +2,6 @@
 #include "command_line.hpp"
 #include "versions.hpp"
 
-#include <fmt/format.h>
 #include <seiche/core/error.hpp>
 
 #include <algorithm>

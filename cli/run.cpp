@@ -188,9 +188,9 @@ ExitCode run(const RunArguments& arguments) {
   } else if (report.status == RunReport::Status::failed || report.law == LawVerdict::violated ||
              !report.remark_on_replaced().empty()) {
     print_note(with_remarks().message);
-  } else if (!problem.friction && !negative_rate(simulation.problem())
-                                       .empty()) {  // mostly a sign typed wrong; of friction it may be the point
-    print_note(fmt::format("{}: it feeds energy, and no energy law is promised", negative_rate(simulation.problem())));
+  } else if (const std::string negative = negative_rate(simulation.problem()); !negative.empty() && !problem.friction) {
+    // mostly a sign typed wrong; of friction it may be the point
+    print_note(fmt::format("{}: it feeds energy, and no energy law is promised", negative));
   }
   return exit_code(report);
 }

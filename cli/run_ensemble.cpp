@@ -13,6 +13,7 @@
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/output/csv_row.hpp>
+#include <seiche/output/csv_text.hpp>
 #include <seiche/output/folder_lock.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/study/certificate.hpp>
@@ -69,12 +70,6 @@ class StatisticsFile {
   EnsembleRecord last_ = first_;
 };
 
-std::string csv_text(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 std::string energy_columns(const EnergySummary& e) {
   return fmt::format(",{:.17g},{:.17g},{:.17g}", e.initial, e.final, e.max_increase);
 }
@@ -95,7 +90,7 @@ void write_members(const fs::path& path, const Members& members, const EnsembleR
     row += started ? energy_columns(report.energy) : ",,,";
     if (has_modified) row += started ? energy_columns(report.modified) : ",,,";
     row += fmt::format(",{},{},{},{},{}\n", to_string(report.law), report.scalar_iterations, report.fallbacks,
-                       report.replaced.count, csv_text(report.message));
+                       report.replaced.count, csv_quoted(report.message));
     file.write(row);
   }
   file.commit();

@@ -1,8 +1,6 @@
 // What the documentation shows is what is compiled, run and listed.
-#include <seiche/backend/backends.hpp>
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/simulation.hpp>
-#include <seiche/problem/problems.hpp>
 
 #include <gtest/gtest.h>
 

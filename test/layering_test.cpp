@@ -37,8 +37,8 @@ const std::map<std::string, Folders> may_include = {
      {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config", "study", "figure",
       "ensemble"}},
     {"python",
-     {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config", "study", "ensemble",
-      "solve"}},
+     {"core", "potential", "damping", "method", "backend", "problem", "output", "run", "config", "study", "figure",
+      "ensemble", "solve"}},
 };
 
 // Which folders may include a third-party header; the longest prefix decides. fmt is for everybody.

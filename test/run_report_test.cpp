@@ -2,10 +2,8 @@
 // something is missing.
 #include "support/run_folder.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <seiche/core/error.hpp>
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/picture_choice.hpp>
 #include <seiche/figure/run_report.hpp>
@@ -27,7 +25,6 @@ namespace fs = std::filesystem;
 using test::have_gnuplot;
 using test::text_of;
 using testing::HasSubstr;
-using testing::Not;
 
 using RunReports = test::RunFolder;
 

@@ -4,41 +4,19 @@ from __future__ import annotations
 
 import typing
 
+from . import _core
+
 if typing.TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Of curves that belong to no method, one after the other.
-CURVES = ("#0072B2", "#D55E00", "#117733", "#AA4499", "#E69F00", "#707070")
+CURVES = tuple(_core.curve_colours())
 
 _SHAPES = {"pentagon": "p", "diamond": "D", "triangle_down": "v", "circle": "o", "square": "s", "triangle": "^", "star": "*"}
 _DASHES = {"solid": "-", "dashed": "--", "dash_dotted": "-.", "dotted": ":", "long_dashed": (0, (8, 4))}
 
 # Colour, marker, whether it is filled, dash. Shape tells the closure; filled and solid is exponential, open and dashed Cayley.
-METHODS = {
-    "avf": ("#707070", "pentagon", False, "dashed"),
-    "sav": ("#A6611A", "diamond", False, "dash_dotted"),
-    "lm": ("#6C8EBF", "triangle_down", False, "dash_dotted"),
-    "savf": ("#2AA198", "circle", False, "dashed"),
-    "ssav": ("#E69F00", "square", False, "dash_dotted"),
-    "slm": ("#3C9FD8", "triangle", False, "dotted"),
-    "eavf": ("#999933", "pentagon", True, "solid"),
-    "eisav": ("#882255", "diamond", True, "solid"),
-    "eilm": ("#332288", "triangle_down", True, "solid"),
-    "seavf": ("#117733", "circle", True, "solid"),
-    "seidm": ("#AA4499", "star", True, "solid"),
-    "egc2": ("#B0C4A0", "diamond", True, "long_dashed"),
-    "egc4": ("#5E8C61", "square", True, "long_dashed"),
-    "egc6": ("#2F5D50", "circle", True, "long_dashed"),
-    "egc8": ("#0B3B2E", "pentagon", True, "long_dashed"),
-    "seimp": ("#D9A5B3", "diamond", True, "dotted"),
-    "etdrk4": ("#B5446E", "square", True, "dotted"),
-    "crkn4": ("#7A5C8E", "triangle", True, "dotted"),
-    "crkn6": ("#4B2E63", "triangle_down", True, "dotted"),
-    "strang_exact": ("#C9B458", "circle", True, "dotted"),
-    "chin4": ("#8C6D1F", "pentagon", True, "dotted"),
-    "seisav": ("#D55E00", "square", True, "solid"),
-    "seilm": ("#0072B2", "triangle", True, "solid"),
-}
+METHODS = _core.method_styles()
 
 
 def is_dark(ax: "Axes") -> bool:

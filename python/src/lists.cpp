@@ -2,12 +2,35 @@
 #include "bind.hpp"
 
 #include <pybind11/stl.h>
+#include <seiche/figure/style.hpp>
+#include <seiche/method/methods.hpp>
 #include <seiche/study/lists.hpp>
+
+#include <array>
+#include <map>
+#include <string>
+#include <tuple>
 
 namespace seiche::python {
 namespace {
 
 py::object parsed(const std::string& json) { return py::module_::import("json").attr("loads")(json); }
+
+constexpr std::array markers = {"none", "circle", "square", "triangle", "star", "pentagon", "diamond", "triangle_down"};
+constexpr std::array dashes = {"solid", "dashed", "dash_dotted", "dotted", "long_dashed"};
+
+using Style = std::tuple<std::string, std::string, bool, std::string>;  // colour, marker, filled, dash
+
+std::map<std::string, Style> method_styles() {
+  std::map<std::string, Style> styles;
+  for (const std::string& name : method_names()) {
+    if (!find_method_style(name)) continue;  // "auto" draws as the method that it chose
+    const LineStyle line = method_line(name);
+    styles[name] = {line.colour, markers.at(static_cast<std::size_t>(line.marker)), line.filled,
+                    dashes.at(static_cast<std::size_t>(line.dash))};
+  }
+  return styles;
+}
 
 }  // namespace
 
@@ -20,6 +43,8 @@ void bind_lists(py::module_& module) {
       "Every problem: name, equation, reference, fields, initial data, and parameters with their defaults.");
   module.def(
       "backends", [] { return parsed(backends_json()); }, "Every backend: name and summary.");
+  module.def("curve_colours", &curve_colours, "Colours of curves that belong to no method, one after the other.");
+  module.def("method_styles", &method_styles, "Of each method its colour, marker, whether that is filled, and dash.");
 }
 
 }  // namespace seiche::python

@@ -7,7 +7,6 @@
 #include <seiche/config/method_option_keys.hpp>
 #include <seiche/config/snapshot_steps.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/vector.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <fmt/ranges.h>

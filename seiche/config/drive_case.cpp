@@ -2,6 +2,7 @@
 #include <seiche/config/drive_case.hpp>
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/config/friction_names.hpp>
+#include <seiche/core/axis_names.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/damping/field_rates.hpp>
@@ -11,7 +12,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 
 namespace seiche {
 namespace {
@@ -69,10 +69,9 @@ bool compiles_without(const std::string& text, const std::vector<std::string>& a
 }
 
 FrictionFormula friction_formula(const std::string& text, const Grid& grid, const FormulaConstants& constants) {
-  constexpr std::array axes = {"x", "y", "z"};
-  for (std::size_t a = static_cast<std::size_t>(grid.dimension()); a < axes.size(); ++a)
-    if (!compiles_without(text, {axes[a]}, constants))
-      throw Error("problem.friction: {} names {}, but {}", text, axes[a],
+  for (std::size_t a = static_cast<std::size_t>(grid.dimension()); a < axis_names.size(); ++a)
+    if (!compiles_without(text, {axis_names[a]}, constants))
+      throw Error("problem.friction: {} names {}, but {}", text, axis_names[a],
                   grid.only_numbers
                       ? std::string("there are no such places")
                       : fmt::format("the grid has {} ax{}", grid.dimension(), grid.dimension() == 1 ? "is" : "es"));

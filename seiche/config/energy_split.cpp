@@ -1,10 +1,10 @@
 #include <seiche/config/energy_split.hpp>
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/config/formula_expression.hpp>
+#include <seiche/core/axis_names.hpp>
 #include <seiche/core/error.hpp>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 namespace seiche {
@@ -12,7 +12,6 @@ namespace {
 
 using Factor = QuadraticTerm::Factor;
 
-constexpr std::array axis_names = {"x", "y", "z"};
 constexpr Index most_axes = 3;
 
 struct NamedFactor {

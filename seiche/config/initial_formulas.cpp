@@ -1,18 +1,12 @@
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/config/initial_formulas.hpp>
+#include <seiche/core/axis_names.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/number_text.hpp>
 
-#include <array>
 #include <cmath>
 
 namespace seiche {
-namespace {
-
-constexpr std::array axis_names = {"x", "y", "z"};
-
-}  // namespace
-
 std::vector<std::string> place_variables(Index axes) {
   std::vector<std::string> names(axis_names.begin(), axis_names.begin() + axes);
   names.emplace_back("j");

@@ -7,7 +7,6 @@
 #include <seiche/problem/problems.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace seiche {
 namespace {

@@ -1,3 +1,4 @@
+#include <seiche/core/axis_names.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/core/law_matrices.hpp>
@@ -18,7 +19,7 @@ std::string place_of_smallest(const FieldRate& rate, const Grid& grid, double t)
   const auto point = std::min_element(gamma.begin(), gamma.end()) - gamma.begin();
   std::string text = fmt::format("t = {:.6g}", t);
   for (Index a = 0; a < grid.dimension(); ++a)
-    text += fmt::format(", {} = {:.6g}", "xyz"[a], grid.coordinate(point, a));
+    text += fmt::format(", {} = {:.6g}", axis_names[static_cast<std::size_t>(a)], grid.coordinate(point, a));
   return text;
 }
 
@@ -134,8 +135,8 @@ std::string negative_rate(const Problem& problem) {
     if (!rate || rate->negative_seen() < 0) return "";
     return fmt::format("the rate {} is negative at t = {:.6g}", rate->text(), rate->negative_seen());
   };
-  if (problem.friction)
-    if (const std::string fed = problem.friction->complaint(); !fed.empty()) return fed;
+  std::string fed = problem.friction ? problem.friction->complaint() : "";
+  if (!fed.empty()) return fed;
   const std::string everywhere = complaint(problem.damping.rate);
   return everywhere.empty() ? complaint(problem.damping.field_rate) : everywhere;
 }

@@ -1,4 +1,3 @@
-#include <seiche/core/error.hpp>
 #include <seiche/output/solution_file.hpp>
 #include <seiche/output/xdmf.hpp>
 

@@ -1,16 +1,15 @@
+#include <seiche/core/axis_names.hpp>
 #include <seiche/output/solution_layout.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <numeric>
 
 namespace seiche {
 namespace {
 
-constexpr std::array axis_names = {"x", "y", "z"};
 constexpr std::uint64_t chunk_values = 1U << 16U;
 constexpr std::uint64_t most_rows = 1024;
 

@@ -12,8 +12,11 @@ struct Cosine {
     const double s = std::sin(u / 2);
     return 2 * alpha * s * s;
   }
-  // What round-off in u makes of it counts too: far from 0 that is more than W.
-  double size(double u) const { return value(u) * (alpha < 0 ? -1 : 1) + std::abs(u * slope(u)); }
+  // |W| + |u W'|: what round-off in u makes of it counts too, far from 0 that is more than W.
+  double size(double u) const {
+    const double s = std::sin(u / 2), c = std::cos(u / 2);
+    return 2 * std::abs(alpha) * (s * s + std::abs(u * s * c));
+  }
   double slope(double u) const { return alpha * std::sin(u); }
   // (cos a − cos b) / (b − a) = sin((a + b)/2) · sin(d)/d with d = (b − a)/2
   double mean_slope(double a, double b) const {

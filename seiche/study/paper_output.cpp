@@ -1,4 +1,5 @@
 #include <seiche/output/atomic_file.hpp>
+#include <seiche/output/csv_text.hpp>
 #include <seiche/study/paper.hpp>
 
 #include <fmt/format.h>
@@ -12,27 +13,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// RFC 4180: quotes around fields that hold separators, doubled inside.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
-}
-
 std::string error_table(const ExampleResult& example) {
   std::string text =
       "method,h,error,energy_error,max_energy_increase,max_modified_increase,order,steps,scalar_iterations,"
       "fallbacks,unresolved,cpu_seconds,energy_law_held,failure\n";
   for (const StudyRow& row : example.rows) {
     fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{},{},{},{:.6g},{},{}\n",
-                   quoted(row.method), row.h, row.error, row.energy_error, row.max_energy_increase,
+                   csv_field(row.method), row.h, row.error, row.energy_error, row.max_energy_increase,
                    row.max_modified_increase, row.order ? fmt::format("{:.6g}", *row.order) : "", row.steps,
                    row.scalar_iterations, row.fallbacks, row.unresolved, row.cpu_seconds, row.energy_law_held,
-                   quoted(row.failure));
+                   csv_field(row.failure));
   }
   return text;
 }
@@ -42,7 +32,8 @@ std::string curve_table(const std::vector<Curve>& curves, const char* x, const c
   std::string text = fmt::format("curve,{},{}\n", x, y);
   for (const Curve& curve : curves) {
     for (std::size_t i = 0; i < curve.t.size(); ++i) {
-      fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g}\n", quoted(curve.name), curve.t[i], curve.value[i]);
+      fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g}\n", csv_field(curve.name), curve.t[i],
+                     curve.value[i]);
     }
   }
   return text;
@@ -51,8 +42,9 @@ std::string curve_table(const std::vector<Curve>& curves, const char* x, const c
 std::string verdict_table(const PaperResults& results) {
   std::string text = "example,claim,source,outcome,measured,remark,quick\n";
   for (const Verdict& v : results.verdicts) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", quoted(v.example), quoted(v.claim),
-                   quoted(v.source), to_string(v.outcome), quoted(v.measured), quoted(v.remark), results.quick);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", csv_field(v.example), csv_field(v.claim),
+                   csv_field(v.source), to_string(v.outcome), csv_field(v.measured), csv_field(v.remark),
+                   results.quick);
   }
   return text;
 }
