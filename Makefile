@@ -64,9 +64,9 @@ tidy:  ## read every C++ file with clang-tidy
 asan: deps  ## build and run the tests under sanitizers
 	@bash scripts/ci-asan
 
-fuzz:  ## feed formulas and case files to a fuzzer (SECONDS=600)
+fuzz:  ## feed formulas and case files to a fuzzer (SECONDS=900)
 	@bash scripts/install-deps --fuzz
-	@bash scripts/fuzz $(or $(SECONDS),600)
+	@bash scripts/fuzz $(or $(SECONDS),900)
 
 clean:  ## remove everything that was built
 	@rm -rf build
