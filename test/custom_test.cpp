@@ -3,6 +3,8 @@
 #include "support/paper_cases.hpp"
 
 #include <seiche/config/case_file.hpp>
+#include <seiche/config/formula_expression.hpp>
+#include <seiche/config/formula_parser.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/problem/nls.hpp>
@@ -13,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -255,6 +258,19 @@ TEST(Custom, PowersWithoutEndAreRefusedAtOnce) {
   EXPECT_THAT(complaint("H = \"p^2/2 + (q - q)^-1\"\ninitial = { q = 1, p = 0 }"), HasSubstr("0^(-1) divides by zero"));
   EXPECT_EQ(complaint("H = \"p^2/2 + q^4 + (q - q)^0\"\ninitial = { q = 1, p = 0 }"), "");
   EXPECT_EQ(complaint("H = \"p^2/2 + q^-12/12 - q^-6/6\"\ninitial = { q = 1, p = 0 }"), "");
+}
+
+TEST(Custom, SumsThatAreLongMultipliedOutStayAsTheyAreWritten) {
+  const std::scoped_lock lock(algebra_mutex());
+  const Symbols symbols = make_symbols({"u", "x"});
+  const auto is_small = [&](const char* text) {
+    const FormulaProgram program = parse_formula(text, {"u", "x"}, {}).program;
+    return is_small_polynomial(to_expression(program, symbols), GiNaC::lst{symbols[0]}, symbols);
+  };
+  for (const char* text : {"(u + 1)^64", "(u + x + 1)^20", "(u - 1/3 + 1/x)^8", "(1e3*u)^8"})
+    EXPECT_TRUE(is_small(text)) << text;
+  for (const char* text : {"(u + 64/x + x + 5)^64", "(u + 1e300)^60", "(u + x + 1)^64 + u^64*x^64", "abs(u)^3"})
+    EXPECT_FALSE(is_small(text)) << text;
 }
 
 TEST(Custom, ForcesThatAreInfiniteAreRefusedWithTheirTime) {

@@ -62,16 +62,18 @@ Error not_real(const Expression& expression) {
   return Error("'{}' is not a real function that can be evaluated", text_of(expression));
 }
 
+constexpr double most_bits = 20'000;  // of a number whose powers still take milliseconds
+
+double bits_of_number(const Expression& number) {
+  if (!GiNaC::is_a<GiNaC::numeric>(number) || !number.info(GiNaC::info_flags::rational)) return 0;
+  const auto& x = GiNaC::ex_to<GiNaC::numeric>(number);
+  return x.numer().int_length() + x.denom().int_length();
+}
+
 // Of a number, or of the one that a product begins with.
 double bits_of(const Expression& base) {
-  double bits = 0;
-  const auto add = [&](const Expression& factor) {
-    if (!GiNaC::is_a<GiNaC::numeric>(factor) || !factor.info(GiNaC::info_flags::rational)) return;
-    const auto& number = GiNaC::ex_to<GiNaC::numeric>(factor);
-    bits += number.numer().int_length() + number.denom().int_length();
-  };
-  add(base);
-  for (std::size_t i = 0; GiNaC::is_a<GiNaC::mul>(base) && i < base.nops(); ++i) add(base.op(i));
+  double bits = bits_of_number(base);
+  for (std::size_t i = 0; GiNaC::is_a<GiNaC::mul>(base) && i < base.nops(); ++i) bits += bits_of_number(base.op(i));
   return bits;
 }
 
@@ -82,7 +84,6 @@ Expression power(const Expression& base, const Expression& exponent) {
   if (is_number && !GiNaC::is_a<GiNaC::symbol>(base) && GiNaC::abs(exponent) > most)
     throw Error("the power ({})^{} is out of range; of anything but one name, exponents are at most {}", text_of(base),
                 text_of(exponent), most);
-  constexpr double most_bits = 20'000;  // then a power still takes milliseconds
   if (is_number && bits_of(base) * std::abs(GiNaC::ex_to<GiNaC::numeric>(exponent).to_double()) > most_bits)
     throw Error("the power ({})^{} is a number of too many digits", text_of(base), text_of(exponent));
   if (base.is_zero() && is_number && exponent.info(GiNaC::info_flags::negative))
@@ -194,19 +195,45 @@ std::optional<double> real_number(const Expression& expression) {
   return x.is_real() ? std::optional(x.to_double()) : std::nullopt;
 }
 
+namespace {
+
+// At most so many terms stand in it when it is multiplied out: C(n + m − 1, n) in the n-th power of m terms.
+double terms_multiplied_out(const Expression& expression) {
+  double terms = 1;
+  if (GiNaC::is_a<GiNaC::add>(expression)) {
+    terms = 0;
+    for (const Expression& term : expression) terms += terms_multiplied_out(term);
+  } else if (GiNaC::is_a<GiNaC::mul>(expression)) {
+    for (const Expression& factor : expression) terms *= terms_multiplied_out(factor);
+  } else if (GiNaC::is_a<GiNaC::power>(expression) && expression.op(1).info(GiNaC::info_flags::posint)) {
+    const double m = terms_multiplied_out(expression.op(0));
+    const double n = GiNaC::ex_to<GiNaC::numeric>(expression.op(1)).to_double();
+    for (double k = 1; k <= n && m > 1; ++k) terms *= (m - 1 + k) / k;
+  }
+  return terms;
+}
+
+}  // namespace
+
 bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols, const Symbols& beside) {
   if (!expression.is_polynomial(symbols)) return false;
   constexpr double most_terms = 2000;
   double terms = 1;
-  double degree = 0;
+  double degree = 0, bits = 0;
   int used = 0;
-  for (const GiNaC::realsymbol& symbol : beside)
-    if (expression.has(symbol) && expression.is_polynomial(symbol)) {
-      degree += expression.degree(symbol);
-      ++used;
+  for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part)
+    bits = std::max(bits, bits_of_number(*part));
+  for (const GiNaC::realsymbol& symbol : beside) {
+    if (!expression.has(symbol)) continue;
+    if (!expression.is_polynomial(symbol)) {  // beside the polynomial, as 1/x is: no degree bounds its powers
+      if (terms_multiplied_out(expression) > most_terms) return false;
+      continue;
     }
+    degree += expression.degree(symbol);
+    ++used;
+  }
   for (int k = 1; k <= used; ++k) terms *= (degree + k) / k;
-  return degree <= highest_degree * std::max(used, 1) && terms <= most_terms;
+  return degree <= highest_degree * std::max(used, 1) && terms <= most_terms && degree * bits <= most_bits;
 }
 
 }  // namespace seiche
