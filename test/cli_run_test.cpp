@@ -181,12 +181,17 @@ TEST_F(Cli, AFailureOfTheLastFilesIsToldOnceAndEverywhereTheSame) {
   }
 }
 
-TEST_F(Cli, AFullDiskFailsTheRunAndKeepsTheSmallFiles) {
+TEST_F(Cli, AFullDiskFailsTheRunAndKeepsTheSmallFilesAndTheRowsWritten) {
   write_case();
   const Result result = seiche("run case.toml --out out --set time.end=1000", "ulimit -f 100;");
   EXPECT_EQ(result.exit, 1) << result.err;
   EXPECT_EQ(json::parse(text("out/summary.json"))["status"], "failed");
   EXPECT_THAT(result.err, HasSubstr("File too large"));
+  const std::vector<std::string> rows = lines("out/energy.csv");
+  ASSERT_GT(rows.size(), 1000U);
+  EXPECT_EQ(std::count(rows.back().begin(), rows.back().end(), ','), std::count(rows[0].begin(), rows[0].end(), ','));
+  EXPECT_EQ(text("out/energy.csv").back(), '\n');
+  EXPECT_FALSE(fs::exists(directory / "out/energy.csv.partial"));
 }
 
 TEST_F(Cli, ARunDoesNotNeedStandardStreams) {

@@ -3,6 +3,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -11,6 +13,14 @@ namespace {
 
 Error cannot_write(const std::filesystem::path& path, int error_number) {
   return Error("cannot write {}: {}", path.string(), std::strerror(error_number));
+}
+
+// Bytes up to the end of the last line that has one.
+std::uintmax_t whole_lines(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::uintmax_t end = 0;
+  for (std::string line; std::getline(file, line) && !file.eof();) end += line.size() + 1;
+  return end;
 }
 
 }  // namespace
@@ -39,13 +49,27 @@ AtomicFile::AtomicFile(std::filesystem::path path)
 }
 
 void AtomicFile::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) throw cannot_write(path_.path(), errno);
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) == text.size()) return;
+  failed_ = true;
+  throw cannot_write(path_.path(), errno);
 }
 
 void AtomicFile::commit() {
   // Some file systems tell only at the end that there was no room.
   if (std::fclose(file_.release()) != 0) throw cannot_write(path_.path(), errno);
   path_.commit();
+}
+
+void AtomicFile::commit_lines() {
+  const bool is_whole = std::fclose(file_.release()) == 0 && !failed_;
+  const int reason = errno;
+  if (!is_whole) {
+    std::error_code error;
+    std::filesystem::resize_file(path_.temporary(), whole_lines(path_.temporary()), error);
+    if (error) throw cannot_write(path_.path(), error.value());
+  }
+  path_.commit();
+  if (!is_whole && !failed_) throw cannot_write(path_.path(), reason);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view text) {

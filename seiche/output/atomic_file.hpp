@@ -32,6 +32,9 @@ class AtomicFile {
 
   void write(std::string_view text);  // buffered; memory does not grow with the file
   void commit();
+  // For tables that grow row by row: those that were written before there was no more room are kept. Throws, as write does,
+  // unless write has said so before.
+  void commit_lines();
 
  private:
   struct Close {
@@ -39,6 +42,7 @@ class AtomicFile {
   };
   PartialPath path_;
   std::unique_ptr<std::FILE, Close> file_;
+  bool failed_ = false;
 };
 
 void write_file(const std::filesystem::path& path, std::string_view text);

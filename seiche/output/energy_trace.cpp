@@ -33,6 +33,6 @@ void EnergyTrace::add_ledger(const EnergyReading& energy) {
   last_ = energy;
 }
 
-void EnergyTrace::finish(const RunReport&) { file_.commit(); }
+void EnergyTrace::finish(const RunReport&) { file_.commit_lines(); }
 
 }  // namespace seiche
