@@ -269,7 +269,7 @@ TEST(Custom, SumsThatAreLongMultipliedOutStayAsTheyAreWritten) {
   };
   for (const char* text : {"(u + 1)^64", "(u + x + 1)^20", "(u - 1/3 + 1/x)^8", "(1e3*u)^8"})
     EXPECT_TRUE(is_small(text)) << text;
-  for (const char* text : {"(u + 64/x + x + 5)^64", "(u + 1e300)^60", "(u + x + 1)^64 + u^64*x^64", "abs(u)^3"})
+  for (const char* text : {"(u + 64/x + x + 5)^64", "(u + 1e300)^60", "(u + x + 1)^64", "abs(u)^3"})
     EXPECT_FALSE(is_small(text)) << text;
 }
 
