@@ -376,13 +376,6 @@ TEST(MethodStyle, EveryMethodLooksLikeNoOther) {
   EXPECT_EQ(method_of_curve("seisavage"), "");
 }
 
-TEST(Axis, FromZeroEndsAtARoundNumberNearby) {
-  EXPECT_EQ(axis_from_zero(19.84).high, 20);
-  EXPECT_EQ(axis_from_zero(49.9).high, 50);
-  EXPECT_EQ(axis_from_zero(50).high, 50);
-  EXPECT_EQ(axis_from_zero(43).high, 43);
-}
-
 TEST(Html, TextNumbersAndBytes) {
   EXPECT_EQ(html_escaped("<a href=\"x\">&'"), "&lt;a href=&quot;x&quot;&gt;&amp;&#39;");
   EXPECT_EQ(html_number(1.42e-5), "1.42·10<sup>−5</sup>");

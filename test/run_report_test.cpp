@@ -78,6 +78,18 @@ TEST_F(RunReports, APictureIsDrawnInEveryFormatThatIsAskedFor) {
   EXPECT_THAT(said(), HasSubstr("unknown --format 'jpg'"));
 }
 
+// H moves by round-off alone, of H and of the modified energy; and a small wave lies on a large mean.
+TEST_F(RunReports, WhatHardlyChangesIsDrawnAsItsChange) {
+  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  run("oscillator", "method.name=seisav problem.alpha=0 problem.gamma=0");
+  ASSERT_EQ(seiche("plot --format png '" + out().string() + "'"), 0) << said();
+  EXPECT_THAT(report(), HasSubstr("as its change since the start"));
+  run("klein_gordon",
+      "problem.alpha=0 problem.omega_squared=0 'problem.initial={u=\"1000 + 0.01*sin(pi*x)\",v=\"0\"}'");
+  ASSERT_EQ(seiche("plot --format svg '" + out().string() + "'"), 0) << said();
+  EXPECT_NE(text_of(out() / "figures/space_time_u.svg").find(" − 1000) / 10"), std::string::npos);
+}
+
 TEST_F(RunReports, ARunLeavesAReportThatNeedsNothingBesideIt) {
   run("klein_gordon");
   const std::string page = report();

@@ -25,12 +25,32 @@ void Interruption::note() { interrupted = true; }
 
 Array array_of(std::span<const double> values) { return Array(std::ssize(values), values.data()); }
 
+namespace {
+
+py::type_error wrong_answer(const std::string& what, const std::string& wanted, const py::object& answer) {
+  return py::type_error(fmt::format("{} must return {}, but it returned {}", what, wanted,
+                                    py::repr(py::type::of(answer)).cast<std::string>()));
+}
+
+bool has_kind(const py::object& result, const char* kind) {  // of NumPy's, scalars too
+  return py::hasattr(result, "dtype") && result.attr("dtype").attr("kind").cast<std::string>() == kind;
+}
+
+}  // namespace
+
+bool is_false(const py::object& answer) {
+  const bool is_truth =
+      PyBool_Check(answer.ptr()) != 0 || (has_kind(answer, "b") && answer.attr("size").cast<py::ssize_t>() == 1);
+  return is_truth && !py::bool_(answer);
+}
+
 double number_from(const py::object& result, const std::string& what) {
+  if (PyComplex_Check(result.ptr()) != 0 || has_kind(result, "c"))
+    throw py::value_error(fmt::format("{} returned a complex number; it must return a real one", what));
   const double value = PyFloat_AsDouble(result.ptr());
   if (value == -1.0 && PyErr_Occurred() != nullptr) {
     PyErr_Clear();
-    throw py::type_error(fmt::format("{} must return a number, but it returned {}", what,
-                                     py::repr(py::type::of(result)).cast<std::string>()));
+    throw wrong_answer(what, "a number", result);
   }
   return value;
 }
@@ -41,8 +61,7 @@ void copy_from(const py::object& result, std::span<double> out, const std::strin
   const Array values = Array::ensure(result);
   if (!values) {
     PyErr_Clear();
-    throw py::type_error(fmt::format("{} must return an array of numbers, but it returned {}", what,
-                                     py::repr(py::type::of(result)).cast<std::string>()));
+    throw wrong_answer(what, "an array of numbers", result);
   }
   if (values.size() != std::ssize(out))
     throw py::value_error(fmt::format("{} returned {} numbers, but {} are needed", what, values.size(), out.size()));

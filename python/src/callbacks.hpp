@@ -75,6 +75,7 @@ Array array_of(std::span<const double> values);
 inline Array array_of(const Vector& values) {
   return array_of(std::span<const double>(values.data(), static_cast<std::size_t>(values.size())));
 }
+bool is_false(const py::object& answer);  // False, Python's or NumPy's; anything else says nothing
 double number_from(const py::object& result, const std::string& what);
 // Throws a ValueError where `result` has not `out.size()` numbers.
 void copy_from(const py::object& result, std::span<double> out, const std::string& what);

@@ -129,11 +129,17 @@ void bind_ensembles(py::module_& module) {
                              })
       .def_property_readonly("law",
                              [](const HeldEnsemble& e) {
-                               return of_members(e, [](const auto& m) { return to_string(m.report.law); });
+                               // of a member that never started nothing can be said
+                               return of_members(e, [](const auto& m) {
+                                 return to_string(m.final.size() > 0 ? m.report.law : LawVerdict::not_promised);
+                               });
                              })
       .def_property_readonly("energy",
                              [](const HeldEnsemble& e) {
-                               return of_members(e, [](const auto& m) { return m.report.energy.final; });
+                               return of_members(e, [](const auto& m) {
+                                 return m.final.size() > 0 ? m.report.energy.final
+                                                           : std::numeric_limits<double>::quiet_NaN();
+                               });
                              })
       .def_property_readonly("parameters",
                              [](const HeldEnsemble& e) {

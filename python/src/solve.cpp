@@ -6,6 +6,7 @@
 #include <seiche/solve/solve.hpp>
 #include <seiche/study/versions.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -58,7 +59,7 @@ std::function<bool(const SolveStep&)> observer_from(const py::object& function) 
   return [observer = Callable(function)](const SolveStep& step) {
     return with_gil([&] {
       const py::object answer = observer.get()(step.t, array_of(step.z), step.energy.H);
-      return !(PyBool_Check(answer.ptr()) != 0 && !answer.cast<bool>());
+      return !is_false(answer);
     });
   };
 }
@@ -102,7 +103,18 @@ py::array_t<double> at(const HeldSolution& held, const Array& times) {  // (time
   py::array_t<double> values({static_cast<py::ssize_t>(times.size()), static_cast<py::ssize_t>(sol.size())});
   const std::span<const double> t(times.data(), static_cast<std::size_t>(times.size()));
   const std::span<double> out(values.mutable_data(), static_cast<std::size_t>(values.size()));
-  without_gil([&] { return sol.evaluate(t, out), 0; });
+  // A step is taken for every time: in blocks, between which Ctrl-C is heard.
+  constexpr std::size_t block = 256;
+  const auto size = static_cast<std::size_t>(sol.size());
+  SignalCheck is_stopped;
+  without_gil([&] {
+    for (std::size_t first = 0; first < t.size(); first += block) {
+      if (is_stopped()) throw Error("interrupted");  // becomes a KeyboardInterrupt
+      const std::size_t count = std::min(block, t.size() - first);
+      sol.evaluate(t.subspan(first, count), out.subspan(first * size, count * size));
+    }
+    return 0;
+  });
   return values;
 }
 

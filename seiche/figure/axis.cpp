@@ -13,7 +13,7 @@ namespace {
 std::string exponent(int n) { return n < 0 ? fmt::format("−{}", -n) : fmt::format("{}", n); }
 
 void add_tick(std::string& ticks, const std::string& label, double at, bool minor) {
-  ticks += fmt::format("{}'{}' {:.10g} {}", ticks.empty() ? "" : ", ", label, at, minor ? 1 : 0);
+  ticks += fmt::format("{}'{}' {:.17g} {}", ticks.empty() ? "" : ", ", label, at, minor ? 1 : 0);
 }
 
 // Powers of ten, not more than about seven of them labelled; with 2 and 5 times them on a short axis.
@@ -45,11 +45,10 @@ std::string decade_ticks(double low, double high) {
 }
 
 Axis with_ticks(bool logarithmic, double low, double high) {
-  return {.logarithmic = logarithmic,
-          .low = low,
-          .high = high,
-          .ticks = logarithmic ? decade_ticks(low, high) : "autofreq",
-          .empty = false};
+  Axis axis{.logarithmic = logarithmic, .low = low, .high = high, .ticks = {}, .empty = false};
+  if (!logarithmic) axis.linear = linear_ticks(low, high);
+  axis.ticks = logarithmic ? decade_ticks(low, high) : axis.linear.ticks;
+  return axis;
 }
 
 bool is_power_of_two(double value) {
@@ -89,7 +88,8 @@ Axis fitted_axis(bool logarithmic, std::span<const double> values, double margin
     return with_ticks(true, axis.low / factor, axis.high * factor);
   }
   const double span = axis.high - axis.low;
-  const double pad = span > 0 ? margin * span : std::max(1.0, 0.1 * std::abs(axis.high));
+  const double largest = std::max(std::abs(axis.low), std::abs(axis.high));
+  const double pad = span > 1e-13 * largest ? margin * span : std::max(1.0, 0.1 * std::abs(axis.high));
   return with_ticks(false, axis.low - pad, axis.high + pad);
 }
 

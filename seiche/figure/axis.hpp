@@ -2,6 +2,8 @@
 // less than a decade with one number, and step sizes 2⁻ⁿ with none.
 #pragma once
 
+#include <seiche/figure/linear_ticks.hpp>
+
 #include <span>
 #include <string>
 #include <vector>
@@ -11,8 +13,9 @@ namespace seiche {
 struct Axis {
   bool logarithmic = true;
   double low = 0.1, high = 1.0;
-  std::string ticks;   // the argument of gnuplot's `set xtics`
-  bool empty = false;  // no value can be shown: low and high are arbitrary
+  std::string ticks;        // the argument of gnuplot's `set xtics`
+  bool empty = false;       // no value can be shown: low and high are arbitrary
+  LinearTicks linear = {};  // the ticks of a linear axis, and what its label says of them
 
   // From 0 at low to 1 at high.
   double place(double value) const;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace seiche {
@@ -71,11 +72,31 @@ std::string short_ticks(const ColourScale& scale) {
   return "(" + text + ")";
 }
 
+// Its powers of ten stand beside every number of a short bar.
+std::string offset_of(const std::string& symbol, const LinearTicks& ticks) {
+  return ticks.offset.empty() ? symbol : with_unit(symbol, ticks);
+}
+
+// Significant digits that tell a thousandth of the range apart.
+int digits_apart(const std::vector<double>& values) {
+  constexpr int ordinary = 5, all = 17;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (!(high > low)) return ordinary;
+  return std::min(all, ordinary + static_cast<int>(std::ceil(std::log10(largest / (high - low)) + 0.31)));
+}
+
 std::string data_block(const MapPanel& panel, std::size_t index) {
   std::string text = fmt::format("$m{} << EOD\n", index);
+  const int digits = digits_apart(panel.values);
   for (std::size_t r = 0; r < panel.rows; ++r) {
     for (std::size_t c = 0; c < panel.columns; ++c)
-      fmt::format_to(std::back_inserter(text), "{:.5g} ", panel.values[r * panel.columns + c]);
+      fmt::format_to(std::back_inserter(text), "{:.{}g} ", panel.values[r * panel.columns + c], digits);
     text += '\n';
   }
   return text + "EOD\n";
@@ -95,19 +116,22 @@ std::string panel_script(const MapPlot& plot, const Sizes& sizes, std::size_t in
       "unset label\nset lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\nset bmargin at screen {:.5f}\nset tmargin "
       "at screen {:.5f}\n",
       across(left), across(left + sizes.width), up(lower), up(upper));
-  text += axis_script('x', axis_between(false, panel.x_low, panel.x_high));
-  text += axis_script('y', axis_between(false, panel.y_low, panel.y_high));
-  // gnuplot's own number of ticks suits wide panels.
-  if (plot.in_a_row > 1) {
-    text += fmt::format("set xtics {:.10g}\nset ytics {:.10g}\n", tick_step(panel.x_high - panel.x_low, 3),
-                        tick_step(panel.y_high - panel.y_low, 3));
+  Axis x = axis_between(false, panel.x_low, panel.x_high), y = axis_between(false, panel.y_low, panel.y_high);
+  const bool has_y_labels = index % plot.in_a_row == 0;
+  if (plot.in_a_row > 1) {  // gnuplot's own number of ticks suits wide panels
+    for (Axis* axis : {&x, &y}) {
+      axis->linear = linear_ticks(axis->low, axis->high, 2);
+      const bool is_ordinary = axis->linear.ticks == "autofreq" || (axis == &y && !has_y_labels);
+      axis->ticks = is_ordinary ? fmt::format("{:.17g}", tick_step(axis->high - axis->low, 3)) : axis->linear.ticks;
+    }
   }
-  text += fmt::format("set label {} at screen {:.5f},{:.5f} center font ',7' textcolor rgb '{}'\n", panel.x_label,
-                      across(left + sizes.width / 2), up(lower - 0.255), theme.ink);
-  if (index % plot.in_a_row == 0) {
-    text += "set ytics format '%h'\n";
+  text += axis_script('x', x) + axis_script('y', y);
+  text += fmt::format("set label {} at screen {:.5f},{:.5f} center font ',7' textcolor rgb '{}'\n",
+                      with_unit(panel.x_label, x.linear), across(left + sizes.width / 2), up(lower - 0.255), theme.ink);
+  if (has_y_labels) {
+    if (y.linear.ticks == "autofreq") text += "set ytics format '%h'\n";
     text += fmt::format("set label {} at screen {:.5f},{:.5f} center rotate by 90 font ',7' textcolor rgb '{}'\n",
-                        panel.y_label, across(0.12), up((lower + upper) / 2), theme.ink);
+                        with_unit(panel.y_label, y.linear), across(0.12), up((lower + upper) / 2), theme.ink);
   } else {
     text += "set ytics format ''\n";
   }
@@ -120,13 +144,15 @@ std::string panel_script(const MapPlot& plot, const Sizes& sizes, std::size_t in
     const double width = panel.colours ? 0.07 : bar_width;
     double bar_low = panel.colours ? lower : 0.03 + below_axes;
     double bar_high = panel.colours ? upper : sizes.picture_height - axes_top - title_room;
+    const LinearTicks ticks = linear_ticks(scale.low, scale.high);
     // Beside one bar for all there is room for words; above one of many only for the symbol.
     text += panel.colours
                 ? fmt::format("set label {} at screen {:.5f},{:.5f} center font ',6.6' textcolor rgb '{}'\n",
-                              plot.colour_symbol.empty() ? "''" : plot.colour_symbol, across(bar_left + width / 2),
-                              up(bar_high + 0.085), theme.ink)
+                              plot.colour_symbol.empty() ? "''" : offset_of(plot.colour_symbol, ticks),
+                              across(bar_left + width / 2), up(bar_high + 0.085), theme.ink)
                 : fmt::format("set label {} at screen {:.5f},{:.5f} center rotate by 90 font ',7' textcolor rgb '{}'\n",
-                              plot.colour_label, across(picture_width - 0.08), up((bar_low + bar_high) / 2), theme.ink);
+                              with_unit(plot.colour_label, ticks), across(picture_width - 0.08),
+                              up((bar_low + bar_high) / 2), theme.ink);
     const auto point = [&](int number, double base, double tip, bool top) {
       return fmt::format(
           "set object {} polygon from screen {:.5f},{:.5f} to screen {:.5f},{:.5f} to screen {:.5f},{:.5f} to "
@@ -143,8 +169,8 @@ std::string panel_script(const MapPlot& plot, const Sizes& sizes, std::size_t in
       bar_low += point_height;
     }
     text += palette(theme, scale.diverging);
-    text += fmt::format("set cbrange [{:.10g}:{:.10g}]\nset cbtics {}\n", scale.low, scale.high,
-                        panel.colours ? short_ticks(*panel.colours) : "autofreq");
+    text += fmt::format("set cbrange [{:.17g}:{:.17g}]\nset cbtics {}\n", scale.low, scale.high,
+                        panel.colours && ticks.offset.empty() ? short_ticks(*panel.colours) : ticks.ticks);
     text += fmt::format("set colorbox user origin screen {:.5f},{:.5f} size screen {:.5f},{:.5f} front bdefault\n",
                         across(bar_left), up(bar_low), across(width), up(bar_high - bar_low));
   }

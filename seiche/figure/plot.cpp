@@ -29,7 +29,7 @@ struct Drawing {
 };
 
 void append_point(std::string& text, double x, double y) {
-  fmt::format_to(std::back_inserter(text), "{:.7g} {:.7g}\n", x, y);
+  fmt::format_to(std::back_inserter(text), "{:.17g} {:.17g}\n", x, y);
 }
 
 Drawing drawing(const Plot& plot, const Series& series, const std::string& block, const Theme& theme) {
@@ -83,9 +83,9 @@ std::string title_script(const std::string& title, double y, double width, const
 std::string axis_script(char name, const Axis& axis) {
   std::string text;
   if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
-  text += fmt::format("set {}range [{:.10g}:{:.10g}]\n", name, axis.low, axis.high);
+  text += fmt::format("set {}range [{:.17g}:{:.17g}]\n", name, axis.low, axis.high);
   text += fmt::format("set {}tics {}\n", name, axis.ticks);
-  if (!axis.logarithmic) text += fmt::format("set m{}tics 2\n", name);
+  if (axis.ticks == "autofreq") text += fmt::format("set m{}tics 2\n", name);
   return text;
 }
 
@@ -109,10 +109,12 @@ std::string plot_script(Plot plot, const Rendering& rendering) {
   script += frame_script(theme);
   script += axis_script('x', plot.x) + axis_script('y', plot.y);
   script += title_script(plot.title, 1 - 0.5 * axes_top / height, picture_width, theme);
-  script += fmt::format("set label {} at screen {:.5f},{:.5f} center font ',7' textcolor rgb '{}'\n", plot.x_label,
-                        (left + axes_width / 2) / picture_width, (axes_bottom - 0.245) / height, theme.ink);
+  script += fmt::format("set label {} at screen {:.5f},{:.5f} center font ',7' textcolor rgb '{}'\n",
+                        with_unit(plot.x_label, plot.x.linear), (left + axes_width / 2) / picture_width,
+                        (axes_bottom - 0.245) / height, theme.ink);
   script += fmt::format("set label {} at screen {:.5f},{:.5f} center rotate by 90 font ',7' textcolor rgb '{}'\n",
-                        plot.y_label, 0.09 / picture_width, (axes_bottom + axes_height / 2) / height, theme.ink);
+                        with_unit(plot.y_label, plot.y.linear), 0.09 / picture_width,
+                        (axes_bottom + axes_height / 2) / height, theme.ink);
   script += legend.script(bottom_margin + legend.height(), height, theme);
   if (plot.slope_two) {
     if (const auto triangle = clear_slope_triangle(plot, axes_width, axes_height)) script += triangle->script();

@@ -61,9 +61,15 @@ CurvePicture energy_picture(const RunFiles& run, const EnergyHistory& history) {
   std::optional<Curve> modified = history.modified;
   const double first = H.value.empty() ? 0.0 : H.value.front();
   // A change that the ticks of H would not show.
-  const bool relative = span_of(H.value) < 1e-6 * std::abs(first) && !modified;
-  if (relative)
+  double span = span_of(H.value);
+  if (modified && !modified->value.empty())
+    for (const double value : modified->value) span = std::max(span, std::abs(value - first));
+  const bool relative = span < 1e-6 * std::abs(first);
+  if (relative) {
     for (double& value : H.value) value -= first;
+    if (modified)
+      for (double& value : modified->value) value -= first;
+  }
   std::vector<Series> all;
   all.push_back(line("H", H, {.colour = colours[0], .width = 1.4}));
   all.back().literal = relative ? energy_change_label : "'{/:Italic H}'";
