@@ -235,6 +235,8 @@ TEST(Ensemble, AMemberThatFailsStopsWithTheMessageOfItsOwnRunAndTheOthersGoOn) {
     } catch (const Error& error) {
       EXPECT_EQ(report.status, RunReport::Status::failed);
       EXPECT_EQ(report.message, error.what());
+      EXPECT_EQ(result.members[m].final.size(), 0);
+      EXPECT_EQ(report.law, LawVerdict::not_promised);
       ++not_started;
       continue;
     }

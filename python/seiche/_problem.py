@@ -16,10 +16,12 @@ from ._toml import section, toml
 _KEYWORDS = "<keywords>"
 
 
-def _refused(error: ValueError) -> ValueError:
-    """The sentence of the case parser without places that a Python user never wrote."""
+def _refused(error: ValueError, by_arguments: bool = True) -> ValueError:
+    """The sentence of the case parser without places that a Python user never wrote, about arguments if those were written."""
     text = re.sub(rf"^{_KEYWORDS}(:\d+:\d+)?: ", "", str(error))
     text = re.sub(r"^--set \S+?=.*?: (?=[a-z])", "", text)
+    if not by_arguments:
+        return ValueError(text)
     if text.startswith("unknown key in [method] "):  # its keys are arguments, and its name is `method`
         text = text.replace("unknown key in [method] ", "unknown argument ").replace("Allowed: name,", "Allowed: method,")
     elif text.startswith("unknown key in [problem] "):
@@ -51,16 +53,24 @@ def real_array(name: str, values: Any) -> np.ndarray:
         raise ValueError(f"{name} = {values!r} must be an array of numbers") from None
 
 
-def thread_count(threads: Any) -> int:
-    if threads is None:
-        return 1
+def whole_number(name: str, value: Any, most: int = 2**62) -> int:
     try:
-        count = operator.index(threads)
+        count = operator.index(value)
     except TypeError:
-        raise ValueError(f"threads = {threads!r} must be a whole number") from None
-    if count < 1:
-        raise ValueError(f"threads = {count} must be ≥ 1")
+        raise ValueError(f"{name} = {value!r} must be a whole number") from None
+    if not 1 <= count <= most:
+        raise ValueError(f"{name} = {count} must be ≥ 1" + (f" and ≤ {most}" if count > most else ""))
     return count
+
+
+def thread_count(threads: Any) -> int:
+    return 1 if threads is None else whole_number("threads", threads, 2**20)
+
+
+def truth(name: str, value: Any) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name} = {value!r} must be True or False")
+    return bool(value)
 
 
 def override(key: str, value: Any) -> str:
@@ -135,6 +145,7 @@ class Problem:
     _text: str | None = None  # the [problem] section it came from
     _has_initial: bool = True
     _file: str | None = None  # the case file it came from
+    _remake: tuple = ()  # a function of this module and its arguments, for pickle
 
     def __init__(
         self,
@@ -153,6 +164,8 @@ class Problem:
     ):
         if right_hand_side:
             raise _no_right_hand_side(right_hand_side[0])
+        if isinstance(fields, numbers.Number) and not isinstance(fields, numbers.Integral):
+            raise ValueError(f"fields = {fields!r} must be 1 or 2, or by formulas a list of names")
         if H is not None or not isinstance(fields, numbers.Integral):
             for name, value in {"gradient": gradient, "z0": z0, "gamma": gamma}.items():
                 if value is not None:
@@ -163,29 +176,27 @@ class Problem:
             stated = problem("custom", fields=named, H=H, M=M, V=V, S=S, D=D, **({"initial": "zero"} | written))
             self._core, self._text = stated._core, stated._text
             self._has_initial = "initial" in written
+            self._remake = (_of_text, (self._text, self._has_initial))
             return
         if written:
             raise ValueError(f"{', '.join(written)}: only for a problem by formulas, with H or the names of its fields")
         if M is None:
             raise ValueError("a problem needs M, or H by a formula")
         self._has_initial = z0 is not None
-        self._core = _core.problem_by_parts(
-            fields,
-            _columns("M", M),
-            _columns("S", S),
-            _columns("D", D),
-            gamma,
-            V,
-            gradient,
-            grows_outward,
-            None if z0 is None else real_array("z0", z0),
-        )
+        start = None if z0 is None else real_array("z0", z0).copy()
+        matrices = (_columns("M", M), _columns("S", S), _columns("D", D))
+        self._remake = (_of_parts, (fields, *matrices, gamma, V, gradient, grows_outward, start))
+        self._core = _core.problem_by_parts(*self._remake[1])
+
+    def __reduce__(self) -> tuple:
+        return self._remake
 
     @classmethod
     def _of_case(cls, case: _core.Case, text: str | None) -> "Problem":
         made = cls.__new__(cls)
         made._core = make_problem(case)
         made._text = text
+        made._remake = (_of_text, (text, True))
         return made
 
     @property
@@ -227,16 +238,44 @@ class Problem:
         return f"<seiche.Problem {self.name}: {', '.join(self.fields)}{points}>"
 
 
+def _of_text(text: str, has_initial: bool) -> Problem:
+    made = Problem._of_case(parse_keywords(text), text)
+    made._has_initial = has_initial
+    made._remake = (_of_text, (text, has_initial))
+    return made
+
+
+def _of_parts(*parts: Any) -> Problem:
+    made = Problem.__new__(Problem)
+    made._core = _core.problem_by_parts(*parts)
+    made._has_initial = parts[-1] is not None
+    made._remake = (_of_parts, parts)
+    return made
+
+
+def _of_file(file: str, overrides: Sequence[str], written: str) -> "Case":
+    return Case(file, overrides, written)
+
+
+def _of_files_problem(*case: Any) -> Problem:
+    return _of_file(*case).problem
+
+
 class Case:
     """A case file as it was when it was read: a problem, and how to run it. Give it to `solve`, `solve_ensemble` or `check`."""
 
-    def __init__(self, file: str | os.PathLike, overrides: Sequence[str]):
+    def __init__(self, file: str | os.PathLike, overrides: Sequence[str], written: str | None = None):
         self._file = os.fspath(file)
         self._overrides = list(overrides)
-        self._written = _core.case_text(self._file)  # once: what is edited later belongs to another case
+        # once: what is edited later belongs to another case
+        self._written = _core.case_text(self._file) if written is None else written
         self._core = self._read([])
         self.problem = Problem._of_case(self._core, None)
         self.problem._file = self._file
+        self.problem._remake = (_of_files_problem, self.__reduce__()[1])
+
+    def __reduce__(self) -> tuple:
+        return _of_file, (self._file, self._overrides, self._written)
 
     def _read(self, overrides: Sequence[str]) -> _core.Case:
         try:
@@ -244,7 +283,7 @@ class Case:
                 self._written, self._file, [*self._overrides, *overrides], os.path.dirname(self._file)
             )
         except ValueError as error:
-            raise _refused(error) from None
+            raise _refused(error, by_arguments=len(overrides) > 0) from None
 
     @property
     def text(self) -> str:
@@ -321,6 +360,9 @@ def refuse_other_names(options: Mapping[str, Any]) -> None:
 
 def run_case(given: "Problem | Case", options: Mapping[str, Any]) -> _core.Case:
     """The case of one run: what is given, over what the case file says, over the defaults."""
+    for name, value in options.items():
+        if callable(value):  # an observer or events, where there are none
+            raise ValueError(f"unknown argument '{name}'")
     overrides = [override(_SECTIONS.get(k, f"method.{k}"), v) for k, v in options.items() if v is not None]
     if isinstance(given, Case):
         return given._read(overrides)

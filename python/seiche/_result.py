@@ -66,6 +66,10 @@ class DenseOutput:
         return values[0] if times.ndim == 0 else values.T
 
 
+    def __reduce__(self) -> Any:
+        raise TypeError("a dense output lives in one process: evaluate sol at the times that are needed, or solve without it")
+
+
 class Answer(dict):
     """What a computation leaves; keys are attributes too."""
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import numbers
 from typing import Any, Callable, Sequence
 
 import numpy as np
 
 from . import _core
-from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count
+from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count, truth, whole_number
 from ._result import Result, result_of
 
 
@@ -29,10 +30,15 @@ def _event(function: Callable) -> tuple:
     """(g, direction, number that ends the run, action), from the attributes that SciPy looks for, and `action`."""
     if not callable(function):
         raise TypeError(f"an event is a function g(t, y), not {function!r}")
+    direction, terminal = getattr(function, "direction", 0), getattr(function, "terminal", 0)
+    if not isinstance(direction, numbers.Real) or direction != direction:
+        raise ValueError(f"the direction of an event is {direction!r}; it must be a number: > 0 rising, < 0 falling, 0 both")
+    if terminal is not None and not isinstance(terminal, (numbers.Integral, np.bool_)):
+        raise ValueError(f"terminal of an event is {terminal!r}; it must be True, or the number of occurrences that end the run")
     return (
         function,
-        int(np.sign(getattr(function, "direction", 0))),
-        int(getattr(function, "terminal", 0) or 0),
+        int(np.sign(direction)),
+        int(terminal or 0),
         getattr(function, "action", None),
     )
 
@@ -148,10 +154,10 @@ def solve(
         None if z0 is None else real_array("z0", z0).ravel(),
         times,
         [_event(function) for function in functions],
-        dense_output,
+        truth("dense_output", dense_output),
         observer,
-        record_every,
-        with_ledger,
+        whole_number("record_every", record_every),
+        truth("ledger", with_ledger),
         thread_count(threads),
     )
     notes = [*case.notes, *stated.notes]

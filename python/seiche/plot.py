@@ -115,6 +115,13 @@ def _common_colours(ax: "Axes", pictures: _typing.Sequence[_np.ndarray]) -> dict
     return scale
 
 
+def _image_style(scale: dict[str, _typing.Any], style: dict[str, _typing.Any]) -> dict[str, _typing.Any]:
+    """A `norm` of the caller's brings its own limits."""
+    if style.get("norm") is not None:
+        scale = {"cmap": scale["cmap"]}
+    return {"shading": "nearest", "rasterized": True} | scale | style
+
+
 def _bar(mesh: _typing.Any, ax: _typing.Any, values: _np.ndarray, label: str) -> None:
     """With pointed ends where there are values beyond the scale."""
     low, high = mesh.get_clim()
@@ -145,6 +152,8 @@ def energy(
     result: _result.Result | _ensemble.EnsembleResult, ax: "Axes | None" = None, **style: _typing.Any
 ) -> "Axes":
     """H over time, and the modified energy where the method has one; of an ensemble, their means and the spread of H."""
+    if not isinstance(result, (_result.Result, _ensemble.EnsembleResult)):
+        raise TypeError(f"energy draws what seiche.solve or seiche.solve_ensemble returned, not {result!r}")
     ax = _axes(ax)
     if isinstance(result, _ensemble.EnsembleResult):
         _energy_of_members(result, ax, style)
@@ -167,7 +176,7 @@ def space_time(
     name = _named(result, field, 1, "space_time")
     values = result.field(name)
     ax = _axes(ax)
-    style = {"shading": "nearest", "rasterized": True} | _common_colours(ax, [values]) | style
+    style = _image_style(_common_colours(ax, [values]), style)
     mesh = ax.pcolormesh(result.t, result.problem.axes[0], values.T, **style)
     _bar(mesh, ax, values, _label(result, name))
     place = result.problem._core.layout["axes"][0][0]
@@ -185,6 +194,8 @@ def slices(
     that has died down is not shown as nothing. `axes` are as many as there are pictures; they are returned as an array.
     """
     name = _named(result, field, 2, "slices")
+    if count < 1:
+        raise ValueError(f"count = {count} must be ≥ 1")
     values = result.field(name)
     times = _np.unique(_np.linspace(0, len(result.t) - 1, count).astype(int))
     if axes is None:
@@ -210,7 +221,7 @@ def slices(
         if own:  # one kind of colours for all, and from zero: what is left of a field may be nearly constant
             size = size if visible else sizes.max()
             scale = _colours(ax, _np.array([-size, size]) if signed else _np.append(values[k] if visible else values[times], 0))
-        mesh = ax.pcolormesh(x, y, values[k].T, **({"shading": "nearest", "rasterized": True} | scale | style))
+        mesh = ax.pcolormesh(x, y, values[k].T, **_image_style(scale, style))
         ax.set(xlabel="$x$", ylabel="$y$", title=f"$t$ = {result.t[k]:.4g}", aspect="equal")
         if own:
             _bar(mesh, ax, values[k], _symbol(name))

@@ -129,10 +129,7 @@ void bind_ensembles(py::module_& module) {
                              })
       .def_property_readonly("law",
                              [](const HeldEnsemble& e) {
-                               // of a member that never started nothing can be said
-                               return of_members(e, [](const auto& m) {
-                                 return to_string(m.final.size() > 0 ? m.report.law : LawVerdict::not_promised);
-                               });
+                               return of_members(e, [](const auto& m) { return to_string(m.report.law); });
                              })
       .def_property_readonly("energy",
                              [](const HeldEnsemble& e) {

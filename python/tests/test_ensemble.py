@@ -83,3 +83,10 @@ def test_parameters_are_coordinates_of_the_members(tmp_path):
     with pytest.raises(ValueError, match=r"case.toml has a section \[ensemble\]: call seiche.solve_ensemble, or give its problem"):
         seiche.solve(seiche.load(file))
     assert seiche.solve(seiche.load(file).problem, 1.0, h=0.1).success
+
+
+def test_of_a_member_that_never_started_nothing_is_claimed():
+    wave = seiche.problem("klein_gordon", points=8)
+    e = seiche.solve_ensemble(wave, 1.0, np.outer([1.0, np.nan, 0.5], wave.z0), h=0.1)
+    assert e.status == ["success", "failed", "success"] and e.law == ["holds", "not promised", "holds"]
+    assert list(np.isnan(e.final_energy)) == [False, True, False] and np.isnan(e.y[1]).all()

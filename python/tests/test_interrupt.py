@@ -120,6 +120,21 @@ print(seiche.solve(inner, 1.0, h=0.1).status)
     assert done.stdout == "interrupted True\nsuccess\n", done.stdout + done.stderr
 
 
+def test_a_dense_output_can_be_interrupted():
+    program = """
+import os, signal, threading, time, seiche
+import numpy as np
+r = seiche.solve("klein_gordon", 10.0, h=0.1, dense_output=True)
+threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    r.sol(np.linspace(0, 10, 3_000_000))
+except KeyboardInterrupt:
+    print("raised")
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    assert done.stdout == "raised\n", done.stderr
+
+
 def test_an_ensemble_stops_between_its_records():
     program = """
 import os, signal, threading, time, seiche

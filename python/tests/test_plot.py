@@ -106,6 +106,16 @@ def test_colours_are_those_of_the_program(wave):
         assert to_hex(mesh.cmap(s)).upper() == colour
 
 
+def test_a_norm_of_ones_own_is_taken(wave):
+    from matplotlib.colors import Normalize
+
+    r = seiche.solve(wave, 1.0, h=0.0625)
+    mesh = seiche.plot.space_time(r, norm=Normalize(-3, 3)).collections[0]
+    assert mesh.get_clim() == (-3, 3)
+    with pytest.raises(TypeError, match="^energy draws what"):
+        seiche.plot.energy("x")
+
+
 def test_curves_have_the_colours_of_the_program(wave):
     text = (SOURCE / "seiche/figure/style.cpp").read_text(encoding="utf-8")
     program = re.findall(r"#[0-9A-F]{6}", re.search(r"6> colours = \{(.*?)\}", text)[1])

@@ -10,6 +10,14 @@ def duffing(**changes):
     return seiche.Problem(**(parts | changes))
 
 
+def event(**attributes):
+    def g(t, y):
+        return y[0]
+
+    g.__dict__.update(attributes)
+    return g
+
+
 @pytest.mark.parametrize(
     ("call", "sentence"),
     [
@@ -24,6 +32,15 @@ def duffing(**changes):
         (lambda p: seiche.solve(p, 1.0, z0=[1j, 0]), "^z0 is complex; it must be real"),
         (lambda p: seiche.solve_ensemble(p, 1.0, z0=[[1j, 0]]), "^z0 is complex"),
         (lambda p: seiche.Problem(M=np.eye(2), z0=[1j, 0]), "^z0 is complex"),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, record_every=2.5), "^record_every = 2.5 must be a whole number"),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, record_every=10**30), "^record_every = 10+ must be ≥ 1 and ≤ "),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, ledger="no"), "^ledger = 'no' must be True or False"),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, dense_output=1), "^dense_output = 1 must be True or False"),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, threads=10**10), "^threads = 10000000000 must be ≥ 1 and ≤ "),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, events=event(direction="up")), "^the direction of an event is 'up'"),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, events=event(terminal="yes")), "^terminal of an event is 'yes'"),
+        (lambda p: seiche.solve_ensemble(p, 1.0, h=0.1, events=event()), "^unknown argument 'events'"),
+        (lambda p: seiche.Problem(M=np.eye(2), fields=2.0), "^fields = 2.0 must be 1 or 2"),
         (lambda p: seiche.solve(p, 1.0, threads=0), "^threads = 0 must be ≥ 1"),
         (lambda p: seiche.solve(p, 1.0, threads=-3), "^threads = -3 must be ≥ 1"),
         (lambda p: seiche.solve(p, 1.0, threads=1.5), "^threads = 1.5 must be a whole number"),
@@ -90,3 +107,15 @@ def test_a_few_degrees_of_freedom_have_no_points():
 
 def test_one_step_is_singular():
     assert seiche.solve_ensemble(duffing(), 0.1, [[1, 0]], h=0.1).message == ["reached t = 0.1 in 1 step"]
+
+
+def test_keys_of_a_case_file_are_called_as_they_are_written_there(tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text('[problem]\nname = "oscillator"\n')
+    with pytest.raises(ValueError, match=r"^unknown key in \[method\] 'hh'; did you mean 'h'\? Allowed: name, h"):
+        seiche.load(case, **{"method.hh": 1})
+
+
+def test_complex_numbers_are_refused_from_functions_too():
+    with pytest.raises(ValueError, match="^V returned a complex number; it must return a real one"):
+        seiche.Problem(M=np.eye(2), V=lambda u: np.sum(u**2) / 2 + np.complex128(1e3j), gradient=lambda u: u, z0=[1, 0])

@@ -124,6 +124,13 @@ def test_an_observer_sees_every_step_and_may_stop():
     assert np.array_equal(seen[3][1], r.y[:, 3])
 
 
+@pytest.mark.parametrize("answer", [lambda q: q > 0, lambda q: bool(q > 0), lambda q: np.array(q > 0)])
+def test_an_observer_may_answer_as_numpy_does(answer):
+    r = seiche.solve(oscillator(), 20.0, h=0.1, observer=lambda t, y, energy: answer(y[0]))
+    assert r.status == "interrupted" and abs(r.t[-1] - np.pi / 2) < 0.1
+    assert seiche.solve(oscillator(), 1.0, h=0.1, observer=lambda t, y, energy: energy * 0).success
+
+
 def test_the_ledger_adds_up(wave):
     r = seiche.solve(wave, 1.0, method="egc4", h=1 / 16, ledger=True)
     assert np.allclose(sum(r.ledger.values()), r.energy - r.energy[0], atol=1e-12)

@@ -239,6 +239,10 @@ class Run {
       if (!reason.empty()) report.law_reason = reason;
     }
     result.final = block_of(member).physical(member % lanes);
+    if (result.final.size() == 0) {
+      report.law = LawVerdict::not_promised;
+      report.law_reason = "the member never started";
+    }
     return result;
   }
 

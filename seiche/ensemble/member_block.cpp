@@ -30,6 +30,7 @@ void MemberBlock::start(Index member, const EnsembleMember& from, const Simulati
       simulation->stepper().begin(s);
     }
   } catch (const Error& error) {
+    s.z.resize(0);  // there is no good state
     fail(member, error.what());
   }
   simulations_[static_cast<std::size_t>(member)] = simulation.get();
