@@ -81,15 +81,17 @@ def solve(
         Step size; fractions may be texts: "1/256". Beside a tolerance, the first one. By default that of the case, or
         of the problem's example, which `notes` of the result names; a problem by parts has none.
     tolerance : float
-        Instead of h: steps of variable size, so that values at the end have errors of about this size (max norm).
+        Instead of h: steps of variable size, which add an error of at most about this size per unit of time (max norm). Where damping
+        lets errors fade this is about the error at the end; without damping they add up.
     h_max : float
         With a tolerance: no step is longer.
     t_eval : (times,) array
         The times to record, ascending. They shorten no step but, with a tolerance, perhaps the first. By default all steps.
     events : function or list of functions
-        ``g(t, y) -> float``; an event is a change of its sign. Attributes as in SciPy: ``direction`` (> 0 rising, < 0 falling),
+        ``g(t, y) -> float``; an event is a change of its sign from one step to the next. Attributes as in SciPy: ``direction`` (> 0 rising, < 0 falling),
         ``terminal`` (True, or the number of occurrences that end the run); and ``action(t, y)``, which may return a new state.
-        The method starts anew behind an event.
+        The method starts anew behind an event. Two changes inside one step are not seen: where they may lie close, h_max keeps
+        steps short.
     dense_output : bool
         Keep a state for every step, so that ``result.sol(t)`` is the solution at any time.
     observer : function

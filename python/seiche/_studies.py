@@ -35,7 +35,7 @@ def check(
     By default t_end is that of the case, or of the problem's example; a problem by parts has none. Ctrl-C is answered between
     two hypotheses: one that is verified by a factorisation is finished first.
 
-    Returns the document of ``seiche check --json``:
+    Returns these parts of the document of ``seiche check --json``:
     {"hypotheses": [{"hypothesis", "grade", "statement", "margin", "witness"}, …], "law": {"promised", "reason", "theorem"}}.
     """
     given = _given(problem)

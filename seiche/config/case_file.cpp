@@ -280,7 +280,7 @@ class Reader {
     on("method", "tolerance", [&](const std::string& key, const CaseValue& value) {
       const double tolerance = read_number(key, value);
       if (tolerance <= 0 || tolerance >= 1)
-        throw Error("{} = {} must be > 0 and < 1: the error of values at the end of the run", key, value.shown());
+        throw Error("{} = {} must be > 0 and < 1: the error that steps add per unit of time", key, value.shown());
       if (tolerance < 1e-14)
         throw Error("{} = {} is below what double precision can tell; write at least 1e-14", key, value.shown());
       spec_.tolerance = tolerance;

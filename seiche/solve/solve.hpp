@@ -18,7 +18,7 @@
 
 namespace seiche {
 
-// A sign change of g(t, z), z in physical values: fields × points. The method starts anew behind it.
+// A sign change of g(t, z) from one step to the next, z in physical values: fields × points. The method starts anew behind it.
 struct SolveEvent {
   std::function<double(double t, const Vector& z)> g;
   Event::Direction direction = Event::Direction::any;
@@ -39,7 +39,7 @@ struct SolveOptions {
   std::string backend = "auto";
   BackendOptions backend_options = {};
   double h = 0.0;                     // the step size; beside a tolerance the first one, or 0
-  std::optional<double> tolerance{};  // steps of variable size: error of values at the end, in the max norm
+  std::optional<double> tolerance{};  // steps of variable size: the error that they add per unit of time, max norm
   double h_max = 0.0;                 // and none longer than this; 0: no bound
 
   double t_start = 0.0;
