@@ -29,7 +29,7 @@ constexpr EnergyLaw guard = EnergyLaw::guard;
 constexpr std::string_view paper = "Li, Li, Shang, Xu: energy-stable splitting exponential integrators";
 constexpr std::string_view here = "Seiche: the paper's closure, exponential, without splitting";
 
-constexpr std::string_view collocated = "Seiche: exponential Gauss collocation, docs/design.md";
+constexpr std::string_view collocated = "Seiche: exponential Gauss collocation, page Theory";
 
 // clang-format off
 constexpr std::array list = {
@@ -45,7 +45,7 @@ constexpr std::array list = {
     MethodEntry{"seavf",  avf, exponential, strang, 2, "H",          "Liu et al. (2021), dissipation-preserving splitting"},
     MethodEntry{"seisav", sav, exponential, strang, 2, "H_modified", paper},
     MethodEntry{"seilm",  lm,  exponential, strang, 2, "H",          paper},
-    MethodEntry{"seidm",  dm,  exponential, strang, 2, "H",          "Seiche: directed multiplier, docs/design.md"},
+    MethodEntry{"seidm",  dm,  exponential, strang, 2, "H",          "Seiche: directed multiplier, page Theory"},
     MethodEntry{"egc2",   none, exponential, collocation, 2, "H",    collocated, interval},
     MethodEntry{"egc4",   none, exponential, collocation, 4, "H",    collocated, interval},
     MethodEntry{"egc6",   none, exponential, collocation, 6, "H",    collocated, interval},
@@ -55,7 +55,7 @@ constexpr std::array list = {
     MethodEntry{"crkn4",  none, exponential, nystrom, 4, "H",        "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
     MethodEntry{"crkn6",  none, exponential, nystrom, 6, "H",        "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
     MethodEntry{"strang_exact", none, exponential, kick, 2, "H",     "Strang splitting of the linear flow; with projection", guard},
-    MethodEntry{"chin4",  none, exponential, chin, 4, "H",           "Seiche: positive splitting with absorbed commutator, docs/design.md", guard},
+    MethodEntry{"chin4",  none, exponential, chin, 4, "H",           "Seiche: positive splitting with absorbed commutator, page Theory", guard},
 };
 // clang-format on
 

@@ -168,7 +168,7 @@ std::string theorem(const Problem& problem, const MethodEntry& method) {
       method.law == "H" ? "H(zⁿ⁺¹) ≤ H(zⁿ)" : "the modified energy of step n + 1 ≤ that of step n";
   const std::string any = energy + " for every h: ";
   if (method.projects())
-    return any + "the step ends with a projection on an energy of at most H(zⁿ) (docs/design.md, Order four to eight)";
+    return any + "the step ends with a projection on an energy of at most H(zⁿ) (page Theory, Order four to eight)";
   const std::string substep = "F + Fᵀ + FᵀMF ⪯ 0 for sym(S) ⪯ 0, and the closure keeps its energy exactly";
   if (method.composition == Composition::whole || !problem.has_damping()) return any + substep;
   return any + substep +
