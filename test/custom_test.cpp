@@ -8,6 +8,7 @@
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/problem/nls.hpp>
+#include <seiche/solve/solve.hpp>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -258,6 +259,55 @@ TEST(Custom, PowersWithoutEndAreRefusedAtOnce) {
   EXPECT_THAT(complaint("H = \"p^2/2 + (q - q)^-1\"\ninitial = { q = 1, p = 0 }"), HasSubstr("0^(-1) divides by zero"));
   EXPECT_EQ(complaint("H = \"p^2/2 + q^4 + (q - q)^0\"\ninitial = { q = 1, p = 0 }"), "");
   EXPECT_EQ(complaint("H = \"p^2/2 + q^-12/12 - q^-6/6\"\ninitial = { q = 1, p = 0 }"), "");
+}
+
+// A potential is where it is: about q = 10 it acts as about 0, and squares of (q − 10)⁴ are no stiffness.
+TEST(Custom, PowersAboutAnotherPointStayAboutIt) {
+  const auto end = [](const std::string& H, double q, double p, const char* method) {
+    const Problem problem = make_problem(read(fmt::format("H = \"{}\"\ninitial = {{ q = {}, p = {} }}", H, q, p)));
+    const Solution s = solve(problem, {.method = method, .h = 1.0 / 64, .t_end = 10});
+    EXPECT_EQ(s.report.law, LawVerdict::holds) << H << " " << s.report.law_reason;
+    return std::vector<double>(s.z.end() - s.size, s.z.end());
+  };
+  for (const char* method : {"seisav", "egc4"}) {
+    const std::vector<double> here = end("p^2/2 + q^4/4", 1, 0, method);
+    const std::vector<double> there = end("p^2/2 + (q - 10)^4/4", 11, 0, method);
+    EXPECT_NEAR(there[0] - 10, here[0], 1e-8) << method;
+    EXPECT_NEAR(there[1], here[1], 1e-8) << method;
+  }
+  const Problem high = make_problem(read("H = \"p^2/2 + (q - 3)^20\"\ninitial = { q = 3.5, p = 0.5 }"));
+  EXPECT_NEAR(Simulation(high, {.method = "egc4"}).system().energy(high.initial), 0.125 + std::pow(0.5, 20), 1e-12);
+  end("p^2/2 + (q - 10)^8", 10.5, 0.5, "egc6");
+}
+
+TEST(Custom, ParametersDoNotTakeThePlaceOfFieldsAndTheirDerivatives) {
+  EXPECT_THAT(complaint("parameters = { u = 0.3 }\nH = \"p^2/2 + u*q^2/2\"\ninitial = { q = 1, p = 0 }\n"
+                        "friction = { kind = \"position\", coefficient = \"u\" }"),
+              HasSubstr("u is the coordinate here, and a parameter of that name is not"));
+  const std::string wave = "points = 8\ninitial = \"zero\"\nH = \"v^2/2 + u_x^2/2\"\n";
+  EXPECT_THAT(complaint(wave + "parameters = { u_x = 4 }"), HasSubstr("u_x is a derivative or difference of a field"));
+  EXPECT_THAT(complaint(wave + "parameters = { du = 4 }"), HasSubstr("du is a derivative or difference of a field"));
+  for (const char* fields : {"[\"u_x\", \"u\"]", "[\"u\", \"u_x\"]"})
+    EXPECT_THAT(complaint(fmt::format("points = 8\ninitial = \"zero\"\nfields = {}\nH = \"u^2/2\"", fields)),
+                HasSubstr("problem.fields: u_x is a derivative or difference of a field"));
+}
+
+TEST(Custom, ThirtyTwoOscillatorsWithoutAGridRunByThemselves) {
+  std::string fields, H = "0", initial;
+  for (int k = 0; k < 64; ++k) {
+    const bool is_momentum = k >= 32;
+    const std::string name = fmt::format("{}{}", is_momentum ? "p" : "q", k % 32);
+    fields += fmt::format("{}\"{}\"", k == 0 ? "" : ", ", name);
+    initial += fmt::format("{}{} = {}", k == 0 ? "" : ", ", name, is_momentum ? 0.0 : 0.1 * k);
+    H += is_momentum ? fmt::format(" + {}^2/2", name) : k > 0 ? fmt::format(" + 1 - cos({} - q{})", name, k - 1) : "";
+  }
+  const Problem p =
+      make_problem(read(fmt::format("fields = [{}]\nH = \"{}\"\ninitial = {{ {} }}", fields, H, initial)));
+  for (const char* method : {"egc4", "crkn6"}) {
+    const RunReport report = solve(p, {.method = method, .h = 0.1, .t_end = 1}).report;
+    EXPECT_EQ(report.status, RunReport::Status::success) << method << ": " << report.message;
+    EXPECT_EQ(report.law, LawVerdict::holds) << method;
+  }
 }
 
 TEST(Custom, SumsThatAreLongMultipliedOutStayAsTheyAreWritten) {

@@ -25,21 +25,23 @@ std::vector<std::string> field_names(const CustomProblem& custom) {
   std::vector<std::string> taken = {"pi", "Pi", "t", "j", "e", "file"};
   if (has_place) taken.insert(taken.end(), {"x", "y", "z", "dx", "dy", "dz", "laplacian", "d_x", "d_y", "d_z"});
   for (const FormulaFunction& function : formula_functions()) taken.emplace_back(function.name);
-  for (const auto& [name, value] : custom.parameters) {
-    if (!is_name(name)) throw Error("problem.parameters: '{}' is no name: letters, digits and _, a letter first", name);
-    if (std::find(taken.begin(), taken.end(), name) != taken.end())
-      throw Error("problem.parameters: the name {} stands for something else in formulas", name);
-    taken.push_back(name);
-  }
+  std::vector<std::string> derived;  // from the names of fields
   for (const std::string& name : names) {
-    if (!is_name(name)) throw Error("problem.fields: '{}' is no name: letters, digits and _, a letter first", name);
-    if (std::find(taken.begin(), taken.end(), name) != taken.end())
-      throw Error("problem.fields: the name {} stands for something else in formulas", name);
-    taken.push_back(name);
-    if (!has_place) continue;
-    for (const char* derivative : {"_x", "_y", "_z", "_xx", "_yy", "_zz"}) taken.push_back(name + derivative);
-    taken.push_back("d" + name);
+    if (!has_place) break;
+    for (const char* derivative : {"_x", "_y", "_z", "_xx", "_yy", "_zz"}) derived.push_back(name + derivative);
+    derived.push_back("d" + name);
   }
+  const auto take = [&](const char* key, const char* kind, const std::string& name) {
+    if (!is_name(name)) throw Error("problem.{}: '{}' is no name: letters, digits and _, a letter first", key, name);
+    if (std::find(taken.begin(), taken.end(), name) != taken.end())
+      throw Error("problem.{}: the name {} stands for something else in formulas", key, name);
+    if (std::find(derived.begin(), derived.end(), name) != derived.end())
+      throw Error("problem.{}: {} is a derivative or difference of a field in formulas: give the {} another name", key,
+                  name, kind);
+    taken.push_back(name);
+  };
+  for (const auto& [name, value] : custom.parameters) take("parameters", "parameter", name);
+  for (const std::string& name : names) take("fields", "field", name);
   return names;
 }
 

@@ -55,30 +55,27 @@ double constant(const std::string& text, const FormulaConstants& constants) {
   return (*compile_formula(text, {}, constants))(std::span<const double>());
 }
 
-bool compiles_without(const std::string& text, const std::vector<std::string>& absent,
-                      const FormulaConstants& constants) {
-  std::vector<std::string> names = friction_variables();
-  std::erase_if(names,
-                [&](const std::string& n) { return std::find(absent.begin(), absent.end(), n) != absent.end(); });
-  try {
-    compile_formula(text, names, constants);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
+// Does the formula name one of these variables of friction? A parameter of the same name is none.
+bool names_one_of(const std::string& text, const std::vector<std::string>& names, const FormulaConstants& constants) {
+  const std::vector<std::string> variables = friction_variables();
+  const FormulaProgram program = parse_formula(text, variables, constants).program;
+  return std::any_of(program.begin(), program.end(), [&](const Instruction& instruction) {
+    return instruction.kind == Instruction::Kind::variable &&
+           std::find(names.begin(), names.end(), variables[static_cast<std::size_t>(instruction.index)]) != names.end();
+  });
 }
 
 FrictionFormula friction_formula(const std::string& text, const Grid& grid, const FormulaConstants& constants) {
   for (std::size_t a = static_cast<std::size_t>(grid.dimension()); a < axis_names.size(); ++a)
-    if (!compiles_without(text, {axis_names[a]}, constants))
+    if (names_one_of(text, {axis_names[a]}, constants))
       throw Error("problem.friction: {} names {}, but {}", text, axis_names[a],
                   grid.only_numbers
                       ? std::string("there are no such places")
                       : fmt::format("the grid has {} ax{}", grid.dimension(), grid.dimension() == 1 ? "is" : "es"));
   return {.formula = compile_formula(text, friction_variables(), constants),
-          .uses_u = !compiles_without(text, {"u"}, constants),
-          .uses_t = !compiles_without(text, {"t"}, constants),
-          .uses_place = !compiles_without(text, {"x", "y", "z"}, constants)};
+          .uses_u = names_one_of(text, {"u"}, constants),
+          .uses_t = names_one_of(text, {"t"}, constants),
+          .uses_place = names_one_of(text, {"x", "y", "z"}, constants)};
 }
 
 FrictionPointer make_friction(const FrictionSpec& spec, const Problem& problem, double inverse_mass,
@@ -176,7 +173,7 @@ FrictionSpec read_friction(const std::string& key, const CaseValue& value, const
         throw Error("{}: {}", name, error.what());
       }
       if (k.name == "coefficient" &&
-          !compiles_without(in_velocity_and_coordinate(given->text, problem.fields, 1), {"v"}, constants))
+          names_one_of(in_velocity_and_coordinate(given->text, problem.fields, 1), {"v"}, constants))
         throw Error("{} = {} must not name v: it stands before v already; for other laws write kind = \"formula\"",
                     name, given->shown());
       spec.texts[k.name] = given->text;

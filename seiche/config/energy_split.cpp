@@ -80,13 +80,13 @@ class Splitter {
     }
   }
 
-  // Term by term. What is a polynomial is multiplied out, as long as that ends; the rest stays as it was written.
+  // Term by term. What is a polynomial about the origin is multiplied out, as long as that ends; the rest stays as it was written.
   void sort(const Expression& expression, bool may_expand) {
     if (GiNaC::is_a<GiNaC::add>(expression)) {
       for (const Expression& term : in_one_order(expression)) sort(term, may_expand);
       return;
     }
-    if (may_expand && is_small_polynomial(expression, active_, symbols_)) {
+    if (may_expand && is_small_polynomial(expression, active_, symbols_) && !has_shifted_power(expression, active_)) {
       sort(expression.expand(), false);
       return;
     }
@@ -252,7 +252,7 @@ class Splitter {
   static void look_at_powers(const Expression& w, const Symbols& fields, FieldFormula& out) {
     GiNaC::lst list;
     for (const GiNaC::realsymbol& field : fields) list.append(field);
-    if (!w.is_polynomial(list)) return;
+    if (!w.is_polynomial(list) || has_shifted_power(w, list)) return;
     std::set<int> degrees;
     // Sums that were too long to be multiplied out have degrees all the same.
     const bool is_sum = GiNaC::is_a<GiNaC::add>(w);

@@ -236,4 +236,20 @@ bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols
   return degree <= highest_degree * std::max(used, 1) && terms <= most_terms && degree * bits <= most_bits;
 }
 
+bool has_shifted_power(const Expression& expression, const GiNaC::lst& symbols) {
+  GiNaC::exmap origin;
+  for (const Expression& symbol : symbols) origin[symbol] = 0;
+  const auto is_shifted = [&](const Expression& base) {
+    if (!GiNaC::is_a<GiNaC::add>(base) || base.subs(origin).expand().is_zero()) return false;
+    return std::any_of(symbols.begin(), symbols.end(), [&](const Expression& symbol) {
+      return !base.diff(GiNaC::ex_to<GiNaC::symbol>(symbol)).subs(origin).expand().is_zero();
+    });
+  };
+  for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part)
+    if (GiNaC::is_a<GiNaC::power>(*part) && part->op(1).info(GiNaC::info_flags::posint) && part->op(1) > 2 &&
+        is_shifted(part->op(0)))
+      return true;
+  return false;
+}
+
 }  // namespace seiche

@@ -23,6 +23,11 @@ void check_friction_names(const std::string& text, const std::vector<std::string
   parse_formula(text, names, constants, advice);
   for (const FormulaToken& token : tokenise_formula(text)) {
     if (token.kind != FormulaToken::Kind::name) continue;
+    if ((token.text == "u" || token.text == "v") && constants.contains(std::string(token.text)))
+      throw formula_error(text, token.position,
+                          fmt::format("{} is the {} here, and a parameter of that name is not: give the parameter "
+                                      "another name",
+                                      token.text, token.text == "v" ? "velocity" : "coordinate"));
     const auto field = std::find(fields.begin(), fields.end(), token.text);
     const bool is_coordinate = field - fields.begin() < std::ssize(fields) / 2;
     if (field == fields.end() || (token.text != "v" && token.text != "u") || is_coordinate == (token.text == "u"))

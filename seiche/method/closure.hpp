@@ -36,7 +36,7 @@ class Closure {
  protected:
   bool keeps_ledger() const { return keeps_ledger_; }
   // Replaces H, which stands there, by the modified energy and its round-off.
-  virtual void read_modified(const State&, double /*quadratic_energy*/, EnergyReading&) const {}
+  virtual void read_modified(const State&, const ValueAndMagnitude& /*quadratic*/, EnergyReading&) const {}
   const System& system() const { return system_; }
   const Potential& potential() const { return *system_.potential; }
 

@@ -34,8 +34,8 @@ void EnergyLine::prepare_ray() {
     scratch_.d = z_;
     return;
   }
-  K_ = system_.linear->quadratic_energy(z_);
-  slope_ = Slope{2 * K_, std::abs(2 * K_)};
+  K_ = system_.linear->quadratic(z_);
+  slope_ = Slope{2 * K_.value, std::abs(2 * K_.value)};
   system_.potential->along_ray(z_, scratch_.V);
   for (std::size_t k = 1; k < scratch_.V.size(); ++k) {
     slope_->value += static_cast<double>(k) * scratch_.V[k];
@@ -70,11 +70,12 @@ EnergyLine::Parts EnergyLine::at(double lambda) const {
   Parts parts{.lambda = lambda};
   if (is_ray_ && polynomial_) {
     const double x = 1 + lambda;
-    parts.K = K_ * x * x;
+    parts.K = K_.value * x * x;
     for (std::size_t k = scratch_.V.size(); k-- > 0;) {
       parts.V = parts.V * x + scratch_.V[k];
       parts.size = parts.size * std::abs(x) + std::abs(scratch_.V[k]);
     }
+    parts.size += K_.magnitude * x * x;
     return parts;
   }
   if (is_ray_)
@@ -82,10 +83,11 @@ EnergyLine::Parts EnergyLine::at(double lambda) const {
   else if (lambda != 0)
     scratch_.trial = z_ + lambda * scratch_.d;
   const Vector& at = lambda == 0 ? z_ : scratch_.trial;
-  parts.K = system_.linear->quadratic_energy(at);
+  const ValueAndMagnitude K = system_.linear->quadratic(at);
   const ValueAndMagnitude V = system_.potential->value_and_magnitude(at);
+  parts.K = K.value;
   parts.V = V.value;
-  parts.size = V.magnitude;  // and not |V|, in which terms may cancel
+  parts.size = K.magnitude + V.magnitude;  // and not |K| + |V|, in which terms may cancel
   return parts;
 }
 

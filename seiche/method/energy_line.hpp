@@ -32,10 +32,10 @@ class EnergyLine {
   struct Parts {  // of H at one point
     double lambda = 0;
     double K = 0, V = 0;
-    double size = 0;  // of the terms of V, as far as they are known one by one
+    double size = 0;  // of the terms of K and V, as far as they are known one by one
     double H() const { return K + V; }
     double round_off() const { return 4 * epsilon * (std::abs(K) + std::abs(V)); }  // to be hoped for
-    double loss() const { return 16 * epsilon * (std::abs(K) + size); }             // to be put up with
+    double loss() const { return 16 * epsilon * size; }                             // to be put up with
   };
   Parts at(double lambda) const;
 
@@ -57,7 +57,7 @@ class EnergyLine {
   EnergyLineScratch& scratch_;
   const Vector& z_;
   bool is_ray_, polynomial_;
-  double K_ = 0;  // at λ = 0, on the ray
+  ValueAndMagnitude K_ = {};  // at λ = 0, on the ray
   std::optional<Slope> slope_;
 };
 

@@ -27,7 +27,7 @@ class SavClosure final : public Closure {
   bool has_modified_energy() const override { return true; }
 
  protected:
-  void read_modified(const State& s, double quadratic_energy, EnergyReading& reading) const override;
+  void read_modified(const State& s, const ValueAndMagnitude& quadratic, EnergyReading& reading) const override;
 
  private:
   bool keep_margin(State& s, double quadratic_energy, double v_mid) const;
@@ -128,9 +128,9 @@ StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double
                                  s.shift + 2 * (s.energy_scale + std::abs(v_mid)))};
 }
 
-void SavClosure::read_modified(const State& s, double quadratic_energy, EnergyReading& reading) const {
-  reading.modified = quadratic_energy + (s.r_squared - s.shift);
-  reading.modified_round_off = 50 * epsilon * (quadratic_energy + s.r_squared + std::abs(s.shift));
+void SavClosure::read_modified(const State& s, const ValueAndMagnitude& quadratic, EnergyReading& reading) const {
+  reading.modified = quadratic.value + (s.r_squared - s.shift);
+  reading.modified_round_off = 50 * epsilon * (2 * quadratic.magnitude + s.r_squared + std::abs(s.shift));
 }
 
 }  // namespace
