@@ -280,6 +280,12 @@ TEST(Custom, PowersAboutAnotherPointStayAboutIt) {
   end("p^2/2 + (q - 10)^8", 10.5, 0.5, "egc6");
 }
 
+TEST(Custom, EveryCaseFileHasAFolderOfItsOwn) {
+  const std::string text = "[problem]\nname = \"custom\"\nH = \"p^2/2 + q^4\"\ninitial = { q = 1, p = 0 }\n";
+  EXPECT_EQ(parse_case(text, "cases/wells.toml").output_directory, "out/wells");
+  EXPECT_EQ(parse_case("[problem]\nname = \"oscillator\"\n", "cases/wells.toml").output_directory, "out/oscillator");
+}
+
 TEST(Custom, ParametersDoNotTakeThePlaceOfFieldsAndTheirDerivatives) {
   EXPECT_THAT(complaint("parameters = { u = 0.3 }\nH = \"p^2/2 + u*q^2/2\"\ninitial = { q = 1, p = 0 }\n"
                         "friction = { kind = \"position\", coefficient = \"u\" }"),

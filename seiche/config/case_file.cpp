@@ -354,7 +354,9 @@ class Reader {
   }
 
   void read_output() {
-    spec_.output_directory = "out/" + spec_.problem;
+    // Two problems of one's own are two, and neither takes the other's folder.
+    const std::string stem = std::filesystem::path(name_).stem().string();
+    spec_.output_directory = "out/" + (spec_.custom && !stem.empty() ? stem : spec_.problem);
     on("output", "directory", [&](const std::string& key, const CaseValue& value) {
       spec_.output_directory = read_text(key, value);
       if (spec_.output_directory.empty()) throw Error("{} must not be empty", key);
