@@ -87,6 +87,16 @@ TEST_F(PictureChoice, DampingInOnePieceIsNotCalledAHalf) {
   EXPECT_EQ(cause_label(history, "projection"), "projection");
 }
 
+TEST_F(PictureChoice, PortraitsPairACoordinateWithItsMomentum) {
+  run("custom",
+      "'problem.fields=[\"a\",\"b\",\"pa\",\"pb\"]' 'problem.H=\"pa^2/2+pb^2/2+a^2+b^4+a^2*b^2\"' "
+      "'problem.initial={a=1,b=0,pa=0,pb=0.5}'");
+  std::vector<std::string> stems;
+  for (const CurvePicture& picture : solution_curves(read_run(out()), SolutionReader(out() / "solution.h5")))
+    stems.push_back(picture.plot.stem);
+  EXPECT_EQ(stems, (std::vector<std::string>{"fields", "portrait_a_pa", "portrait_b_pb"}));
+}
+
 TEST_F(PictureChoice, SlicesOfAFieldThatDiesDownHaveScalesOfTheirOwn) {
   const auto slices = [&](const char* gamma) {
     run("klein_gordon",

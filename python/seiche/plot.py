@@ -247,7 +247,7 @@ def phase_portrait(
     ax: "Axes | None" = None,
     **style: _typing.Any,
 ) -> "Axes":
-    """One field over another, by default the second over the first, with the start (open circle) and the end (filled square).
+    """One field over another, by default a momentum over its coordinate, with the start (open circle) and the end (filled square).
 
     Every point is a curve, unless `point` chooses one, from 0. Where fewer than 24 states make a turn they are shown as dots on a
     thin line, and where fewer than 6 do, without it: corners are not of the solution, and a smaller step between records, or
@@ -258,7 +258,9 @@ def phase_portrait(
     if len(fields) < 2:
         raise ValueError(f"{result.problem.name} has one field, {fields[0]}; a phase portrait draws two")
     x = fields[0] if x is None else x
-    y = next(name for name in fields if name != x) if y is None else y
+    if y is None:  # the partner stands half of the fields behind; of an odd number the next
+        apart = len(fields) // 2 if len(fields) % 2 == 0 else 1
+        y = fields[(fields.index(x) + apart) % len(fields)] if x in fields else next(name for name in fields if name != x)
     across, up = (result.field(name).reshape(len(result.t), -1) for name in (x, y))
     if point is not None:
         if not 0 <= point < across.shape[1]:

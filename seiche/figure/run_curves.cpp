@@ -299,8 +299,10 @@ std::vector<CurvePicture> solution_curves(const RunFiles& run, const SolutionRea
   if (solution.axes().empty() || (solution.on_points() && solution.points() <= few_points)) {
     const Histories values = histories(solution);
     all.push_back(fields_over_time(run, solution, values));
-    for (std::size_t f = 0; f + 1 < solution.fields().size(); ++f)
-      all.push_back(portrait(run, solution, values, f, f + 1));
+    // Each coordinate with its momentum, which stands half of the fields behind it; of an odd number neighbours.
+    const std::size_t fields = solution.fields().size();
+    const std::size_t apart = fields % 2 == 0 ? fields / 2 : 1;
+    for (std::size_t f = 0; f + apart < fields; ++f) all.push_back(portrait(run, solution, values, f, f + apart));
   } else {
     for (std::size_t f = 0; f < solution.fields().size(); ++f)
       all.push_back(profiles(run, solution, static_cast<Index>(f)));
