@@ -119,14 +119,16 @@ class DenseLinear final : public LinearPart {
         M_(std::move(M)),
         absolute_M_(M_.cwiseAbs()),
         metric_(M_),
-        scratch_(M_.rows()) {}
+        scratch_(M_.rows()),
+        absolute_(M_.rows()) {}
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = S_ * z; }
   void apply_M(const Vector& z, Vector& out) const override { out.noalias() = M_ * z; }
   double quadratic_energy(const Vector& z) const override { return metric_.energy(z); }
   double quadratic_magnitude(const Vector& z) const override {
-    scratch_.noalias() = absolute_M_ * z.cwiseAbs();
-    return z.cwiseAbs().dot(scratch_) / 2;
+    absolute_ = z.cwiseAbs();  // a product with an expression would allocate
+    scratch_.noalias() = absolute_M_ * absolute_;
+    return absolute_.dot(scratch_) / 2;
   }
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
     return std::make_unique<DensePropagator>(force_maps(kind, S_, M_, h), M_, metric_, support_);
@@ -136,7 +138,7 @@ class DenseLinear final : public LinearPart {
   Potential::Support support_;
   Matrix S_, M_, absolute_M_;
   DenseMetric metric_;
-  mutable Vector scratch_;
+  mutable Vector scratch_, absolute_;
 };
 
 }  // namespace

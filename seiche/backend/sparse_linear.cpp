@@ -74,7 +74,8 @@ class SparseLinear final : public LinearPart {
         options_(options),
         rows_of_M_(EqualRows::of(operators_.M)),
         radius_(spectral_radius_bound(operators_.S * operators_.M)),
-        scratch_(operators_.S.rows()) {
+        scratch_(operators_.S.rows()),
+        absolute_(operators_.S.rows()) {
     if (options.exponential == ExponentialKind::lanczos)
       skew_ = std::make_shared<SkewSystem>(operators_.S, operators_.M);
   }
@@ -92,8 +93,9 @@ class SparseLinear final : public LinearPart {
     return z.dot(scratch_) / 2;
   }
   double quadratic_magnitude(const Vector& z) const override {
-    scratch_.noalias() = operators_.absolute_M * z.cwiseAbs();
-    return z.cwiseAbs().dot(scratch_) / 2;
+    absolute_ = z.cwiseAbs();  // a product with an expression would allocate
+    scratch_.noalias() = operators_.absolute_M * absolute_;
+    return absolute_.dot(scratch_) / 2;
   }
   ValueAndMagnitude quadratic(const Vector& z) const override {
     if (!rows_of_M_) return LinearPart::quadratic(z);
@@ -141,7 +143,7 @@ class SparseLinear final : public LinearPart {
   mutable double factor_bytes_ = -1;                   // likewise
   double radius_;
   std::shared_ptr<const SkewSystem> skew_;  // null: Padé
-  mutable Vector scratch_;
+  mutable Vector scratch_, absolute_;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace seiche {
 namespace {
 
 // With a minus sign as wide as a digit.
-std::string signed_text(bool is_negative, std::string size) { return is_negative ? "−" + size : size; }
+std::string signed_text(bool is_negative, const std::string& size) { return is_negative ? "−" + size : size; }
 
 std::string power_of_ten(int n) { return fmt::format("10^{{{}}}", signed_text(n < 0, std::to_string(std::abs(n)))); }
 
