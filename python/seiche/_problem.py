@@ -145,7 +145,7 @@ class Problem:
     _text: str | None = None  # the [problem] section it came from
     _has_initial: bool = True
     _file: str | None = None  # the case file it came from
-    _remake: tuple = ()  # a function of this module and its arguments, for pickle
+    _remake: tuple = ()  # without a text: a function of this module and its arguments, for pickle
 
     def __init__(
         self,
@@ -176,27 +176,29 @@ class Problem:
             stated = problem("custom", fields=named, H=H, M=M, V=V, S=S, D=D, **({"initial": "zero"} | written))
             self._core, self._text = stated._core, stated._text
             self._has_initial = "initial" in written
-            self._remake = (_of_text, (self._text, self._has_initial))
             return
         if written:
             raise ValueError(f"{', '.join(written)}: only for a problem by formulas, with H or the names of its fields")
         if M is None:
             raise ValueError("a problem needs M, or H by a formula")
-        self._has_initial = z0 is not None
         start = None if z0 is None else real_array("z0", z0).copy()
         matrices = (_columns("M", M), _columns("S", S), _columns("D", D))
-        self._remake = (_of_parts, (fields, *matrices, gamma, V, gradient, grows_outward, start))
-        self._core = _core.problem_by_parts(*self._remake[1])
+        self._take_parts(fields, *matrices, gamma, V, gradient, grows_outward, start)
+
+    def _take_parts(self, *parts: Any) -> None:
+        """Those of `_core.problem_by_parts`, of which the last is z0."""
+        self._core = _core.problem_by_parts(*parts)
+        self._has_initial = parts[-1] is not None
+        self._remake = (_of_parts, parts)
 
     def __reduce__(self) -> tuple:
-        return self._remake
+        return self._remake if self._text is None else (_of_text, (self._text, self._has_initial))
 
     @classmethod
     def _of_case(cls, case: _core.Case, text: str | None) -> "Problem":
         made = cls.__new__(cls)
         made._core = make_problem(case)
         made._text = text
-        made._remake = (_of_text, (text, True))
         return made
 
     @property
@@ -241,24 +243,17 @@ class Problem:
 def _of_text(text: str, has_initial: bool) -> Problem:
     made = Problem._of_case(parse_keywords(text), text)
     made._has_initial = has_initial
-    made._remake = (_of_text, (text, has_initial))
     return made
 
 
 def _of_parts(*parts: Any) -> Problem:
     made = Problem.__new__(Problem)
-    made._core = _core.problem_by_parts(*parts)
-    made._has_initial = parts[-1] is not None
-    made._remake = (_of_parts, parts)
+    made._take_parts(*parts)
     return made
 
 
-def _of_file(file: str, overrides: Sequence[str], written: str) -> "Case":
-    return Case(file, overrides, written)
-
-
-def _of_files_problem(*case: Any) -> Problem:
-    return _of_file(*case).problem
+def _of_case_file(*case: Any) -> Problem:
+    return Case(*case).problem
 
 
 class Case:
@@ -272,10 +267,10 @@ class Case:
         self._core = self._read([])
         self.problem = Problem._of_case(self._core, None)
         self.problem._file = self._file
-        self.problem._remake = (_of_files_problem, self.__reduce__()[1])
+        self.problem._remake = (_of_case_file, self.__reduce__()[1])
 
     def __reduce__(self) -> tuple:
-        return _of_file, (self._file, self._overrides, self._written)
+        return Case, (self._file, self._overrides, self._written)
 
     def _read(self, overrides: Sequence[str]) -> _core.Case:
         try:

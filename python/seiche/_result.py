@@ -65,7 +65,6 @@ class DenseOutput:
         values[order] = self._solution.at(times.ravel()[order])
         return values[0] if times.ndim == 0 else values.T
 
-
     def __reduce__(self) -> Any:
         raise TypeError("a dense output lives in one process: evaluate sol at the times that are needed, or solve without it")
 

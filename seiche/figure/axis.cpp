@@ -9,9 +9,6 @@
 namespace seiche {
 namespace {
 
-// With a minus sign as wide as a digit.
-std::string exponent(int n) { return n < 0 ? fmt::format("−{}", -n) : fmt::format("{}", n); }
-
 void add_tick(std::string& ticks, const std::string& label, double at, bool minor) {
   ticks += fmt::format("{}'{}' {:.17g} {}", ticks.empty() ? "" : ", ", label, at, minor ? 1 : 0);
 }
@@ -30,7 +27,7 @@ std::string decade_ticks(double low, double high) {
   for (int n = first; n <= last; ++n) {
     const double decade = std::pow(10.0, n);
     const bool labelled = n % stride == 0;
-    if (inside(decade)) add_tick(ticks, labelled ? fmt::format("10^{{{}}}", exponent(n)) : "", decade, !labelled);
+    if (inside(decade)) add_tick(ticks, labelled ? power_text(10, n) : "", decade, !labelled);
     if (stride > 1) continue;
     for (int m = 2; m <= 9; ++m) {
       if (!inside(m * decade)) continue;
@@ -38,7 +35,7 @@ std::string decade_ticks(double low, double high) {
       const bool room =
           std::log10(m * decade / low) > 0.04 * decades && std::log10(high / (m * decade)) > 0.04 * decades;
       const bool named = labels <= 1 && room && (m == 2 || m == 5 || (decades < 0.5 && m != 9));
-      add_tick(ticks, named ? fmt::format("{}·10^{{{}}}", m, exponent(n)) : "", m * decade, !named);
+      add_tick(ticks, named ? fmt::format("{}·{}", m, power_text(10, n)) : "", m * decade, !named);
     }
   }
   return "(" + ticks + ")";
@@ -131,7 +128,7 @@ Axis step_size_axis(std::span<const double> step_sizes) {
   std::size_t i = 0;
   for (const double h : sorted) {
     const bool labelled = i++ % stride == 0;
-    add_tick(ticks, labelled ? fmt::format("2^{{{}}}", exponent(std::ilogb(h))) : "", h, !labelled);
+    add_tick(ticks, labelled ? power_text(2, std::ilogb(h)) : "", h, !labelled);
   }
   axis.ticks = "(" + ticks + ")";
   return axis;

@@ -9,10 +9,7 @@
 namespace seiche {
 namespace {
 
-// With a minus sign as wide as a digit.
 std::string signed_text(bool is_negative, const std::string& size) { return is_negative ? "−" + size : size; }
-
-std::string power_of_ten(int n) { return fmt::format("10^{{{}}}", signed_text(n < 0, std::to_string(std::abs(n)))); }
 
 int decade_of(double value) { return static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9)); }
 
@@ -23,7 +20,7 @@ std::string number(double value) {
   const int decade = value == 0 ? 0 : decade_of(value);
   if (is_ordinary(decade) || std::abs(value) < 1e7) return fmt::format("{:.10g}", value);
   const std::string factor = fmt::format("{:.10g}", value / std::pow(10.0, decade));
-  return factor == "1" ? power_of_ten(decade) : factor + "·" + power_of_ten(decade);
+  return factor == "1" ? power_text(10, decade) : factor + "·" + power_text(10, decade);
 }
 
 // The one of fewest digits in between.
@@ -47,6 +44,10 @@ std::string fixed(double value, int digits) {
 
 }  // namespace
 
+std::string power_text(int base, int n) {
+  return fmt::format("{}^{{{}}}", base, signed_text(n < 0, std::to_string(std::abs(n))));
+}
+
 LinearTicks linear_ticks(double low, double high, int count) {
   LinearTicks result;
   const double span = high - low;
@@ -67,7 +68,7 @@ LinearTicks linear_ticks(double low, double high, int count) {
                                 offset + k * step);
   result.ticks = "(" + result.ticks + ")";
   if (offset != 0) result.offset = fmt::format(" {} {}", offset < 0 ? "+" : "−", number(std::abs(offset)));
-  if (unit != 1) result.power = " / " + power_of_ten(decade);
+  if (unit != 1) result.power = " / " + power_text(10, decade);
   return result;
 }
 

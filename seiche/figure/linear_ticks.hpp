@@ -14,6 +14,8 @@ struct LinearTicks {
 
 LinearTicks linear_ticks(double low, double high, int count = 3);  // at least so many, and up to twice as many
 
+std::string power_text(int base, int n);  // "10^{−6}", with a minus sign as wide as a digit
+
 // A text for gnuplot (an expression of strings), followed by what the ticks leave out.
 std::string with_unit(const std::string& label, const LinearTicks& ticks);
 
