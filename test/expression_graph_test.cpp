@@ -154,6 +154,7 @@ TEST(ExpressionGraph, MeanSlopesOfFunctionsLoseNoDigits) {
       {"log", [](long double x) { return std::log(x); }, 0.7},
       {"sqrt", [](long double x) { return std::sqrt(x); }, 0.7},
       {"abs", [](long double x) { return std::fabs(x); }, 0.7},
+      {"sign", [](long double x) -> long double { return x == 0 ? 0 : std::copysign(1.0L, x); }, -0.1},
       {"sech", [](long double x) { return 1 / std::cosh(x); }, 0.7},
   };
   for (const FormulaFunction& function : formula_functions()) {

@@ -116,7 +116,8 @@ TEST(NameAdvice, MinAndMaxBesideDerivativesSayWhatDTakes) {
                     HasSubstr("D takes coefficients of derivatives, or a rate"), Not(HasSubstr("no derivative here"))));
   EXPECT_EQ(said(ring, {"problem.D={ v = \"max(0.1, sin(t))\" }"}), "");
   EXPECT_THAT(said(oscillator, {"problem.H=p^2/2 + max(q, 1)"}),
-              HasSubstr("problem.H = \"p^2/2 + max(q, 1)\": max has no derivative here"));
+              HasSubstr(
+                  "problem.H: formula, column 9: max has no derivative, and forces are derivatives of the energy"));
 }
 
 TEST(DottedKeys, ReachIntoTablesAndLeaveTheOtherEntriesAsTheyAre) {

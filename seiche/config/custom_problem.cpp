@@ -131,10 +131,10 @@ class Builder {
       p_.damping.constant(i, j) = entry.stencil;
       if (entry.rate.empty()) return;
       if (i != j) throw Error("{} = {}: off the diagonal D is constant", entry_key("D", i, j), entry.rate);
-      if (!rate.empty() && rate != entry.rate)
+      if (!rate.empty() && !is_one_rate(rate, entry.rate, constants_))
         throw Error("problem.D has two rates that change, {} and {}; one is possible, of as many fields as wanted",
                     rate, entry.rate);
-      rate = entry.rate;
+      if (rate.empty()) rate = entry.rate;
       p_.damping.rate_fields[static_cast<std::size_t>(i)] = true;
     });
     if (rate.empty()) {
@@ -235,7 +235,11 @@ class Builder {
   EnergySplit take_energy(const QuadraticTerms& terms) {
     EnergySplit split = split_energy("problem.H", custom_.H, energy_names(), constants_, terms);
     p_.M = BlockStencil(fields());
-    for (const QuadraticTerm& term : split.quadratic) add_quadratic(term);
+    try {
+      for (const QuadraticTerm& term : split.quadratic) add_quadratic(term);
+    } catch (const Error& error) {
+      throw Error("problem.H = \"{}\": {}", custom_.H, error.what());
+    }
     set_potential(split);
     return split;
   }
@@ -296,13 +300,12 @@ class Builder {
   Stencil product(const Factor& a, const Factor& b) const {
     using Kind = Factor::Kind;
     if (a.kind == Kind::bond || b.kind == Kind::bond) {
-      if (a.kind != b.kind)
-        throw Error("problem.H: a difference between neighbours stands beside what belongs to a point");
+      if (a.kind != b.kind) throw Error("a difference between neighbours stands beside what belongs to a point");
       require_bonds();
       return -square(p_.grid.axis(0).dx()) * Stencil::second_derivative(p_.grid, 0, Discretisation::fd2);
     }
     if (a.kind != Kind::value && b.kind != Kind::value && a.axis != b.axis)
-      throw Error("problem.H: products of derivatives along different axes are not there");
+      throw Error("products of derivatives along different axes are not there");
     const Index axis = a.kind != Kind::value ? a.axis : b.axis;
     const int order = static_cast<int>(a.kind) + static_cast<int>(b.kind);  // value, first, second
     const double sign = a.kind == Kind::first ? -1 : 1;

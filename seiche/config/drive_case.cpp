@@ -59,9 +59,8 @@ double constant(const std::string& text, const FormulaConstants& constants) {
 bool names_one_of(const std::string& text, const std::vector<std::string>& names, const FormulaConstants& constants) {
   const std::vector<std::string> variables = friction_variables();
   const FormulaProgram program = parse_formula(text, variables, constants).program;
-  return std::any_of(program.begin(), program.end(), [&](const Instruction& instruction) {
-    return instruction.kind == Instruction::Kind::variable &&
-           std::find(names.begin(), names.end(), variables[static_cast<std::size_t>(instruction.index)]) != names.end();
+  return names_variable(program, [&](std::size_t variable) {
+    return std::find(names.begin(), names.end(), variables[variable]) != names.end();
   });
 }
 

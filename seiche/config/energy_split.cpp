@@ -1,4 +1,5 @@
 #include <seiche/config/energy_split.hpp>
+#include <seiche/config/expansion.hpp>
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/config/formula_expression.hpp>
 #include <seiche/core/axis_names.hpp>
@@ -61,7 +62,9 @@ class Splitter {
       if (v < layout_.fields || v >= layout_.first_factor()) active_.append(symbols_[v]);
     bond_.assign(layout_.fields, Expression(0));
     try {
-      sort(to_expression(program, symbols_), true);
+      sort(to_expression(program, symbols_));
+      for (const Expression& term : summands(polynomial_)) place(term);
+      for (const Expression& term : summands(as_written_)) place(term);
       return result();
     } catch (const Error& error) {
       const std::string_view said = error.what();
@@ -74,23 +77,27 @@ class Splitter {
  private:
   FormulaProgram parse(const FormulaConstants& constants) const {
     try {
-      return parse_formula(text_, layout_.variables, constants, advice_).program;
+      return parse_formula(text_, layout_.variables, constants, advice_, FunctionsAllowed::differentiable).program;
     } catch (const Error& error) {
       throw Error("{}: {}", key_, error.what());
     }
   }
 
-  // Term by term. What is a polynomial about the origin is multiplied out, as long as that ends; the rest stays as it was written.
-  void sort(const Expression& expression, bool may_expand) {
+  // Term by term. What is a polynomial about the origin is multiplied out, as long as that ends, and whole before any term of
+  // it is placed: what one bracket holds another may cancel. The rest stays as it was written.
+  void sort(const Expression& expression) {
     if (GiNaC::is_a<GiNaC::add>(expression)) {
-      for (const Expression& term : in_one_order(expression)) sort(term, may_expand);
-      return;
+      for (const Expression& term : expression) sort(term);
+    } else if (is_small_polynomial(expression, active_, symbols_) && !has_shifted_power(expression, active_)) {
+      polynomial_ += expression.expand();
+    } else {
+      as_written_ += expression;
     }
-    if (may_expand && is_small_polynomial(expression, active_, symbols_) && !has_shifted_power(expression, active_)) {
-      sort(expression.expand(), false);
-      return;
-    }
-    place(expression);
+  }
+
+  static std::vector<Expression> summands(const Expression& sum) {
+    if (GiNaC::is_a<GiNaC::add>(sum)) return in_one_order(sum);
+    return sum.is_zero() ? std::vector<Expression>() : std::vector{sum};
   }
 
   std::vector<std::size_t> named_in(const Expression& term) const {
@@ -307,6 +314,7 @@ class Splitter {
   const QuadraticTerms& quadratic_;
   Symbols symbols_;
   GiNaC::lst active_;  // all symbols but the places
+  Expression polynomial_ = 0, as_written_ = 0;
   Expression point_ = 0, offset_ = 0, offset_in_place_ = 0, quadratic_sum_ = 0;
   std::vector<Expression> bond_;  // by field
   EnergySplit split_;

@@ -1,4 +1,5 @@
 // Expressions as a reader would write them, and in one order: computer algebra keeps its terms in another one every run.
+#include <seiche/config/algebra_functions.hpp>
 #include <seiche/config/formula_expression.hpp>
 
 #include <fmt/format.h>
@@ -93,7 +94,7 @@ std::string text_of(const Expression& expression) {
   if (GiNaC::is_a<GiNaC::function>(expression)) {
     std::vector<std::string> arguments;
     for (std::size_t i = 0; i < expression.nops(); ++i) arguments.push_back(text_of(expression.op(i)));
-    return fmt::format("{}({})", GiNaC::ex_to<GiNaC::function>(expression).get_name(), fmt::join(arguments, ", "));
+    return fmt::format("{}({})", name_of_function(expression), fmt::join(arguments, ", "));
   }
   std::ostringstream text;
   text << expression;

@@ -1,3 +1,5 @@
+#include <seiche/config/algebra_functions.hpp>
+#include <seiche/config/expansion.hpp>
 #include <seiche/config/formula_expression.hpp>
 #include <seiche/config/formula_parser.hpp>
 #include <seiche/core/error.hpp>
@@ -6,7 +8,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <string>
 
 namespace seiche {
@@ -32,49 +33,8 @@ Expression exact_number(double value) {
   return GiNaC::numeric(digits.c_str()) * GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(exponent));
 }
 
-Expression call_function(std::string_view name, const Expression& x) {
-  using Apply = Expression (*)(const Expression&);
-  static const std::map<std::string_view, Apply> functions = {
-      {"sin", [](const Expression& a) -> Expression { return GiNaC::sin(a); }},
-      {"cos", [](const Expression& a) -> Expression { return GiNaC::cos(a); }},
-      {"tan", [](const Expression& a) -> Expression { return GiNaC::tan(a); }},
-      {"asin", [](const Expression& a) -> Expression { return GiNaC::asin(a); }},
-      {"acos", [](const Expression& a) -> Expression { return GiNaC::acos(a); }},
-      {"atan", [](const Expression& a) -> Expression { return GiNaC::atan(a); }},
-      {"sinh", [](const Expression& a) -> Expression { return GiNaC::sinh(a); }},
-      {"cosh", [](const Expression& a) -> Expression { return GiNaC::cosh(a); }},
-      {"tanh", [](const Expression& a) -> Expression { return GiNaC::tanh(a); }},
-      {"asinh", [](const Expression& a) -> Expression { return GiNaC::asinh(a); }},
-      {"acosh", [](const Expression& a) -> Expression { return GiNaC::acosh(a); }},
-      {"atanh", [](const Expression& a) -> Expression { return GiNaC::atanh(a); }},
-      {"exp", [](const Expression& a) -> Expression { return GiNaC::exp(a); }},
-      {"log", [](const Expression& a) -> Expression { return GiNaC::log(a); }},
-      {"sqrt", [](const Expression& a) -> Expression { return GiNaC::sqrt(a); }},
-      {"abs", [](const Expression& a) -> Expression { return GiNaC::abs(a); }},
-      {"sech", [](const Expression& a) -> Expression { return 1 / GiNaC::cosh(a); }},
-  };
-  const auto found = functions.find(name);
-  if (found == functions.end()) throw Error("{} has no derivative here", name);
-  return found->second(x);
-}
-
 Error not_real(const Expression& expression) {
   return Error("'{}' is not a real function that can be evaluated", text_of(expression));
-}
-
-constexpr double most_bits = 20'000;  // of a number whose powers still take milliseconds
-
-double bits_of_number(const Expression& number) {
-  if (!GiNaC::is_a<GiNaC::numeric>(number) || !number.info(GiNaC::info_flags::rational)) return 0;
-  const auto& x = GiNaC::ex_to<GiNaC::numeric>(number);
-  return x.numer().int_length() + x.denom().int_length();
-}
-
-// Of a number, or of the one that a product begins with.
-double bits_of(const Expression& base) {
-  double bits = bits_of_number(base);
-  for (std::size_t i = 0; GiNaC::is_a<GiNaC::mul>(base) && i < base.nops(); ++i) bits += bits_of_number(base.op(i));
-  return bits;
 }
 
 // Exact arithmetic takes powers of all numbers in the base: with exponents that have no end neither has it.
@@ -128,7 +88,7 @@ Expression to_expression(std::span<const Instruction> program, const Symbols& sy
       default: stack.push_back(power(pop(), b)); break;
     }
   }
-  return stack.back();
+  return with_sech(stack.back());
 }
 
 void append_program(const Expression& expression, const Symbols& symbols, FormulaProgram& program) {
@@ -172,7 +132,7 @@ void append_program(const Expression& expression, const Symbols& symbols, Formul
     return;
   }
   if (GiNaC::is_a<GiNaC::function>(expression)) {
-    const FormulaFunction* function = find_formula_function(GiNaC::ex_to<GiNaC::function>(expression).get_name());
+    const FormulaFunction* function = find_formula_function(name_of_function(expression));
     if (function != nullptr && expression.nops() == 1) {
       append_program(expression.op(0), symbols, program);
       program.push_back({.kind = Kind::call, .function = function});
@@ -193,63 +153,6 @@ std::optional<double> real_number(const Expression& expression) {
   if (!GiNaC::is_a<GiNaC::numeric>(number)) return std::nullopt;
   const auto& x = GiNaC::ex_to<GiNaC::numeric>(number);
   return x.is_real() ? std::optional(x.to_double()) : std::nullopt;
-}
-
-namespace {
-
-// At most so many terms stand in it when it is multiplied out: C(n + m − 1, n) in the n-th power of m terms.
-double terms_multiplied_out(const Expression& expression) {
-  double terms = 1;
-  if (GiNaC::is_a<GiNaC::add>(expression)) {
-    terms = 0;
-    for (const Expression& term : expression) terms += terms_multiplied_out(term);
-  } else if (GiNaC::is_a<GiNaC::mul>(expression)) {
-    for (const Expression& factor : expression) terms *= terms_multiplied_out(factor);
-  } else if (GiNaC::is_a<GiNaC::power>(expression) && expression.op(1).info(GiNaC::info_flags::posint)) {
-    const double m = terms_multiplied_out(expression.op(0));
-    const double n = GiNaC::ex_to<GiNaC::numeric>(expression.op(1)).to_double();
-    for (double k = 1; k <= n && m > 1; ++k) terms *= (m - 1 + k) / k;
-  }
-  return terms;
-}
-
-}  // namespace
-
-bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols, const Symbols& beside) {
-  if (!expression.is_polynomial(symbols)) return false;
-  constexpr double most_terms = 2000;
-  double terms = 1;
-  double degree = 0, bits = 0;
-  int used = 0;
-  for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part)
-    bits = std::max(bits, bits_of_number(*part));
-  for (const GiNaC::realsymbol& symbol : beside) {
-    if (!expression.has(symbol)) continue;
-    if (!expression.is_polynomial(symbol)) {  // beside the polynomial, as 1/x is: no degree bounds its powers
-      if (terms_multiplied_out(expression) > most_terms) return false;
-      continue;
-    }
-    degree += expression.degree(symbol);
-    ++used;
-  }
-  for (int k = 1; k <= used; ++k) terms *= (degree + k) / k;
-  return degree <= highest_degree * std::max(used, 1) && terms <= most_terms && degree * bits <= most_bits;
-}
-
-bool has_shifted_power(const Expression& expression, const GiNaC::lst& symbols) {
-  GiNaC::exmap origin;
-  for (const Expression& symbol : symbols) origin[symbol] = 0;
-  const auto is_shifted = [&](const Expression& base) {
-    if (!GiNaC::is_a<GiNaC::add>(base) || base.subs(origin).expand().is_zero()) return false;
-    return std::any_of(symbols.begin(), symbols.end(), [&](const Expression& symbol) {
-      return !base.diff(GiNaC::ex_to<GiNaC::symbol>(symbol)).subs(origin).expand().is_zero();
-    });
-  };
-  for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part)
-    if (GiNaC::is_a<GiNaC::power>(*part) && part->op(1).info(GiNaC::info_flags::posint) && part->op(1) > 2 &&
-        is_shifted(part->op(0)))
-      return true;
-  return false;
 }
 
 }  // namespace seiche

@@ -33,12 +33,6 @@ std::vector<Expression> in_one_order(const Expression& expression);
 // Of an expression without symbols; nothing where there are some, or where it is not real.
 std::optional<double> real_number(const Expression& expression);
 
-// Is it a polynomial in `symbols` that can be multiplied out, with all symbols `beside` them, in a time that nobody notices?
-bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols, const Symbols& beside);
-// Does a polynomial in `symbols` hold a third or higher power about a point that is not the origin, as (q − 10)⁴ is? Multiplied
-// out, its terms are far larger than their sum, and its square is no stiffness that anybody feels.
-bool has_shifted_power(const Expression& expression, const GiNaC::lst& symbols);
-
 // u·∇W(u) ≥ 0 for every u in `fields`, whatever the other symbols are, as far as the form of W shows: sums and products of even
 // powers, rising functions of what grows outward (√(1 + p²), cosh q, 1 − sech q), and what is convex and at rest at 0
 // (eᵘ − u − 1). False says that the form does not show it. Hold algebra_mutex().

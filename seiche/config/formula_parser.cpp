@@ -25,8 +25,13 @@ struct Part {
 class Parser {
  public:
   Parser(std::string_view text, const std::vector<std::string>& variables, const FormulaConstants& constants,
-         const NameAdvice& advice)
-      : text_(text), variables_(variables), constants_(constants), advice_(advice), tokens_(tokenise_formula(text)) {}
+         const NameAdvice& advice, FunctionsAllowed allowed)
+      : text_(text),
+        variables_(variables),
+        constants_(constants),
+        advice_(advice),
+        allowed_(allowed),
+        tokens_(tokenise_formula(text)) {}
 
   ParsedFormula parse() {
     if (token().kind == FormulaToken::Kind::end) throw formula_error(text_, 0, "the formula is empty");
@@ -164,6 +169,9 @@ class Parser {
       throw formula_error(text_, name.position,
                           fmt::format("{} takes {} argument{}, not {}", function.name, function.arity,
                                       function.arity == 1 ? "" : "s", count));
+    if (!constant && !may_vary(function))
+      throw formula_error(text_, name.position,
+                          fmt::format("{} has no derivative, and forces are derivatives of the energy", function.name));
     program_.push_back({.kind = Kind::call, .function = &function});
     return folded(
         {.begin = begin, .position = name.position, .degree = constant ? 0 : not_polynomial, .constant = constant},
@@ -207,11 +215,16 @@ class Parser {
     std::erase(names, "");  // arguments that this formula has no name for
     for (const auto& [constant, value] : constants_) names.push_back(constant);
     names.emplace_back("pi");
-    for (const FormulaFunction& function : formula_functions()) names.emplace_back(function.name);
+    for (const FormulaFunction& function : formula_functions())
+      if (may_vary(function)) names.emplace_back(function.name);
     const std::string said = advice_ ? advice_(name.text, !nearest_name(name.text, names).empty()) : "";
     if (said.empty()) return formula_error(text_, name.position, unknown_name("name", name.text, names).what());
     return formula_error(text_, name.position,
                          fmt::format("unknown name '{}': {}. Allowed: {}", name.text, said, fmt::join(names, ", ")));
+  }
+
+  bool may_vary(const FormulaFunction& function) const {
+    return allowed_ == FunctionsAllowed::all || function.differentiable;
   }
 
   Part joined(const Part& left, const Part& right, int degree, const FormulaToken& op) {
@@ -255,6 +268,7 @@ class Parser {
   const std::vector<std::string>& variables_;
   const FormulaConstants& constants_;
   const NameAdvice& advice_;
+  FunctionsAllowed allowed_;
   std::vector<FormulaToken> tokens_;
   std::size_t at_ = 0;
   int depth_ = 0, floors_ = 0;
@@ -264,8 +278,8 @@ class Parser {
 }  // namespace
 
 ParsedFormula parse_formula(std::string_view text, const std::vector<std::string>& variables,
-                            const FormulaConstants& constants, const NameAdvice& advice) {
-  return Parser(text, variables, constants, advice).parse();
+                            const FormulaConstants& constants, const NameAdvice& advice, FunctionsAllowed allowed) {
+  return Parser(text, variables, constants, advice, allowed).parse();
 }
 
 }  // namespace seiche

@@ -1,3 +1,4 @@
+#include <seiche/config/expansion.hpp>
 #include <seiche/config/formula_expression.hpp>
 #include <seiche/config/operator_formula.hpp>
 #include <seiche/core/error.hpp>
@@ -34,10 +35,10 @@ class OperatorReader {
     } catch (const Error& error) {
       throw Error("{}: {}", key_, error.what());
     }
-    const bool names_operator = names_one_of(program, 0, constant);
-    if (!names_operator && names_one_of(program, constant, names.size()))
-      return {.stencil = {}, .rate = text_};  // no algebra is needed
-    refuse_min_and_max(program, may_vary);
+    const bool names_operator = names_variable(program, [&](std::size_t variable) { return variable < constant; });
+    const bool varies = names_variable(program, [&](std::size_t variable) { return variable >= constant; });
+    if (varies && !names_operator) return {.stencil = {}, .rate = text_};  // no algebra is needed
+    refuse_kinks(program, may_vary);
     const std::scoped_lock lock(algebra_mutex());
     symbols_ = make_symbols(names);
     for (const GiNaC::realsymbol& symbol : symbols_) all_.append(symbol);
@@ -60,25 +61,15 @@ class OperatorReader {
   }
 
  private:
-  // Neither is known to the algebra that sorts the terms. In a rate of its own, and of numbers, they may stand.
-  void refuse_min_and_max(const FormulaProgram& program, bool may_vary) const {
-    for (const Instruction& instruction : program) {
-      if (instruction.kind != Instruction::Kind::call) continue;
-      const std::string_view name = instruction.function->name;
-      if (name == "min" || name == "max")
+  // min, max and sign are not known to the algebra that sorts the terms. In a rate of its own, and of numbers, they may stand.
+  void refuse_kinks(const FormulaProgram& program, bool may_vary) const {
+    for (const Instruction& instruction : program)
+      if (instruction.kind == Instruction::Kind::call && !instruction.function->differentiable)
         throw Error(
-            "{} = \"{}\": {} does not stand beside derivatives or wave numbers: {}", key_, text_, name,
+            "{} = \"{}\": {} does not stand beside derivatives or wave numbers: {}", key_, text_,
+            instruction.function->name,
             may_vary ? "D takes coefficients of derivatives, or a rate in t and the place, as in \"max(0.1, sin(t))\""
                      : "S and M take coefficients of derivatives, and smooth functions of wave numbers");
-    }
-  }
-
-  // Does the program name one of these variables?
-  static bool names_one_of(const FormulaProgram& program, std::size_t begin, std::size_t end) {
-    return std::any_of(program.begin(), program.end(), [&](const Instruction& instruction) {
-      return instruction.kind == Instruction::Kind::variable && static_cast<std::size_t>(instruction.index) >= begin &&
-             static_cast<std::size_t>(instruction.index) < end;
-    });
   }
 
   // Term by term; what is a polynomial is multiplied out.
@@ -231,6 +222,22 @@ class OperatorReader {
 };
 
 }  // namespace
+
+bool is_one_rate(const std::string& a, const std::string& b, const FormulaConstants& constants) {
+  if (a == b) return true;
+  const std::vector<std::string> names(place_names.begin(), place_names.end());
+  const std::scoped_lock lock(algebra_mutex());
+  const Symbols symbols = make_symbols(names);
+  GiNaC::lst all;
+  for (const GiNaC::realsymbol& symbol : symbols) all.append(symbol);
+  try {
+    const Expression difference = to_expression(parse_formula(a, names, constants).program, symbols) -
+                                  to_expression(parse_formula(b, names, constants).program, symbols);
+    return difference.is_zero() || (is_small_polynomial(difference, all, symbols) && difference.expand().is_zero());
+  } catch (const std::exception&) {  // min, max, poles: not known to the algebra
+    return false;
+  }
+}
 
 OperatorFormula compile_operator(const std::string& key, const std::string& text, const Grid& grid, Index axes,
                                  Discretisation discretisation, const FormulaConstants& constants, bool may_vary,

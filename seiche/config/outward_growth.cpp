@@ -1,4 +1,5 @@
 // Does an energy fall when its fields shrink together?
+#include <seiche/config/algebra_functions.hpp>
 #include <seiche/config/formula_expression.hpp>
 
 #include <algorithm>
@@ -12,7 +13,7 @@ enum class Sign { unknown, non_negative, positive };
 enum class Growth { unknown, none, outward, inward };
 
 bool is(const Expression& e, const char* function) {
-  return GiNaC::is_a<GiNaC::function>(e) && GiNaC::ex_to<GiNaC::function>(e).get_name() == function;
+  return GiNaC::is_a<GiNaC::function>(e) && name_of_function(e) == function;
 }
 
 bool is_number(const Expression& e) { return GiNaC::is_a<GiNaC::numeric>(e); }
@@ -73,7 +74,7 @@ class Look {
   Sign sign(const Expression& e) const {
     if (is_number(e))
       return number(e).is_positive() ? Sign::positive : e.is_zero() ? Sign::non_negative : Sign::unknown;
-    if (is(e, "exp") || is(e, "cosh")) return Sign::positive;
+    if (is(e, "exp") || is(e, "cosh") || is(e, "sech")) return Sign::positive;
     if (is(e, "abs") || is_even_power(e)) return Sign::non_negative;
     if (GiNaC::is_a<GiNaC::power>(e)) return sign(e.op(0)) == Sign::positive ? Sign::positive : Sign::unknown;
     if (!GiNaC::is_a<GiNaC::add>(e) && !GiNaC::is_a<GiNaC::mul>(e)) return Sign::unknown;
@@ -97,6 +98,7 @@ class Look {
     if (GiNaC::is_a<GiNaC::mul>(e)) return growth_of_product(e);
     if (GiNaC::is_a<GiNaC::power>(e)) return growth_of_power(e.op(0), e.op(1));
     if (is(e, "abs") || is(e, "cosh")) return is_linear(e.op(0)) ? Growth::outward : Growth::unknown;
+    if (is(e, "sech")) return is_linear(e.op(0)) ? Growth::inward : Growth::unknown;
     for (const char* rising : {"exp", "log", "sinh", "tanh", "asinh", "atan"})
       if (is(e, rising)) return growth(e.op(0));
     return Growth::unknown;

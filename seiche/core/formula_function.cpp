@@ -9,6 +9,7 @@ namespace seiche {
 namespace {
 
 double sech(double x) { return 1.0 / std::cosh(x); }
+double sign(double x) { return x == 0 || std::isnan(x) ? x : std::copysign(1.0, x); }
 // Unlike std::fmin, NaN stays NaN: a wrong value must not vanish in a minimum.
 double smaller(double a, double b) { return std::isnan(a) || a < b ? a : b; }
 double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
@@ -43,6 +44,7 @@ double slope_of_exp(double a, double b) {
 double slope_of_sqrt(double a, double b) { return 1 / (std::sqrt(a) + std::sqrt(b)); }
 // At a = b = 0 the mean of both sides: |x| has no slope there.
 double slope_of_abs(double a, double b) { return a == 0 && b == 0 ? 0.0 : (a + b) / (std::abs(a) + std::abs(b)); }
+double slope_of_sign(double a, double b) { return a == b ? 0.0 : (sign(b) - sign(a)) / (b - a); }
 double slope_of_sech(double a, double b) {
   if (std::abs(b - a) > 1) return (sech(b) - sech(a)) / (b - a);
   return -slope_of_cosh(a, b) * sech(a) * sech(b);
@@ -96,7 +98,7 @@ double slope_of_atanh(double a, double b) {
   return std::atanh((b - a) / ((1 - a) + a * (1 - b))) / (b - a);
 }
 
-constexpr std::array<FormulaFunction, 19> function_table = {{
+constexpr std::array<FormulaFunction, 20> function_table = {{
     {"sin", 1, [](double x) { return std::sin(x); }, nullptr, slope_of_sin},
     {"cos", 1, [](double x) { return std::cos(x); }, nullptr, slope_of_cos},
     {"tan", 1, [](double x) { return std::tan(x); }, nullptr, slope_of_tan},
@@ -113,9 +115,10 @@ constexpr std::array<FormulaFunction, 19> function_table = {{
     {"log", 1, [](double x) { return std::log(x); }, nullptr, slope_of_log},
     {"sqrt", 1, [](double x) { return std::sqrt(x); }, nullptr, slope_of_sqrt},
     {"abs", 1, [](double x) { return std::fabs(x); }, nullptr, slope_of_abs},
+    {"sign", 1, sign, nullptr, slope_of_sign, false},
     {"sech", 1, sech, nullptr, slope_of_sech},
-    {"min", 2, nullptr, smaller, nullptr},
-    {"max", 2, nullptr, larger, nullptr},
+    {"min", 2, nullptr, smaller, nullptr, false},
+    {"max", 2, nullptr, larger, nullptr, false},
 }};
 
 }  // namespace

@@ -13,6 +13,7 @@ struct FormulaFunction {
   double (*two)(double, double);  // arity 2
   // (f(b) − f(a)) / (b − a), and f'(a) where a = b, without cancellation; NaN where f is not real between them. Arity 1.
   double (*mean_slope)(double a, double b);
+  bool differentiable = true;  // but for kinks, as that of abs at 0
 };
 
 std::span<const FormulaFunction> formula_functions();

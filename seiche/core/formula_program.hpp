@@ -21,6 +21,14 @@ using FormulaProgram = std::vector<Instruction>;
 
 inline constexpr int formula_stack_size = 256;
 
+// Does it name a variable of which `is_asked(index)` holds?
+template <class IsAsked>
+bool names_variable(std::span<const Instruction> program, const IsAsked& is_asked) {
+  for (const Instruction& i : program)
+    if (i.kind == Instruction::Kind::variable && is_asked(static_cast<std::size_t>(i.index))) return true;
+  return false;
+}
+
 int stack_needed(std::span<const Instruction> program);
 
 // The program must need at most formula_stack_size. Never throws; what is not real comes back as NaN.
