@@ -87,16 +87,19 @@ std::optional<TimeSpan> around_pole(const Exists& exists, TimeSpan span) {
 }  // namespace
 
 void require_finite_rates(const Problem& problem, double t_start, double t_end) {
-  const auto require = [&](const char* what, const auto& rate, const auto& exists) {
+  const auto require = [&](const char* what, const auto& rate, const auto& exists, const auto& is_number) {
     if (!rate || rate->is_constant() || !(t_end > t_start)) return;
-    if (const std::optional<TimeSpan> pole = around_pole(exists, {t_start, t_end - t_start}))
-      throw Error(
-          "the {} {} is infinite between t = {:.6g} and {:.6g}, and no solution goes on from there; end the run before",
-          what, rate->text(), pole->begin, pole->begin + pole->length);
+    const std::optional<TimeSpan> pole = around_pole(exists, {t_start, t_end - t_start});
+    if (!pole) return;
+    const double end = pole->begin + pole->length;
+    throw Error("the {} {} {} between t = {:.6g} and {:.6g}, and no solution goes on from there; end the run before",
+                what, rate->text(), is_number(end) ? "is infinite" : "ceases to be a real number", pole->begin, end);
   };
   const LinearDamping& damping = problem.damping;
-  require("rate", damping.rate,
-          [&](const TimeSpan& span) { return std::isfinite(damping.rate->integral(span.begin, span.length)); });
+  require(
+      "rate", damping.rate,
+      [&](const TimeSpan& span) { return std::isfinite(damping.rate->integral(span.begin, span.length)); },
+      [&](double t) { return !std::isnan(damping.rate->value(t)); });
   std::vector<double> values(static_cast<std::size_t>(problem.grid.unknowns()));
   const auto are_finite = [&] {
     return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
@@ -107,7 +110,14 @@ void require_finite_rates(const Problem& problem, double t_start, double t_end) 
       return are_finite();
     };
   };
-  if (damping.field_rate) require("rate", damping.field_rate, integrable(*damping.field_rate));
+  const auto are_numbers = [&](const FieldRate& rate) {
+    return [&](double t) {
+      rate.values(t, values);
+      return std::none_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
+    };
+  };
+  if (damping.field_rate)
+    require("rate", damping.field_rate, integrable(*damping.field_rate), are_numbers(*damping.field_rate));
   for (std::size_t f = 0; f < problem.forces.size(); ++f) {
     const FieldRatePointer& force = problem.forces[f];
     if (!force) continue;
@@ -115,7 +125,7 @@ void require_finite_rates(const Problem& problem, double t_start, double t_end) 
     if (!are_finite())
       throw Error("the force {} on the field {} is no finite number at t = {:.6g}", force->text(), problem.fields[f],
                   t_start);
-    require("force", force, integrable(*force));
+    require("force", force, integrable(*force), are_numbers(*force));
   }
 }
 

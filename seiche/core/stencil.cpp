@@ -1,3 +1,4 @@
+#include <seiche/core/axis_names.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/line_modes.hpp>
 #include <seiche/core/physical_memory.hpp>
@@ -106,7 +107,8 @@ Stencil Stencil::fourth_derivative(const Grid& grid, Index axis, Discretisation 
 
 Stencil Stencil::odd_derivative(const Grid& grid, Index axis, int order, Discretisation discretisation) {
   if (grid.axis(axis).boundary != Boundary::periodic)
-    throw Error("a {} derivative along axis {} needs a periodic grid", order == 1 ? "first" : "third", axis);
+    throw Error("a {} derivative along {} needs periodic ends there", order == 1 ? "first" : "third",
+                axis_names[static_cast<std::size_t>(axis)]);
   Stencil s;
   s.terms_.push_back({axis, order, discretisation, grid.axis(axis).dx(), 1.0});
   return s;
