@@ -1,15 +1,12 @@
-#include <seiche/config/case_parameters.hpp>
 #include <seiche/config/custom_problem.hpp>
 #include <seiche/config/energy_split.hpp>
 #include <seiche/config/field_potential.hpp>
 #include <seiche/config/finite_force.hpp>
 #include <seiche/config/initial_formulas.hpp>
-#include <seiche/config/operator_formula.hpp>
+#include <seiche/config/metric_terms.hpp>
 #include <seiche/core/definiteness.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/number_text.hpp>
 #include <seiche/core/operator_findings.hpp>
-#include <seiche/damping/rates.hpp>
 #include <seiche/potential/sum.hpp>
 #include <seiche/problem/second_order.hpp>
 
@@ -47,8 +44,8 @@ class Builder {
   }
 
   Problem build() {
-    p_.S = custom_.S.empty() ? canonical_structure() : table("S", custom_.S);
-    set_damping();
+    p_.S = custom_.S.empty() ? canonical_structure() : tables().block("S", custom_.S);
+    p_.damping = tables().damping(custom_.D);
     if (!custom_.H.empty()) {
       if (!custom_.V.empty() || !custom_.M.empty())
         throw Error("problem.H is the whole energy: leave out M and V, or write these two without H");
@@ -88,98 +85,11 @@ class Builder {
     return S;
   }
 
-  std::string entry_key(const char* name, Index row, Index column) const {
-    return fields() == 1 ? fmt::format("problem.{}", name)
-                         : fmt::format("problem.{}, row {}, column {}", name, row + 1, column + 1);
-  }
-
-  void require_shape(const char* name, const FormulaTable& entries) const {
-    const auto n = static_cast<std::size_t>(fields());
-    const bool fits = entries.size() == n &&
-                      std::all_of(entries.begin(), entries.end(), [n](const auto& row) { return row.size() == n; });
-    if (!fits)
-      throw Error("problem.{} must have {} rows of {} entries, one for each of the fields {}", name, n, n,
-                  fmt::join(p_.fields, ", "));
-  }
-
-  template <class Take>
-  void for_entries(const char* name, const FormulaTable& entries, bool may_vary, const Take& take) const {
-    require_shape(name, entries);
-    for (Index i = 0; i < fields(); ++i)
-      for (Index j = 0; j < fields(); ++j) {
-        const std::string& text = entries[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-        take(i, j,
-             compile_operator(entry_key(name, i, j), text, p_.grid, axes_, discretisation(), constants_, may_vary,
-                              advice(may_vary ? FormulaContext::Kind::damping_entry
-                                              : FormulaContext::Kind::constant_entry)));
-      }
-  }
-
-  BlockStencil table(const char* name, const FormulaTable& entries) const {
-    BlockStencil block(fields());
-    for_entries(name, entries, false,
-                [&](Index i, Index j, const OperatorFormula& entry) { block(i, j) = entry.stencil; });
-    return block;
-  }
-
-  void set_damping() {
-    p_.damping.constant = BlockStencil(fields());
-    p_.damping.rate_fields.assign(static_cast<std::size_t>(fields()), false);
-    if (custom_.D.empty()) return;
-    std::string rate;
-    for_entries("D", custom_.D, true, [&](Index i, Index j, const OperatorFormula& entry) {
-      p_.damping.constant(i, j) = entry.stencil;
-      if (entry.rate.empty()) return;
-      if (i != j) throw Error("{} = {}: off the diagonal D is constant", entry_key("D", i, j), entry.rate);
-      if (!rate.empty() && !is_one_rate(rate, entry.rate, constants_))
-        throw Error("problem.D has two rates that change, {} and {}; one is possible, of as many fields as wanted",
-                    rate, entry.rate);
-      if (rate.empty()) rate = entry.rate;
-      p_.damping.rate_fields[static_cast<std::size_t>(i)] = true;
-    });
-    if (rate.empty()) {
-      set_constant_rate();
-    } else {
-      const DampingRate changing = compile_damping_rate("problem.D", rate, constants_);
-      p_.damping.rate = changing.uniform;
-      if (changing.varying) p_.damping.field_rate = changing.varying->on(p_.grid);
-      require_finite_rate(rate);
-    }
-  }
-
-  void require_finite_rate(const std::string& text) const {
-    std::vector<double> gamma(static_cast<std::size_t>(p_.grid.unknowns()));
-    if (p_.damping.field_rate) p_.damping.field_rate->values(0, gamma);
-    if (p_.damping.rate) gamma.assign(1, p_.damping.rate->value(0));
-    for (std::size_t j = 0; j < gamma.size(); ++j)
-      if (!std::isfinite(gamma[j]))
-        throw Error("problem.D: the rate {} is {} at t = 0{}", text, number_text(gamma[j]),
-                    p_.damping.rate ? "" : place_text(p_.grid, static_cast<Index>(j)));
-  }
-
-  // γ on the diagonal of some fields acts exactly on them and apart from derivatives.
-  void set_constant_rate() {
-    double rate = 0;
-    std::vector<double> diagonal;
-    for (Index i = 0; i < fields(); ++i) {
-      const double gamma = p_.damping.constant(i, i).identity_part();
-      diagonal.push_back(gamma);
-      if (gamma == 0) continue;
-      if (rate != 0 && gamma != rate) return;
-      rate = gamma;
-    }
-    if (rate == 0) return;
-    p_.damping.rate = constant_rate(rate);
-    for (Index i = 0; i < fields(); ++i) {
-      const double gamma = diagonal[static_cast<std::size_t>(i)];
-      p_.damping.constant(i, i) += Stencil::identity(-gamma);
-      p_.damping.rate_fields[static_cast<std::size_t>(i)] = gamma != 0;
-    }
-  }
-
-  NameAdvice advice(FormulaContext::Kind kind) const { return advice_in({kind, p_.fields, axes_, true}); }
+  CustomTables tables() const { return {p_, axes_, discretisation(), constants_}; }
   EnergyNames energy_names() const {
-    return {.fields = p_.fields, .axes = axes_, .advice = advice(FormulaContext::Kind::energy)};
+    return {.fields = p_.fields,
+            .axes = axes_,
+            .advice = advice_in({FormulaContext::Kind::energy, p_.fields, axes_, true})};
   }
 
   // What has no M ⪰ 0 goes to V: negative squares of fields, then products of two, then the squares of these, then all.
@@ -236,7 +146,7 @@ class Builder {
     EnergySplit split = split_energy("problem.H", custom_.H, energy_names(), constants_, terms);
     p_.M = BlockStencil(fields());
     try {
-      for (const QuadraticTerm& term : split.quadratic) add_quadratic(term);
+      for (const QuadraticTerm& term : split.quadratic) add_term(term);
     } catch (const Error& error) {
       throw Error("problem.H = \"{}\": {}", custom_.H, error.what());
     }
@@ -244,11 +154,16 @@ class Builder {
     return split;
   }
 
+  void add_term(const QuadraticTerm& term) {
+    if (term.a.kind == Factor::Kind::bond) require_bonds(p_.grid, p_.fields[static_cast<std::size_t>(term.a.field)]);
+    add_quadratic(term, p_.grid, discretisation(), p_.M);
+  }
+
   void set_energy_given() {
     if (custom_.M.empty() && custom_.V.empty())
       throw Error("[problem] has no energy; write H = \"…\", as in H = \"{1}^2/2 + {0}^4/4\", or M and V",
                   p_.fields.front(), p_.fields.back());
-    p_.M = custom_.M.empty() ? BlockStencil(fields()) : table("M", custom_.M);
+    p_.M = custom_.M.empty() ? BlockStencil(fields()) : tables().block("M", custom_.M);
     require_symmetric_M();
     if (custom_.V.empty()) return;
     const EnergySplit split = split_energy("problem.V", custom_.V, energy_names(), constants_, {.found = false});
@@ -268,7 +183,8 @@ class Builder {
             return custom_.M[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
           };
           if (i == j)
-            throw Error("{} = \"{}\" is not symmetric, as odd derivatives are not", entry_key("M", i, i), text(i, i));
+            throw Error("{} = \"{}\" is not symmetric, as odd derivatives are not", tables().entry_key("M", i, i),
+                        text(i, i));
           throw Error(
               "problem.M must be symmetric, but row {0}, column {1} is \"{2}\" and row {1}, column {0} is \"{3}\"{4}",
               i + 1, j + 1, text(i, j), text(j, i),
@@ -291,44 +207,11 @@ class Builder {
     }
   }
 
-  // c (∂ᵃu)·(∂ᵇv) = c u·(−1)ᵃ∂ᵃ⁺ᵇv, once for each of the two rows.
-  void add_quadratic(const QuadraticTerm& term) {
-    p_.M(term.a.field, term.b.field) += term.coefficient * product(term.a, term.b);
-    p_.M(term.b.field, term.a.field) += term.coefficient * product(term.b, term.a);
-  }
-
-  Stencil product(const Factor& a, const Factor& b) const {
-    using Kind = Factor::Kind;
-    if (a.kind == Kind::bond || b.kind == Kind::bond) {
-      if (a.kind != b.kind) throw Error("a difference between neighbours stands beside what belongs to a point");
-      require_bonds();
-      return -square(p_.grid.axis(0).dx()) * Stencil::second_derivative(p_.grid, 0, Discretisation::fd2);
-    }
-    if (a.kind != Kind::value && b.kind != Kind::value && a.axis != b.axis)
-      throw Error("products of derivatives along different axes are not there");
-    const Index axis = a.kind != Kind::value ? a.axis : b.axis;
-    const int order = static_cast<int>(a.kind) + static_cast<int>(b.kind);  // value, first, second
-    const double sign = a.kind == Kind::first ? -1 : 1;
-    switch (order) {
-      case 0: return Stencil::identity();
-      case 1: return sign * Stencil::derivative(p_.grid, axis, discretisation());
-      case 2: return sign * Stencil::second_derivative(p_.grid, axis, discretisation());
-      case 3: return sign * Stencil::third_derivative(p_.grid, axis, discretisation());
-      default: return Stencil::fourth_derivative(p_.grid, axis, discretisation());
-    }
-  }
-
-  void require_bonds() const {
-    if (p_.grid.axis(0).boundary == Boundary::neumann)
-      throw Error("differences between neighbours (d{}) need a ring (periodic) or fixed ends (dirichlet), not neumann",
-                  p_.fields.front());
-  }
-
   void set_potential(const EnergySplit& split) {
     std::vector<PlacedPotential> parts;
     for (const FieldFormula& f : split.per_point) parts.push_back({point_potential(f, p_.grid), f.field});
     for (const FieldFormula& f : split.per_bond) {
-      require_bonds();
+      require_bonds(p_.grid, p_.fields[static_cast<std::size_t>(f.field)]);
       parts.push_back({bond_potential(f, p_.grid), f.field});
     }
     p_.potential = nullptr;

@@ -1,6 +1,7 @@
 // A problem written down: H, S and D by formulas, on a grid or for a few degrees of freedom.
 #pragma once
 
+#include <seiche/config/custom_tables.hpp>
 #include <seiche/config/formula_parser.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/problem/grid_options.hpp>
@@ -11,8 +12,6 @@
 #include <vector>
 
 namespace seiche {
-
-using FormulaTable = std::vector<std::vector<std::string>>;  // row by row
 
 struct CustomProblem {
   std::vector<std::string> fields = {};  // empty: u, v on a grid and q, p without one
