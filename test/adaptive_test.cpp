@@ -17,7 +17,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <regex>
 
 namespace seiche::test {
@@ -168,117 +167,6 @@ TEST(Adaptive, AskedTimesChangeNoStep) {
   }
 }
 
-// q'' + q = 0 from q = 1 at rest: q = cos t, which first vanishes at π/2.
-TEST(Adaptive, AnEventIsMetWhereItHappensAndTheRunGoesOnFromThere) {
-  const Problem p = oscillator({.alpha = 0.0});
-  for (const std::string method : {"egc6", "egc2", "seisav"}) {
-    const double tolerance = method == "egc6" ? 1e-10 : 1e-6;
-    Simulation simulation(p, {.method = method, .backend = "dense", .variable_steps = true});
-    const auto position = [](double, const Vector& z) { return z[0]; };
-    const auto bounce = [](State& state) {
-      state.z[1] = -state.z[1];
-      return true;
-    };
-    const std::vector<Event> events = {{.g = position, .action = bounce, .direction = Event::Direction::falling}};
-    const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                                                {.tolerance = tolerance, .t_end = 10, .events = events});
-    EXPECT_EQ(report.status, RunReport::Status::success) << report.message;
-    ASSERT_EQ(report.events.size(), 3) << method;  // π/2, and then after each half swing
-    for (std::size_t i = 0; i < 3; ++i)
-      EXPECT_NEAR(report.events[i], std::numbers::pi * (0.5 + static_cast<double>(i)), 20 * tolerance) << method;
-    EXPECT_NEAR(simulation.physical()[0], std::abs(std::cos(10.0)), 20 * tolerance) << method;
-  }
-}
-
-TEST(Adaptive, AnEventWithoutAnActionEndsTheRun) {
-  Simulation simulation(oscillator({.alpha = 0.0}), {.method = "egc8", .backend = "dense", .variable_steps = true});
-  const std::vector<Event> events = {{.g = [](double, const Vector& z) { return z[0] - 0.5; }}};
-  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                                              {.tolerance = 1e-10, .t_end = 10, .events = events});
-  EXPECT_NEAR(report.t, std::numbers::pi / 3, 1e-9);
-  EXPECT_NEAR(simulation.physical()[0], 0.5, 1e-9);
-}
-
-// Two functions that vanish together are two events.
-TEST(Adaptive, EventsAtTheSameTimeAllHappen) {
-  Simulation simulation(oscillator({.alpha = 0.0}), {.method = "egc6", .backend = "dense", .variable_steps = true});
-  int first = 0;
-  int second = 0;
-  const auto counting = [](int& count) {
-    return [&count](State&) {
-      ++count;
-      return true;
-    };
-  };
-  const std::vector<Event> events = {{.g = [](double, const Vector& z) { return z[0]; }, .action = counting(first)},
-                                     {.g = [](double, const Vector& z) { return 2 * z[0]; },
-                                      .action = counting(second)}};
-  integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                     {.tolerance = 1e-8, .t_end = 10, .events = events});
-  EXPECT_EQ(first, 3);
-  EXPECT_EQ(second, 3);
-}
-
-TEST(Adaptive, ABounceInAnyDirectionIsMetOnce) {
-  Simulation simulation(oscillator({.alpha = 0.0}), {.method = "egc6", .backend = "dense", .variable_steps = true});
-  int count = 0;
-  const auto bounce = [&](State& state) {
-    state.z[1] = -state.z[1];
-    return ++count < 100;
-  };
-  const std::vector<Event> events = {{.g = [](double, const Vector& z) { return z[0]; }, .action = bounce}};
-  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                                              {.tolerance = 1e-10, .t_end = 10, .events = events});
-  EXPECT_EQ(report.status, RunReport::Status::success) << report.message;
-  EXPECT_EQ(report.events.size(), 3);
-}
-
-TEST(Adaptive, ATinyEventFunctionIsNoEventAndOneThatIsNoNumberEndsTheRun) {
-  const auto run_with = [](const std::function<double(double, const Vector&)>& g) {
-    Simulation simulation(duffing_case(), {.method = "egc6", .variable_steps = true});
-    const std::vector<Event> events = {{.g = g}};
-    return integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                              {.tolerance = 1e-6, .t_end = 60, .events = events});
-  };
-  const RunReport tiny = run_with([](double t, const Vector&) { return std::exp(-10 * t); });
-  EXPECT_EQ(tiny.status, RunReport::Status::success) << tiny.message;
-  EXPECT_TRUE(tiny.events.empty());
-  const RunReport none = run_with([](double t, const Vector&) { return std::sqrt(1 - t); });
-  EXPECT_EQ(none.status, RunReport::Status::failed);
-  EXPECT_NE(none.message.find("event 1"), std::string::npos) << none.message;
-}
-
-// Rows are in the order of time, also where an event lies in the very first step.
-TEST(Adaptive, TimesNeverGoBackAndAnEventThatDoesNothingBreaksNoLaw) {
-  class Order final : public Observer {
-   public:
-    bool is_due(const State&, bool) const override { return true; }
-    void observe(const State& state, const EnergyReading&) override {
-      EXPECT_GE(state.t, last);
-      last = state.t;
-    }
-    void finish(const RunReport&) override {}
-    double last = 0;
-  };
-  const Problem p =
-      klein_gordon({.alpha = 1.0, .gamma = formula_rate(compile_formula("0.001*(1 + 0.5*sin(t))", {"t"}))});
-  for (const std::string method : {"egc2", "egc6", "seisav", "ssav"}) {
-    Simulation simulation(p, {.method = method, .variable_steps = true});
-    Order order;
-    const std::vector<Observer*> observers = {&order};
-    const std::vector<Event> events = {{.g = [](double t, const Vector&) { return t - 0.005; },
-                                        .action = [](State&) { return true; }},
-                                       {.g = [](double t, const Vector&) { return std::sin(3 * t + 1); },
-                                        .action = [](State&) { return true; }}};
-    const RunReport report =
-        integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                           {.tolerance = 1e-3, .t_end = 10, .law = promise_energy_law(p, 10), .events = events},
-                           observers);
-    EXPECT_EQ(report.law, LawVerdict::holds) << method << ": " << report.message;
-    EXPECT_EQ(report.events.size(), 1 + 9) << method;
-  }
-}
-
 TEST(Adaptive, TheSolutionBetweenStepsEndsWhereTheStepDoes) {
   const Problem p = klein_gordon_case();
   for (const std::string method : {"egc2", "egc6", "seisav", "etdrk4", "crkn6"}) {
@@ -417,30 +305,6 @@ TEST(Adaptive, TheToleranceHoldsNearARestThatIsNotTheOrigin) {
                                                 {.tolerance = tolerance, .t_end = 240, .law = {true, "damped"}});
     ASSERT_EQ(report.status, RunReport::Status::success) << method << " " << report.message;
     EXPECT_LE((simulation.physical() - exact.physical()).lpNorm<Eigen::Infinity>(), 20 * tolerance) << method;
-  }
-}
-
-// Gravity and a floor that takes half of the speed: the bounces last 2√2, √2, … and later ones less than a step.
-TEST(Adaptive, BouncesShorterThanAStepAreMetToo) {
-  const Problem p = custom_problem({.H = "p^2/2 + q", .initial = {{"q", "1"}, {"p", "0"}}});
-  for (const bool fixed : {true, false}) {
-    Simulation simulation(p, {.method = "egc4", .variable_steps = !fixed});
-    int count = 0;
-    const std::vector<Event> events = {{.g = [](double, const Vector& z) { return z[0]; },
-                                        .action =
-                                            [&](State& state) {
-                                              state.z[1] *= -0.5;
-                                              return ++count < 5;
-                                            },
-                                        .direction = Event::Direction::falling}};
-    const RunReport report =
-        fixed ? integrate(simulation.system(), simulation.stepper(), simulation.state(),
-                          {.h = 0.7, .t_end = 10, .events = events})
-              : integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                                   {.tolerance = 1e-8, .t_end = 10, .first_h = 0.7, .events = events});
-    ASSERT_EQ(report.events.size(), 5) << fixed << " " << report.message;
-    for (int k = 0; k < 5; ++k)
-      EXPECT_NEAR(report.events[static_cast<std::size_t>(k)], std::numbers::sqrt2 * (3 - std::exp2(1 - k)), 1e-6) << k;
   }
 }
 

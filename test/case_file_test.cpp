@@ -1,6 +1,5 @@
 // Case files: what is right is read, what is wrong is refused with its place and what would be right.
 #include "support/error_of.hpp"
-#include "support/temporary_directory.hpp"
 
 #include <seiche/config/case_file.hpp>
 #include <seiche/problem/problems.hpp>
@@ -10,7 +9,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -31,25 +29,6 @@ std::string complaint(const std::string& text, const Overrides& overrides = {}) 
   return error_of([&] { parse_case(text, "x.toml", overrides); });
 }
 std::string complaint_of_override(const std::string& override) { return complaint(minimal, {override}); }
-
-class CaseFolder : public test::InTemporaryDirectory {
- protected:
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(directory / name, std::ios::binary) << text;
-    return directory / name;
-  }
-  // The problem of a case whose z₀ is in a file.
-  Problem duffing_from(const std::string& numbers) const {
-    write("z0.txt", numbers);
-    const fs::path file = write("case.toml",
-                                "[problem]\nname = \"oscillator\"\npoints = 2\n"
-                                "initial = { file = \"z0.txt\" }\n");
-    return make_problem(read_case(file));
-  }
-  std::string complaint_about(const std::string& numbers) const {
-    return error_of([&] { duffing_from(numbers); });
-  }
-};
 
 TEST(CaseFile, MissingKeysTakeTheirDefaults) {
   for (const ProblemEntry& entry : problems()) {
@@ -188,88 +167,6 @@ TEST(CaseFile, ShippedCasesAreReadAndMake) {
   EXPECT_GE(count, 7);
 }
 
-TEST(CaseFile, UnknownSectionsAndKeysAreRefusedWithTheNearestName) {
-  EXPECT_THAT(complaint(minimal + "[methd]\nname = \"seisav\"\n"),
-              AllOf(StartsWith("x.toml:3:"), HasSubstr("unknown section 'methd'; did you mean 'method'?"),
-                    HasSubstr("problem, method, backend, time, output")));
-  EXPECT_THAT(complaint(minimal + "[method]\nC = 1\nauxilary = \"frozen\"\n"),
-              AllOf(StartsWith("x.toml:5:1: "), HasSubstr("'auxilary'; did you mean 'auxiliary'?"),
-                    HasSubstr("Allowed: name, h, tolerance, h_max, C, auxiliary, scalar_solver, law, linear")));
-  EXPECT_THAT(complaint(minimal + "kapa = 1\n"), AllOf(StartsWith("x.toml:3:1: "), HasSubstr("did you mean 'kappa'?")));
-  EXPECT_THAT(complaint("h = 1\n" + minimal), HasSubstr("x.toml:1:1: the key 'h' stands outside every section; it "
-                                                        "belongs into [method]"));
-  EXPECT_THAT(complaint("method = \"seisav\"\n" + minimal), HasSubstr("method must be a section, [method]"));
-  EXPECT_THAT(complaint(minimal + "[[time]]\nend = 1\n"), HasSubstr("time must be a section, [time]"));
-}
-
-TEST(CaseFile, MisspeltNamesAreRefusedWithTheNearestOne) {
-  EXPECT_THAT(complaint(minimal + "[method]\nname = \"seisv\"\n"),
-              StartsWith("x.toml:4:8: unknown method 'seisv'; did you mean 'seisav'? Allowed: avf, sav, lm"));
-  EXPECT_THAT(complaint("[problem]\nname = \"gkvd\"\n"), HasSubstr("did you mean 'gkdv'?"));
-  EXPECT_THAT(complaint(minimal + "[backend]\nname = \"modl\"\n"), HasSubstr("did you mean 'modal'?"));
-  EXPECT_THAT(complaint(minimal + "[backend]\nplan = \"mesure\"\n"), HasSubstr("did you mean 'measure'?"));
-  EXPECT_THAT(complaint(minimal + "initial = \"papr\"\n"), HasSubstr("did you mean 'paper'?"));
-  EXPECT_THAT(complaint("[problem]\nname = \"alpha_fpu\"\nformulation = \"conservativ\"\n"),
-              AllOf(StartsWith("x.toml:3:15: "), HasSubstr("did you mean 'conservative'?")));
-}
-
-TEST(CaseFile, ACaseNamesItsProblem) {
-  EXPECT_THAT(complaint(""), AllOf(StartsWith("x.toml: "), HasSubstr("[problem] has no name"), HasSubstr("gkdv")));
-  EXPECT_THAT(complaint("[problm]\nname = \"gkdv\"\n"), HasSubstr("did you mean 'problem'?"));
-}
-
-TEST(CaseFile, TheFirstMistakeInTheSourceIsTheOneReported) {
-  // toml++ iterates by the alphabet: alpha before points, method before problem.
-  EXPECT_THAT(complaint(minimal + "points = -1\nalpha = \"x\"\n[method]\nh = 0\nC = true\n"), StartsWith("x.toml:3:"));
-  EXPECT_THAT(complaint("[time]\nend = -1\n" + minimal + "points = -1\n"), StartsWith("x.toml:2:"));
-  EXPECT_THAT(complaint(minimal + "[method]\nname = \"seisv\"\nbad = 1\n"), StartsWith("x.toml:4:"));
-  EXPECT_THAT(complaint(minimal + "initial = { v = \"(\", u = \")\" }\n"), HasSubstr("problem.initial.v"));
-  EXPECT_THAT(complaint(minimal + "points = -1\n", {"method.h=0"}), StartsWith("x.toml:3:")) << "the file comes first";
-}
-
-TEST(CaseFile, ValuesOutOfBoundsAreRefusedWithTheBound) {
-  EXPECT_THAT(complaint(minimal + "points = -20\n"), StartsWith("x.toml:3:10: problem.points = -20 must be ≥"));
-  EXPECT_THAT(complaint(minimal + "points = 20.5\n"), HasSubstr("problem.points = 20.5 must be a whole number"));
-  EXPECT_THAT(complaint(minimal + "points = 1e18\n"), HasSubstr("must be ≤"));
-  EXPECT_THAT(complaint(minimal + "length = 0\n"), HasSubstr("problem.length = 0 must be > 0"));
-  EXPECT_THAT(complaint_of_override("output.energy_every=0"), HasSubstr("must be ≥ 1"));
-  EXPECT_THAT(complaint_of_override("output.snapshot_every=-1"), HasSubstr("must be ≥ 0"));
-  EXPECT_THAT(complaint_of_override("time.end=0"), HasSubstr("time.end = 0 must be > 0"));
-  EXPECT_EQ(parse_case(minimal + "points = \"40/2\"\n", "x.toml").parameters.integers("points"), std::vector<long>{20});
-  EXPECT_EQ(parse_case(minimal + "points = 20.0\n", "x.toml").parameters.integers("points"), std::vector<long>{20});
-}
-
-TEST(CaseFile, ValuesOfTheWrongTypeAreNamed) {
-  EXPECT_THAT(complaint(minimal + "kappa = true\n"), HasSubstr("problem.kappa = true must be a number"));
-  EXPECT_THAT(complaint(minimal + "kappa = [1, 2]\n"), HasSubstr("problem.kappa = a list must be a number"));
-  EXPECT_THAT(complaint(minimal + "kappa = \"big\"\n"), HasSubstr("problem.kappa = \"big\" must be a finite number"));
-  EXPECT_THAT(complaint(minimal + "gamma = 1979-05-27\n"), HasSubstr("problem.gamma = a date must be a number, or a "
-                                                                     "formula in t"));
-  EXPECT_THAT(complaint(minimal + "initial = 3\n"), HasSubstr("problem.initial = 3 must be a preset (paper)"));
-  EXPECT_THAT(complaint(minimal + "[output]\ndirectory = 3\n"), HasSubstr("output.directory = 3 must be a text"));
-  EXPECT_THAT(complaint("[problem]\nname = 3\n"), HasSubstr("problem.name = 3 must be a text"));
-}
-
-TEST(CaseFile, NumbersThatAreNotFiniteAreRefused) {
-  for (const char* value : {"nan", "inf", "-inf", "\"nan\"", "\"-inf\"", "\"Infinity\""}) {
-    EXPECT_THAT(complaint(minimal + "kappa = " + value + "\n"),
-                AllOf(StartsWith("x.toml:3:9: problem.kappa = "), HasSubstr("must be a finite number")))
-        << value;
-  }
-  EXPECT_THAT(complaint(minimal + "[method]\nh = \"1/0\"\n"),
-              AllOf(StartsWith("x.toml:4:5: method.h = \"1/0\" must be a finite number"),
-                    HasSubstr("divides by zero")));
-  EXPECT_THAT(complaint_of_override("problem.kappa=1e999"), HasSubstr("too large"));
-}
-
-TEST(CaseFile, StepSizeIsPositiveAndWithinTheRun) {
-  EXPECT_THAT(complaint(minimal + "[method]\nh = 0\n"), HasSubstr("x.toml:4:5: method.h = 0 must be > 0"));
-  EXPECT_THAT(complaint_of_override("method.h=-1/64"), HasSubstr("must be > 0"));
-  EXPECT_THAT(complaint_of_override("method.h=51"), HasSubstr("method.h = 51 must be ≤ time.end = 50"));
-  EXPECT_THAT(complaint_of_override("method.h=1e-300"), HasSubstr("would take"));
-  EXPECT_EQ(parse_case(minimal, "x.toml", {"method.h=50"}).h, 50.0);
-}
-
 TEST(CaseFile, AShortRunWithoutStepSizeTakesOneStepAndSaysSo) {
   const RunSpec spec = parse_case(minimal, "x.toml", {"time.end=1e-4"});
   EXPECT_EQ(spec.h, 1e-4);
@@ -332,30 +229,6 @@ TEST(CaseFile, ARateThatChangesFromPointToPointSurvivesWriting) {
   EXPECT_THAT(error_of([&] { spec.parameters.rate("gamma"); }), HasSubstr("a number or a formula in t"));
 }
 
-TEST(CaseFile, MethodOptionsWithoutMeaningAreRefusedAtTheirKey) {
-  EXPECT_THAT(complaint(minimal + "[method]\nname = \"seavf\"\nh = 0.1\nauxiliary = \"frozen\"\n"),
-              AllOf(StartsWith("x.toml:6:13: "), HasSubstr("seavf")));
-  EXPECT_THAT(complaint(minimal + "[method]\nscalar_solver = \"newton\"\n"), HasSubstr("belongs to the lm family"));
-  EXPECT_THAT(complaint(minimal + "[method]\nlaw = \"guard\"\n"), HasSubstr("end with a projection"));
-  EXPECT_THAT(complaint(minimal + "[method]\nname = \"egc4\"\nlaw = \"gard\"\n"), HasSubstr("did you mean 'guard'"));
-  EXPECT_THAT(complaint(minimal + "[method]\nname = \"strang_exact\"\nlaw = \"interval\"\n"),
-              HasSubstr("use \"guard\""));
-  EXPECT_THAT(complaint(minimal + "[method]\nname = \"egc4\"\nlinear = \"explicit\"\n"), HasSubstr("crkn4"));
-  EXPECT_EQ(complaint(minimal + "[method]\nname = \"crkn6\"\nlaw = \"none\"\nlinear = \"explicit\"\n"), "");
-  EXPECT_THAT(complaint(minimal + "[method]\nname = \"seilm\"\nC = 1\n"), HasSubstr("C belongs to the sav family"));
-  EXPECT_THAT(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"refresh\"\n"), HasSubstr("refresh"));
-  EXPECT_EQ(complaint(minimal + "[method]\nname = \"slm\"\nauxiliary = \"frozen\"\n"), "");
-}
-
-TEST(CaseFile, MistakesInTheSyntaxHaveAPlace) {
-  EXPECT_THAT(complaint(minimal + "kappa = \n"), StartsWith("x.toml:3:"));
-  EXPECT_THAT(complaint(minimal + "kappa = 1/3\n"), StartsWith("x.toml:3:"));
-  EXPECT_THAT(complaint(minimal + "kappa = 1\nkappa = 2\n"), StartsWith("x.toml:4:"));
-  EXPECT_THAT(complaint("[problem\n"), StartsWith("x.toml:1:"));
-  EXPECT_THAT(complaint("\xFF\xFE"), StartsWith("x.toml:1:"));
-  EXPECT_NE(complaint(minimal + "initial = " + std::string(100000, '[')), "") << "deep input must not crash";
-}
-
 TEST(CaseFile, SetOverridesAnyKeyWithTheSameChecks) {
   const RunSpec spec = parse_case(minimal + "kappa = 1\n", "x.toml",
                                   {"problem.kappa=1/4", "method.name=ssav", "method.h = 1/8", "method.h=1/16",
@@ -376,76 +249,6 @@ TEST(CaseFile, SetOverridesAnyKeyWithTheSameChecks) {
     EXPECT_THAT(complaint_of_override(wrong), HasSubstr("write it as section.key=value")) << wrong;
   EXPECT_THAT(complaint_of_override("method.h="), HasSubstr("must be a finite number"));
   EXPECT_NE(complaint_of_override("method.h=1\n[time]\nend = 3"), "") << "one key, one value";
-}
-
-TEST(CaseFile, FormulasGiveTheInitialData) {
-  const RunSpec spec =
-      parse_case(minimal + "initial = { u = \"tanh(sqrt(2)*x)/sqrt(5) + alpha\", v = \"j/points\" }\n", "x.toml");
-  const Problem problem = make_problem(spec);
-  ASSERT_EQ(problem.initial.size(), 40);
-  for (Index i = 0; i < 20; ++i) {
-    const double x = static_cast<double>(i + 1) / 10;
-    EXPECT_NEAR(problem.initial[i], std::tanh(std::sqrt(2.0) * x) / std::sqrt(5.0) - 1, 1e-15);
-    EXPECT_NEAR(problem.initial[20 + i], static_cast<double>(i + 1) / 20, 1e-15);
-  }
-}
-
-TEST(CaseFile, FormulasOfTheInitialDataAreChecked) {
-  EXPECT_THAT(complaint(minimal + "initial = { u = \"sin(x\", v = \"0\" }\n"),
-              AllOf(StartsWith("x.toml:3:11: problem.initial.u: formula, column 4"), HasSubstr("not closed")));
-  EXPECT_THAT(complaint(minimal + "initial = { u = \"0\" }\n"), HasSubstr("no formula for the field v"));
-  EXPECT_THAT(complaint(minimal + "initial = { u = \"0\", w = \"0\" }\n"), HasSubstr("Allowed: u, v, file"));
-  EXPECT_THAT(complaint(minimal + "initial = { u = \"t\", v = \"0\" }\n"), HasSubstr("unknown name 't'"));
-  EXPECT_THAT(complaint(minimal + "initial = { u = \"0\", v = true }\n"), HasSubstr("must be a formula in quotes"));
-  const RunSpec pole = parse_case(minimal + "initial = { u = \"1/(x - 1)\", v = \"0\" }\n", "x.toml");
-  EXPECT_THAT(error_of([&] { make_problem(pole); }),
-              AllOf(StartsWith("x.toml: "), HasSubstr("u = 1/(x - 1) is inf at x = 1 (j = 10)")));
-}
-
-TEST_F(CaseFolder, AFileGivesTheInitialData) {
-  const Problem problem = duffing_from("1 2.5\n\n -3e-1\t+4\n");
-  EXPECT_EQ(problem.initial, (Vector(4) << 1, 2.5, -0.3, 4).finished());
-}
-
-TEST_F(CaseFolder, AnInitialFileWithTheWrongCountSaysBothNumbers) {
-  EXPECT_THAT(complaint_about("1 2 3"), HasSubstr("holds 3 numbers but the state has 4 (2 fields × 2 unknowns)"));
-  EXPECT_THAT(complaint_about("1 2 3 4 5"), HasSubstr("holds 5 numbers but the state has 4"));
-  EXPECT_THAT(complaint_about(""), HasSubstr("holds 0 numbers but the state has 4"));
-}
-
-TEST_F(CaseFolder, AnInitialFileHoldsFiniteNumbersOnly) {
-  for (const char* token : {"nan", "inf", "-inf", "1e999", "1,5", "0x10", "abc", "1.2.3", "--1", "+", "1/2"}) {
-    EXPECT_THAT(complaint_about("1 2\n3 " + std::string(token)),
-                HasSubstr("z0.txt:2: '" + std::string(token) + "' is not a finite number"))
-        << token;
-  }
-}
-
-TEST_F(CaseFolder, FileNamesStartAtTheCaseFileAndSurviveACopyOfTheCase) {
-  write("z0.txt", "1 2");
-  const fs::path file = write("case.toml", "[problem]\nname = \"oscillator\"\ninitial = { file = \"z0.txt\" }\n");
-  const RunSpec spec = read_case(file);
-  EXPECT_TRUE(std::get<FileData>(spec.initial).file.is_absolute());
-  const RunSpec copy = parse_case(write_case(spec), "elsewhere.toml");
-  EXPECT_EQ(copy.initial, spec.initial);
-  EXPECT_EQ(make_problem(copy).initial, make_problem(spec).initial);
-  EXPECT_THAT(error_of([&] { read_case(file, {"problem.initial={ file = \"none.txt\" }"}); }),
-              HasSubstr("none.txt does not exist"));
-  EXPECT_THAT(error_of([&] { read_case(file, {"problem.initial={ file = \"z0.txt\", q = \"1\" }"}); }),
-              HasSubstr("either a file or formulas"));
-}
-
-TEST_F(CaseFolder, ACaseFileThatCannotBeReadSaysSo) {
-  EXPECT_THAT(error_of([&] { read_case(directory / "none.toml"); }), HasSubstr("does not exist"));
-  EXPECT_THAT(error_of([&] { read_case(directory); }), HasSubstr("is a folder"));
-  const fs::path empty = write("empty.toml", "");
-  EXPECT_THAT(error_of([&] { read_case(empty); }), HasSubstr("has no name"));
-}
-
-TEST(CaseFile, ParametersThatDoNotFitTogetherNameTheCase) {
-  const RunSpec spec =
-      parse_case("[problem]\nname = \"alpha_fpu\"\nformulation = \"dissipative\"\ngamma = \"exp(-t)\"\n", "x.toml");
-  EXPECT_THAT(error_of([&] { make_problem(spec); }), AllOf(StartsWith("x.toml: "), HasSubstr("conservative")));
 }
 
 TEST(CaseFile, AToleranceStandsInsteadOfAStepSize) {
@@ -480,33 +283,6 @@ TEST(CaseFile, AnIntervalBetweenSnapshotsIsCountedInStepsOfOneSize) {
   EXPECT_THAT(complaint(with("0.25")),
               HasSubstr("output.snapshot_interval = 0.25 is no multiple of h = 0.1: write snapshot_every = "));
   EXPECT_THAT(complaint(with("0.01")), HasSubstr("write snapshot_every = 1, for one every 0.1"));
-}
-
-TEST(CaseFile, WordsOfOtherProgramsAreTakenByTheirMeaningNotTheirLetters) {
-  const auto meant = [](const std::string& section, const std::string& word) {
-    return complaint(minimal + "[" + section + "]\n" + word + " = 0.1\n");
-  };
-  for (const std::string word : {"rtol", "tol", "atol", "rel_tol", "abstol"})
-    EXPECT_THAT(meant("method", word),
-                AllOf(StartsWith("x.toml:4:1: "), HasSubstr("did you mean 'tolerance'? Allowed: name")));
-  for (const std::string word : {"dt", "step", "step_size", "timestep", "first_step"})
-    EXPECT_THAT(meant("method", word), HasSubstr("did you mean 'h'? Allowed: name"));
-  for (const std::string word : {"max_step", "dt_max", "hmax"})
-    EXPECT_THAT(meant("method", word), HasSubstr("did you mean 'h_max'?"));
-  EXPECT_THAT(meant("time", "t_end"), HasSubstr("did you mean 'end'? Allowed: end"));
-  EXPECT_THAT(meant("method", "tmax"), HasSubstr("did you mean 'end' in [time]?"));
-  EXPECT_THAT(complaint("dt = 0.1\n" + minimal), HasSubstr("outside every section; did you mean 'h' in [method]?"));
-  EXPECT_THAT(complaint_of_override("method.dt=0.1"), AllOf(StartsWith("--set method.dt=0.1: "), HasSubstr("'h'?")));
-  EXPECT_THAT(complaint("[problem]\nname = \"oscillator\"\nboundary_conditions = \"periodic\"\n"),
-              testing::Not(HasSubstr("did you mean 'boundary'")))
-      << "a key that this problem does not have";
-}
-
-TEST(CaseFile, AToleranceThatMakesNoSenseIsSaidBeforeWhatNeedsOne) {
-  const std::string about = "method.tolerance = -1 must be > 0";
-  EXPECT_THAT(complaint(minimal + "[output]\nsnapshot_interval = 0.5\n[method]\ntolerance = -1\n"), HasSubstr(about));
-  EXPECT_THAT(complaint(minimal + "[output]\nsnapshot_interval = 0.5\n", {"method.tolerance=-1"}), HasSubstr(about));
-  EXPECT_THAT(complaint(minimal + "[method]\nh_max = 0.5\ntolerance = -1\n"), HasSubstr(about));
 }
 
 }  // namespace
