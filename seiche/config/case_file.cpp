@@ -309,7 +309,8 @@ class Reader {
     };
     if (on("method", "h", read) || problem_ == nullptr || asks_for_tolerance()) return;
     spec_.h = read_number("method.h", text_value(problem_->default_h));
-    if (spec_.h <= spec_.t_end) return;
+    spec_.h_is_default = spec_.h <= spec_.t_end;
+    if (spec_.h_is_default) return;
     spec_.h = spec_.t_end;
     spec_.notes.push_back(fmt::format("method.h is not given and its default {} is more than time.end: h = {}",
                                       problem_->default_h, spec_.h));
