@@ -35,7 +35,8 @@ ExitCode run_audit(const AuditArguments& arguments) {
 
 void add_audit(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<AuditArguments>();
-  CLI::App* command = app.add_subcommand("audit", "Recompute the energy books of a finished run from its files");
+  CLI::App* command =
+      app.add_subcommand("audit", "Recompute the energy books of a finished run or ensemble from its files");
   command->add_option("DIR", arguments->directory, "The directory that a run left")->required()->type_name("");
   command->add_flag("--json", arguments->json, "Print one JSON document on stdout");
   command->callback([arguments, &action] { action = [arguments] { return run_audit(*arguments); }; });

@@ -32,6 +32,10 @@ void print_data(std::string_view text) {
 
 void print_note(std::string_view text) { print_lines(fmt::format("seiche: {}\n", text)); }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) print_note(note);
+}
+
 // Whoever closed stderr, or let its disk fill up, wants the result all the same.
 void print_lines(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 

@@ -25,9 +25,10 @@ void add_plot(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
 
-void print_data(std::string_view text);   // to stdout; throws std::runtime_error where it cannot be written
-void print_note(std::string_view text);   // one line to stderr, after "seiche: "
-void print_lines(std::string_view text);  // to stderr as it is; never throws
+void print_data(std::string_view text);  // to stdout; throws std::runtime_error where it cannot be written
+void print_note(std::string_view text);  // one line to stderr, after "seiche: "
+void print_notes(const std::vector<std::string>& notes);  // each on a line of its own
+void print_lines(std::string_view text);                  // to stderr as it is; never throws
 
 // Before anything is opened: no file of a run takes the number of a closed standard stream, and limits of the size of files
 // are errors.

@@ -104,8 +104,8 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
   options.reference.kind = find_reference(arguments.reference);
   if (const std::string unknown = options_left_out(methods, spec.method_options); !unknown.empty())
     spec.notes.push_back(unknown);
-  const std::string remarks = notes(spec, problem);
-  if (!remarks.empty()) print_note(remarks);
+  if (!arguments.step_sizes.empty()) spec.h_is_default = false;
+  print_notes(notes(spec, problem));
 
   // What does not exist or does not apply is refused here; what goes wrong from now on is a failed computation.
   for (const std::string& method : methods) {

@@ -1,6 +1,6 @@
 #include "load_case.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 #include <seiche/config/case_file.hpp>
 
 #include <iostream>
@@ -27,10 +27,11 @@ RunSpec load_case(const CaseArgument& argument, const std::vector<std::string>& 
   return spec;
 }
 
-std::string notes(const RunSpec& spec, const Problem& problem) {
+std::vector<std::string> notes(const RunSpec& spec, const Problem& problem) {
   std::vector<std::string> all = spec.notes;
+  if (spec.h_is_default) all.insert(all.begin(), fmt::format("h = {} (default)", problem_entry(spec).default_h));
   all.insert(all.end(), problem.notes.begin(), problem.notes.end());
-  return fmt::format("{}", fmt::join(all, "; "));
+  return all;
 }
 
 }  // namespace seiche::cli

@@ -133,8 +133,8 @@ ExitCode run(const RunArguments& arguments) {
                                                     .at_start = &simulation});
   const LawPromise& law = certificate.law;
   const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
-  const std::string remarks = notes(spec, problem);
-  if (!remarks.empty() && !arguments.quiet) print_note(remarks);
+  const std::vector<std::string> said_before = notes(spec, problem);
+  if (!arguments.quiet) print_notes(said_before);
 
   make_directory(directory);
   const FolderLock lock(directory);
@@ -162,32 +162,34 @@ ExitCode run(const RunArguments& arguments) {
                              .tolerance = spec.tolerance,
                              .certificate = certificate_json(certificate),
                              .versions = versions()};
-  const auto with_remarks = [&] {
+  const auto with_notes = [&] {
     RunReport all = report;
-    if (!remarks.empty()) all.message += "; " + remarks;
+    for (const std::string& note : said_before) all.message += "; " + note;
     return all;
   };
   try {
     write_final_state(directory / "final.txt", simulation.physical());
-    write_summary(directory / "summary.json", identity, with_remarks());
+    write_summary(directory / "summary.json", identity, with_notes());
     if (spec.report) write_page(directory, spec.ledger);
   } catch (const Error& error) {  // not the user's mistake any more: the directory was writable at the start
     report.status = RunReport::Status::failed;
     report.message += fmt::format("; {}", error.what());
-    write_failure(directory / "summary.json", identity, with_remarks());
+    write_failure(directory / "summary.json", identity, with_notes());
   }
-  if (arguments.json) print_data(summary_json(identity, with_remarks()));
+  if (arguments.json) print_data(summary_json(identity, with_notes()));
   if (!arguments.quiet) {
-    print_lines(report.full());  // the remarks stand above it already
+    print_lines(report.full());  // the notes stand above it already
     if (law.promised && report.law != LawVerdict::not_promised)
       print_lines(fmt::format("{:<10} {}\n", "theorem", certificate.theorem));
     print_lines(fmt::format("{:<10} {}\n", "files", directory.string()));
-    if (report.replaced.count > 0)  // again, where a reader's eye ends
+    // Again, where a reader's eye ends.
+    if (report.drift) print_note(fmt::format("{}, and what came out may be inaccurate", report.drift->text()));
+    if (report.replaced.count > 0)
       print_note(fmt::format("{} of {} steps {} replaced, and what followed may be inaccurate", report.replaced.count,
                              report.steps, report.replaced.count == 1 ? "was" : "were"));
   } else if (report.status == RunReport::Status::failed || report.law == LawVerdict::violated ||
-             !report.remark_on_replaced().empty()) {
-    print_note(with_remarks().message);
+             !report.remarks().empty()) {
+    print_note(with_notes().message);
   } else if (const std::string negative = negative_rate(simulation.problem()); !negative.empty() && !problem.friction) {
     // mostly a sign typed wrong; of friction it may be the point
     print_note(fmt::format("{}: it feeds energy, and no energy law is promised", negative));

@@ -128,7 +128,7 @@ Json statistics_json(const Statistics& s) {
 }
 
 struct Outcome {
-  std::int64_t succeeded, failed, interrupted, replaced;
+  std::int64_t succeeded, failed, interrupted, replaced, drifted;
   std::int64_t holds, violated, not_promised;  // a law that was kept up to a failure is none of these
   std::string message;
   bool is_written = true;  // is all on disk?
@@ -138,6 +138,7 @@ struct Outcome {
         failed(of(result, RunReport::Status::failed)),
         interrupted(of(result, RunReport::Status::interrupted)),
         replaced(count(result, holds_replaced)),
+        drifted(count(result, has_drifted)),
         holds(count(result,
                     [](const RunReport& r) {
                       return r.law == LawVerdict::holds && r.status != RunReport::Status::failed;
@@ -149,6 +150,7 @@ struct Outcome {
         result, failed, "failed", [](const RunReport& r) { return r.status == RunReport::Status::failed; },
         &RunReport::message);
     say_first(result, replaced, "hold replaced steps", holds_replaced, &RunReport::remark_on_replaced);
+    say_first(result, drifted, "have an energy that no solution has", has_drifted, &RunReport::remark_on_drift);
     if (interrupted > 0) message += fmt::format("; {} were interrupted", interrupted);
     say_first(
         result, violated, "violated the promised energy law",
@@ -184,6 +186,8 @@ struct Outcome {
   static bool holds_replaced(const RunReport& r) {
     return r.replaced.count > 0 && r.status != RunReport::Status::failed;
   }
+
+  static bool has_drifted(const RunReport& r) { return r.drift && r.status != RunReport::Status::failed; }
 
   template <class Is, class Reason>
   void say_first(const EnsembleResult& result, std::int64_t how_many, const char* what, const Is& is,
@@ -259,6 +263,14 @@ void require_start(const Members& members, const RunSpec& spec) {
   throw Error(*first);
 }
 
+// Where members differ in a parameter, what was made of one problem is not what was made of another.
+std::vector<std::string> notes_on(const Members& members, const RunSpec& spec) {
+  Problem first = *members.list.front().problem;
+  if (!members.parameters.empty())
+    for (std::string& note : first.notes) note = "of member 1: " + note;
+  return notes(spec, first);
+}
+
 }  // namespace
 
 ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& options) {
@@ -266,8 +278,7 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
   const Problem& problem = *members.list.front().problem;
   const bool has_modified = find_method(spec.method).law == "H_modified";
   require_start(members, spec);
-  const std::string remarks = notes(spec, problem);
-  if (!remarks.empty() && !options.quiet) print_note(remarks);
+  if (!options.quiet) print_notes(notes_on(members, spec));
 
   // Of the first member; each member's own promise is counted in "laws".
   const Certificate certificate = certify(problem, {.method = spec.method,
@@ -326,7 +337,8 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
     print_lines(fmt::format("{:<10} mean {:.9g} → {:.9g}\n{:<10} {} members in {:.3g} s\n{:<10} {}\n", "H",
                             energies.first().H.mean, energies.last().H.mean, "time", result.members.size(),
                             result.wall_seconds, "files", directory.string()));
-  } else if (outcome.failed > 0 || !outcome.is_written || outcome.violated > 0 || outcome.replaced > 0) {
+  } else if (outcome.failed > 0 || !outcome.is_written || outcome.violated > 0 || outcome.replaced > 0 ||
+             outcome.drifted > 0) {
     print_note(outcome.message);
   }
   return exit_code(outcome);

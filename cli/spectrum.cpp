@@ -33,8 +33,7 @@ ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
   const Problem problem = make_problem(spec);
   SimulationOptions options = simulation_options(spec);
   options.backend_options.threads = arguments.threads;
-  const std::string remarks = notes(spec, problem);
-  if (!remarks.empty()) print_note(remarks);
+  print_notes(notes(spec, problem));
   const std::filesystem::path directory = arguments.directory;
   std::optional<FolderLock> lock;
   if (arguments.directory_given) {

@@ -76,6 +76,39 @@ TEST_F(Cli, KicksBeyondTheirStabilityAreSaidBeforeTheRunAndFailItAlsoWhenQuiet) 
   EXPECT_EQ(seiche("run case.toml --out out --quiet --set method.linear=exact").err, "");
 }
 
+// Duffing, with steps of half a period: the modified energy keeps its law, and what it has to do with H is gone.
+TEST_F(Cli, AnEnergyThatRoseBesideItsLawIsSaidAlsoWhenQuietAndByEnsembles) {
+  write(
+      "case.toml",
+      "[problem]\nname = \"oscillator\"\nomega_squared = 1\nalpha = 100\ngamma = 0.01\ninitial = { q = \"2\", p = \"0\" }\n"
+      "[method]\nname = \"seisav\"\nh = 0.5\n[time]\nend = 50.0\n");
+  const Result run = seiche("run case.toml --out out");
+  EXPECT_EQ(run.exit, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("the law holds for the modified energy, and H itself rose from "),
+                             HasSubstr("and what came out may be inaccurate\n")));
+  EXPECT_THAT(json::parse(text("out/summary.json"))["message"].get<std::string>(), HasSubstr("H itself rose from "));
+  EXPECT_THAT(seiche("run case.toml --out out --quiet").err, HasSubstr("H itself rose from "));
+  for (const char* harmless : {"method.h=1/256", "method.name=seilm", "problem.gamma=-0.1"})
+    EXPECT_THAT(seiche(std::string("run case.toml --out out --set ") + harmless).err, Not(HasSubstr("H itself rose")))
+        << harmless;
+  write("ensemble.toml", text("case.toml") + "[ensemble]\nmembers = 3\nperturb_initial = 0.01\n");
+  const Result ensemble = seiche("run ensemble.toml --out many --quiet");
+  EXPECT_EQ(ensemble.exit, 0);
+  EXPECT_THAT(ensemble.err, AllOf(HasSubstr("3 have an energy that no solution has, the first of them member 1: "),
+                                  HasSubstr("H itself rose from ")));
+  EXPECT_THAT(text("many/members.csv"), HasSubstr("H itself rose from "));
+}
+
+TEST_F(Cli, AnEnergyThatIsNotKeptWithoutDampingIsSaid) {
+  write(
+      "case.toml",
+      "[problem]\nname = \"oscillator\"\nomega_squared = 1\nalpha = 100\ngamma = 0\ninitial = { q = \"2\", p = \"0\" }\n"
+      "[method]\nname = \"etdrk4\"\nlaw = \"none\"\nh = 0.05\n[time]\nend = 5.0\n");
+  EXPECT_THAT(seiche("run case.toml --out out").err,
+              AllOf(HasSubstr("H itself "), HasSubstr("although nothing in the equation changes it")));
+  EXPECT_THAT(seiche("run case.toml --out out --set method.h=1/1024").err, Not(HasSubstr("H itself")));
+}
+
 TEST_F(Cli, ADampingThatFeedsEnergyIsSaidAlsoWhenQuiet) {
   write("case.toml",
         "[problem]\nname = \"custom\"\nH = \"p^2/2 + q^4/4\"\nD = { p = 0.1 }\ninitial = { q = 1, p = 0 }\n"

@@ -99,6 +99,32 @@ TEST_F(Cli, OneSetTakesSeveralKeysAndLeavesTheCaseFileAlone) {
   EXPECT_EQ(lines("out/energy.csv").front(), "t,H");
 }
 
+TEST_F(Cli, EachNoteHasALineOfItsOwnAndAStepSizeOfTheProgramIsAmongThem) {
+  const std::string custom =
+      "[problem]\nname = \"custom\"\nH = \"q^4/4 + 7\"\nparameters = { k = 1 }\ninitial = { q = 1, p = 0 }\n";
+  write("case.toml", custom + "[time]\nend = 1.0\n");
+  const std::string said = seiche("run case.toml --out out").err;
+  for (const char* line :
+       {"seiche: h = 1/64 (default)\n", "\nseiche: no formula names the parameter k\n", "\nseiche: H = ½zᵀMz + V with ",
+        "\nseiche: the energy does not name p: S gives q no velocity"})
+    EXPECT_THAT("\n" + said, HasSubstr(line));
+  EXPECT_TRUE(said.starts_with("seiche: h = 1/64 (default)\n")) << said;
+  EXPECT_THAT(json::parse(text("out/summary.json"))["message"].get<std::string>(), HasSubstr("; h = 1/64 (default); "));
+  for (const char* given : {"method.h=1/64", "method.tolerance=1e-4"})
+    EXPECT_THAT(seiche(std::string("run case.toml --out out --set method.name=egc4 ") + given).err,
+                Not(HasSubstr("(default)")));
+  EXPECT_THAT(seiche("converge case.toml --h 1/8,1/16").err, Not(HasSubstr("(default)")));
+}
+
+TEST_F(Cli, NotesOnOneMemberOfAnEnsembleAreCalledSo) {
+  write("case.toml",
+        "[problem]\nname = \"custom\"\nH = \"p^2/2 + k*q^4\"\nparameters = { k = 1 }\ninitial = { q = 1, p = 0 }\n"
+        "[method]\nh = 0.1\n[time]\nend = 1.0\n[ensemble]\nmembers = 3\nk = { from = 1, to = 2 }\n");
+  EXPECT_THAT(seiche("run case.toml --out out").err, HasSubstr("seiche: of member 1: H = ½zᵀMz + V with "));
+  write("same.toml", text("case.toml").substr(0, text("case.toml").find("k = { from")) + "perturb_initial = 0.1\n");
+  EXPECT_THAT(seiche("run same.toml --out same").err, HasSubstr("seiche: H = ½zᵀMz + V with "));
+}
+
 TEST_F(Cli, AStepThatDoesNotDivideTheTimeIsSaidToBeShortened) {
   write_case();
   const Result result = seiche("run case.toml --out out --json --set method.h=0.3");

@@ -10,6 +10,7 @@
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/nls.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -124,6 +125,28 @@ TEST(EnergyLaw, OfProjectionHoldsAtLargeAmplitudes) {
     }
   }
   EXPECT_GT(runs, 3000);
+}
+
+// What exact solutions do, beside what a method promises.
+TEST(EnergyLaw, KnowsWhereHNeverGrowsAndWhereItNeverChanges) {
+  const auto promise = [](const Problem& p) { return promise_energy_law(p, 10); };
+  const LawPromise damped = promise(klein_gordon_case(0.1, 1.0)), kept = promise(klein_gordon_case(0.0, 1.0)),
+                   fed = promise(klein_gordon_case(-0.1, 1.0));
+  EXPECT_TRUE(damped.never_grows && !damped.never_changes);
+  EXPECT_TRUE(kept.never_grows && kept.never_changes);
+  EXPECT_TRUE(!fed.never_grows && !fed.never_changes);
+  const Simulation unprojected(klein_gordon_case(0.0, 1.0),
+                               {.method = "egc4", .method_options = {.law = EnergyLaw::none}});
+  const LawPromise given_up = promise_energy_law(unprojected, 10);
+  EXPECT_TRUE(!given_up.promised && given_up.never_grows && given_up.never_changes);
+}
+
+TEST(EnergyLaw, EverythingThatStandsAgainstItIsNamed) {
+  Problem p = klein_gordon_case(-0.1, 1.0);
+  p.forces = {nullptr, formula_space_rate(compile_formula("0.3*cos(t)", {"t", "x"}), 1, false)->on(p.grid)};
+  EXPECT_THAT(promise_energy_law(p, 10).reason,
+              testing::AllOf(testing::HasSubstr("an external force does work"),
+                             testing::HasSubstr("and the rate -0.1 is negative at t = 0")));
 }
 
 // The law is not a property of round-off: these must rise, or the tests above could not fail.

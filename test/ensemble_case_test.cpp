@@ -2,12 +2,15 @@
 #include "support/background.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_directory.hpp"
+#include "support/text_of.hpp"
 
 #include <seiche/config/case_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/ensemble/statistics.hpp>
+#include <seiche/study/audit.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <nlohmann/json.hpp>
@@ -151,6 +154,49 @@ TEST_F(EnsembleProgram, LeavesARowForEveryMemberAndTheStatisticsOfTheEnergies) {
   const std::vector<std::string> finals = lines("out/finals.csv");
   ASSERT_EQ(run_case("members = 19\ngamma = { from = 0.0, to = 0.18 }\nperturb_initial = 0.01\n"), 0);
   EXPECT_EQ(lines("out/finals.csv"), finals) << "one thread or two";
+}
+
+TEST_F(EnsembleProgram, IsAuditedFromItsFilesWhichShowWhatWasChanged) {
+  const auto audit_out = [&] { return audit(directory / "out"); };
+  const auto verdicts = [&] {
+    std::string text;
+    for (const AuditEntry& entry : audit_out().entries)
+      text += to_string(entry.verdict) + ": " + entry.claim + "\n  " + entry.evidence + "\n";
+    return text;
+  };
+  for (const std::string method : {"seisav", "seidm", "egc4"}) {
+    ASSERT_EQ(run_case("members = 19\ngamma = { from = 0.0, to = 0.18 }\nperturb_initial = 0.01\n",
+                       "name = \"" + method + "\"\n"),
+              0);
+    EXPECT_TRUE(audit_out().confirms()) << verdicts();
+    EXPECT_THAT(verdicts(), testing::Not(testing::HasSubstr("not checked"))) << method;
+    EXPECT_EQ(audit_out().entries.size(), 8U);
+  }
+  // a digit of the last number of a row, and of the file
+  for (const std::string file : {"members.csv", "finals.csv", "energy.csv", "summary.json", "case.toml"}) {
+    const std::string whole = test::text_of(directory / "out" / file);
+    std::string changed = whole;
+    const std::size_t from = file == "members.csv"    ? whole.find(",success,", whole.size() / 2) + 14
+                             : file == "summary.json" ? whole.find("\"holds\"")
+                             : file == "case.toml"    ? whole.find("seed")
+                             : file == "finals.csv"   ? whole.find('\n', whole.size() / 2) + 5
+                                                      : whole.find('\n') + 6;
+    const std::size_t digit = changed.find_first_of("123456789", from);
+    changed[digit] = changed[digit] == '9' ? '1' : '9';
+    std::ofstream(directory / "out" / file) << changed;
+    EXPECT_FALSE(audit_out().confirms()) << file << ", column " << digit << "\n" << verdicts();
+    std::ofstream(directory / "out" / file) << whole;
+  }
+  EXPECT_TRUE(audit_out().confirms());
+  std::filesystem::remove(directory / "out/finals.csv");
+  EXPECT_THAT(test::error_of(audit_out), testing::HasSubstr("finals.csv cannot be read"));
+}
+
+TEST_F(EnsembleProgram, IsAuditedWithMembersThatFailed) {
+  EXPECT_EQ(run_case("members = 40\nperturb_initial = 0.6\n", "C = 1\n"), 1);
+  const Audit result = audit(directory / "out");
+  EXPECT_TRUE(result.confirms());
+  EXPECT_EQ(result.entries.size(), 8U);
 }
 
 TEST_F(EnsembleProgram, SaysWhichMembersFailedAndKeepsTheOthers) {

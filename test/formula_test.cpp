@@ -185,6 +185,8 @@ TEST(Formula, EachMistakeHasItsOwnSentence) {
       {"(u)(v)", "write )*("},
       {"u v", "write u*v"},
       {"u(v)", "u is not a function; for a product write u*(…)"},
+      {"u(j+1)", "u is not a function; for a product write u*(…)"},
+      {"u[j+1]", "column 2: the character '[' has no meaning here; write ( )"},
       {"2 3", "two numbers"},
       {"1.2.3", "two numbers"},
       {"u**2", "written with ^"},

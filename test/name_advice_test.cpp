@@ -103,6 +103,19 @@ TEST(NameAdvice, WordsOfTheLanguageSayWhereTheyStand) {
   EXPECT_THAT(said(ring, {"problem.D={ v = \"0.1*u_x\" }"}), HasSubstr("d_x, d_x^2, laplacian"));
 }
 
+TEST(NameAdvice, NeighboursAreReachedByTheDifference) {
+  for (const char* neighbour : {"u[j+1]", "u[i]", "u(j+1)", "u(n-1)"}) {
+    const std::string hint = said(ring, {"problem.H=v^2/2 + (" + std::string(neighbour) + " - u)^4"});
+    EXPECT_THAT(hint, HasSubstr("column 11: u has no index: du is the difference to the next point, u_{j+1} − u_j"))
+        << neighbour;
+  }
+  const std::string plane = "length = [1.0, 1.0]\npoints = [8, 8]\nH = \"v^2/2 + u^4/4\"\ninitial = \"zero\"\n";
+  EXPECT_THAT(said(plane, {"problem.H=v^2/2 + u[i][j]^4"}), HasSubstr("u has no index: u_x is its derivative along x"));
+  EXPECT_THAT(said(ring + "parameters = { k = 2 }", {"problem.H=v^2/2 + u(k+1)"}),
+              HasSubstr("for a product write u*(…)"));
+  EXPECT_THAT(said(oscillator, {"problem.H=p^2/2 + q[1]^4"}), AllOf(HasSubstr("'['"), Not(HasSubstr("next point"))));
+}
+
 TEST(NameAdvice, UnitsAreNoneOfTheLanguage) {
   EXPECT_THAT(said(oscillator, {"time.end=1 s"}), HasSubstr("units such as s are none of the language"));
   EXPECT_THAT(said(oscillator, {"problem.force=cos(5 Hz*t)"}), HasSubstr("units such as Hz are none of the language"));

@@ -8,7 +8,10 @@
 #include <seiche/problem/truss.hpp>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <iterator>
+#include <tuple>
 
 namespace seiche {
 namespace {
@@ -41,6 +44,32 @@ TEST_F(PictureChoice, AFilmOfThePlaneHasAFrameForEveryState) {
   }
   for (const char* film : {"class=\"on-light\" src=\"figures/film_u.", "class=\"on-dark\" src=\"figures/film_u_dark."})
     EXPECT_THAT(report(), HasSubstr(film));
+}
+
+// Both kinds, the second where ffmpeg was built without H.264.
+TEST_F(PictureChoice, AFilmHasAllItsFramesAndSaysWhichColoursTheyAre) {
+  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  if (std::system("ffmpeg -version >/dev/null 2>&1 && ffprobe -version >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "ffmpeg is not installed";
+  run("klein_gordon", "problem.points=[12,8] problem.length=[2.0,2.0] output.snapshot_every=4");
+  fs::create_directory(directory / "bin");
+  std::ofstream(directory / "bin/ffmpeg") << "#!/bin/sh\ncase \"$*\" in *libx264*) exit 1;; esac\n"
+                                             "PATH=${PATH#*:}\nexec ffmpeg \"$@\"\n";
+  fs::permissions(directory / "bin/ffmpeg", fs::perms::owner_all);
+  const std::string without_h264 = "PATH='" + (directory / "bin").string() + "':\"$PATH\"";
+  for (const auto& [before, file, codec] :
+       {std::tuple("", "film_u.mp4", "h264"), {without_h264.c_str(), "film_u_dark.webm", "vp9"}}) {
+    ASSERT_EQ(seiche("plot --format png '" + out().string() + "'", before), 0) << said();
+    const fs::path film = out() / "figures" / file;
+    ASSERT_TRUE(fs::exists(film)) << said();
+    const std::string probe =
+        "ffprobe -v error -count_frames -show_entries "
+        "stream=codec_name,width,height,pix_fmt,color_range,color_space,nb_read_frames -of csv '" +
+        film.string() + "' >'" + (directory / "probe.txt").string() + "'";
+    ASSERT_EQ(std::system(probe.c_str()), 0);
+    EXPECT_THAT(text_of(directory / "probe.txt"), testing::StartsWith(fmt::format("stream,{},720,", codec)));
+    EXPECT_THAT(text_of(directory / "probe.txt"), HasSubstr("yuv420p,tv,bt709,5")) << "colours, frames";
+  }
 }
 
 TEST_F(PictureChoice, APortraitOfFewStatesPerTurnShowsThem) {

@@ -2,6 +2,7 @@
 // something is missing.
 #include "support/run_folder.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <seiche/figure/html.hpp>
@@ -162,8 +163,24 @@ TEST_F(RunReports, AFailedRunIsShownUpToItsLastGoodState) {
       << "[problem]\nname = \"klein_gordon\"\ngamma = 0\n[method]\nname = \"seilm\"\n"
          "[time]\nend = 50.0\n";
   ASSERT_EQ(seiche("run '" + (directory / "case.toml").string() + "' --quiet --out '" + out().string() + "'"), 1);
-  EXPECT_EQ(seiche("plot --format png '" + out().string() + "'"), 0) << said();
-  EXPECT_THAT(report(), HasSubstr("failed</span>"));
+  EXPECT_EQ(seiche("plot --format svg '" + out().string() + "'"), 0) << said();
+  const RunFiles files = read_run(out());
+  EXPECT_EQ(shortfall(files), fmt::format("failed at t = {:.6g}", files.t));
+  EXPECT_THAT(report(), HasSubstr(shortfall(files) + "</span>"));
+  for (const char* picture : {"energy", "space_time_u", "profiles_v", "energy_dark", "space_time_v_dark"})
+    EXPECT_THAT(text_of(out() / "figures" / (std::string(picture) + ".svg")), HasSubstr("failed at t = ")) << picture;
+  EXPECT_THAT(report(), HasSubstr("energy; failed at t = ")) << "instead of a picture, and for those who hear the page";
+}
+
+TEST_F(RunReports, WhatARunFallsShortOfIsKnownFromItsFiles) {
+  run("klein_gordon");
+  RunFiles files = read_run(out());
+  EXPECT_EQ(shortfall(files), "");
+  files.law = "violated";
+  EXPECT_EQ(shortfall(files), "the energy law is violated");
+  files.status = "interrupted";
+  files.t = 0.25;
+  EXPECT_EQ(shortfall(files), "interrupted at t = 0.25, the energy law is violated");
 }
 
 TEST(EnergyHistories, KeepPeaksAndSumsOfLongRunsInFewPoints) {

@@ -1,11 +1,14 @@
 // What the time loop promises, shown on a stepper whose every step is known.
 #include <seiche/core/error.hpp>
+#include <seiche/core/vector.hpp>
+#include <seiche/run/energy_book.hpp>
 #include <seiche/run/integrate.hpp>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -353,6 +356,48 @@ TEST(RunReport, BriefIsOneLineAndFullHoldsTheMessage) {
   EXPECT_EQ(report.brief().find('\n'), std::string::npos);
   EXPECT_THAT(report.full(), HasSubstr("reached t = 1"));
   EXPECT_EQ(to_string(LawVerdict::not_promised), "not promised");
+}
+
+// H of a run whose terms have the size `terms`; a modified energy falls all the while.
+RunReport booked(const LawPromise& promise, const std::vector<double>& H, bool has_modified, double terms = 1,
+                 std::int64_t event_before = -1) {
+  EnergyBook book(promise, has_modified);
+  for (std::size_t n = 0; n < H.size(); ++n) {
+    if (static_cast<std::int64_t>(n) == event_before) book.reopen();
+    book.add({.H = H[n],
+              .modified = -static_cast<double>(n),
+              .round_off = 50 * epsilon * std::max(terms, std::abs(H[n])),
+              .modified_round_off = 50 * epsilon},
+             static_cast<double>(n), static_cast<std::int64_t>(n));
+  }
+  RunReport report;
+  book.write_to(report);
+  return report;
+}
+
+TEST(EnergyBook, SaysWhereHWentThatNoSolutionGoes) {
+  const LawPromise damped{true, "damped", true, false}, kept{true, "kept", true, true}, driven{false, "driven"};
+  const RunReport risen = booked(damped, {1, 3, 300, 0.9}, true);
+  EXPECT_EQ(risen.law, LawVerdict::holds);
+  EXPECT_THAT(risen.remark_on_drift(),
+              testing::StartsWith(
+                  "the law holds for the modified energy, and H itself rose from 1 to 300 at t = 2, although no "
+                  "solution of the equation lets it rise: the two have parted"));
+  EXPECT_EQ(risen.remarks().size(), 1U);
+  EXPECT_EQ(booked(damped, {1, 0.5, 0.1}, true).remark_on_drift(), "") << "damping takes it";
+  EXPECT_EQ(booked(driven, {1, 3, 300}, true).remark_on_drift(), "");
+  EXPECT_EQ(booked(driven, {1, 3, 300}, false).remarks().size(), 0U);
+  EXPECT_EQ(booked(damped, {1, 1.05, 0.9}, true).remark_on_drift(), "") << "a little";
+  EXPECT_EQ(booked(damped, {0, 0.01, 0.04}, true).remark_on_drift(), "") << "a little of its terms";
+  EXPECT_EQ(booked(damped, {1, 0.9, 40, 39}, true, 1, 2).remark_on_drift(), "") << "by an event";
+  EXPECT_THAT(booked(kept, {1, 0.95, 0.8}, true).remark_on_drift(),
+              HasSubstr("H itself fell from 1 to 0.8 at t = 2, although nothing in the equation changes it"));
+  EXPECT_EQ(booked(kept, {1, 0.95, 1.05}, true).remark_on_drift(), "");
+  LawPromise withdrawn = kept;
+  withdrawn.withdraw("law = \"none\"");
+  EXPECT_THAT(booked(withdrawn, {1, 1, 2}, false).remark_on_drift(),
+              testing::StartsWith("H itself rose from 1 to 2 at t = 2, although nothing"));
+  EXPECT_EQ(booked(damped, {1, 2, 3}, false).remarks().size(), 0U) << "the law that is violated says it";
 }
 
 TEST(RunReport, OneReplacedStepIsSaidInWords) {

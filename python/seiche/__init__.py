@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 from ._core import __version__, backends, methods, problems
 from ._ensemble import EnsembleResult, solve_ensemble
 from ._problem import Case, Problem, load, problem
-from ._result import DenseOutput, Result, Status
+from ._result import DenseOutput, Result, SeicheWarning, Status
 from ._solve import solve
 from ._studies import check, converge, spectrum
 
@@ -31,6 +31,7 @@ __all__ = [
     "EnsembleResult",
     "Problem",
     "Result",
+    "SeicheWarning",
     "Status",
     "__version__",
     "backends",

@@ -27,6 +27,7 @@ class Case:
     problem: str
     method: str
     h: float
+    h_is_default: bool
     tolerance: float | None
     h_max: float
     backend: str
@@ -48,6 +49,8 @@ class Solution:
     ledger: dict[str, np.ndarray]
     status: str
     message: str
+    remarks: list[str]
+    """What nobody should miss: steps that were replaced, an energy that no solution has."""
     ended_by_event: bool
     nfev: int
     steps: int
@@ -70,6 +73,7 @@ class Ensemble:
     y: np.ndarray
     status: list[str]
     message: list[str]
+    remarks: list[list[str]]
     law: list[str]
     energy: list[float]
     parameters: dict[str, np.ndarray]

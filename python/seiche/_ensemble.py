@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
 
 from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count
-from ._result import Answer, about_it, coordinates_of, field_of
+from ._result import Answer, SeicheWarning, about_it, coordinates_of, field_of
 from ._solve import _span
 
 if TYPE_CHECKING:
@@ -127,6 +128,7 @@ def solve_ensemble(
         The states at the start; by default those of the problems.
 
     The other parameters are those of `seiche.solve`. A member that fails stops with its message, and the others go on.
+    Warns with a `seiche.SeicheWarning` where members may be inaccurate, as `seiche.solve` does.
     """
     refuse_other_names(options)
     several = isinstance(problem, (list, tuple))
@@ -151,6 +153,15 @@ def solve_ensemble(
         if several and len(states) != len(problems):
             raise ValueError(f"z0 has {len(states)} rows for {len(problems)} problems")
         held = _core.ensemble_of_problems([p._core for p in problems], states, case, thread_count(threads))
+    remarks = {k: of_member for k, of_member in enumerate(held.remarks) if of_member}
+    if remarks:
+        first = min(remarks)
+        warnings.warn(
+            f"{len(remarks)} of {len(held.remarks)} members may be inaccurate, the first of them member {first}: "
+            + "; ".join(remarks[first]),
+            SeicheWarning,
+            stacklevel=2,
+        )
     has_modified = any(m["name"] == case.method and m["law"] == "H_modified" for m in _core.methods())
     result = EnsembleResult(
         t=held.t,

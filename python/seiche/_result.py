@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +15,10 @@ if TYPE_CHECKING:
     import xarray
 
     from ._problem import Problem
+
+
+class SeicheWarning(UserWarning):
+    """A computation came to its end, and what it left may be inaccurate: steps were replaced, or H went where no solution takes it."""
 
 
 class Status(int):
@@ -85,13 +90,17 @@ class Answer(dict):
         return [*super().__dir__(), *self]
 
     def __repr__(self) -> str:
+        width = max(map(len, self), default=0)
+
         def shown(value: Any) -> str:
             if isinstance(value, np.ndarray):
                 return f"array of shape {value.shape}"
             text = repr(value)
+            if isinstance(value, str):  # a sentence is whole, in as many lines as it takes
+                lines = textwrap.wrap(text, 100, break_long_words=False, break_on_hyphens=False)
+                return f"\n{'':{width + 2}}".join(lines)
             return text if len(text) <= 100 else text[:99] + "…"
 
-        width = max(map(len, self), default=0)
         return "\n".join(f"{key:>{width}}: {shown(value)}" for key, value in self.items())
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import numbers
+import warnings
 from typing import Any, Callable, Sequence
 
 import numpy as np
 
 from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count, truth, whole_number
-from ._result import Result, result_of
+from ._result import Result, SeicheWarning, result_of
 
 
 def _span(t_span: Any, default_end: float | None) -> tuple[float, float]:
@@ -116,6 +117,11 @@ def solve(
     ------
     ValueError
         For what makes no sense, in one sentence. A computation that fails is a status of the result.
+
+    Warns
+    -----
+    SeicheWarning
+        Where steps were replaced, or H went where no solution takes it. ``message`` says so too.
     """
     refuse_other_names(options)
     given = as_problem(problem) if isinstance(problem, str) else problem
@@ -162,8 +168,10 @@ def solve(
         truth("ledger", with_ledger),
         thread_count(threads),
     )
+    for remark in solution.remarks:
+        warnings.warn(remark, SeicheWarning, stacklevel=2)
     notes = [*case.notes, *stated.notes]
-    if h is None and case.tolerance is None and not isinstance(given, Case):
+    if case.h_is_default:
         notes.insert(0, f"h is not given: steps of {case.h:g}, as in the problem's example")
     if solution.method_reason:
         notes.append(f'method = "auto": {solution.method_reason}')

@@ -65,7 +65,19 @@ def _title(result: _result.Result | _ensemble.EnsembleResult, what: str) -> str:
     problem, file = result.problem, result.problem._file
     name = problem.name if problem.name != "custom" else _pathlib.Path(file).stem if file else ""
     sizes = result.get("report", result)
-    return ", ".join(filter(None, (name, result.method, _size(sizes.get("h"), sizes.get("tolerance"))))) + f": {what}"
+    title = ", ".join(filter(None, (name, result.method, _size(sizes.get("h"), sizes.get("tolerance"))))) + f": {what}"
+    return "\n".join(filter(None, (title, _shortfall(result))))
+
+
+def _shortfall(result: _result.Result | _ensemble.EnsembleResult) -> str:
+    """What is said below the title of a run that is not what was asked for, as in `seiche plot`; of members how many."""
+    violated = "the energy law is violated"
+    if isinstance(result, _ensemble.EnsembleResult):
+        words = {word: result.status.count(word) for word in ("failed", "interrupted")}
+        words[f"where {violated}"] = result.law.count("violated")
+        return ", ".join(f"{count} of {len(result.status)} members {word}" for word, count in words.items() if count)
+    ended = "" if result.success else f"{result.status.word} at $t$ = {result.report['t']:.6g}"
+    return ", ".join(filter(None, (ended, violated if result.law == "violated" else "")))
 
 
 def _label(result: _result.Result, field: str) -> str:

@@ -127,6 +127,10 @@ void bind_ensembles(py::module_& module) {
                              [](const HeldEnsemble& e) {
                                return of_members(e, [](const auto& m) { return m.report.message; });
                              })
+      .def_property_readonly("remarks",
+                             [](const HeldEnsemble& e) {
+                               return of_members(e, [](const auto& m) { return m.report.remarks(); });
+                             })
       .def_property_readonly("law",
                              [](const HeldEnsemble& e) {
                                return of_members(e, [](const auto& m) { return to_string(m.report.law); });

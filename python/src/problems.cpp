@@ -136,6 +136,7 @@ void bind_problems(py::module_& module) {
       .def_readonly("method", &RunSpec::method)
       .def_readonly("h", &RunSpec::h)
       .def_readonly("tolerance", &RunSpec::tolerance)
+      .def_readonly("h_is_default", &RunSpec::h_is_default)
       .def_readonly("h_max", &RunSpec::h_max)
       .def_readonly("backend", &RunSpec::backend)
       .def_readonly("t_end", &RunSpec::t_end)

@@ -166,6 +166,7 @@ void bind_solve(py::module_& module) {
       .def_property_readonly("ledger", &ledger_of)
       .def_property_readonly("status", [](const HeldSolution& s) { return to_string(s.solution->report.status); })
       .def_property_readonly("message", [](const HeldSolution& s) { return s.solution->report.message; })
+      .def_property_readonly("remarks", [](const HeldSolution& s) { return s.solution->report.remarks(); })
       .def_property_readonly("ended_by_event", [](const HeldSolution& s) { return s.solution->ended_by_event; })
       .def_property_readonly("nfev",
                              [](const HeldSolution& s) { return s.solution->report.potential_counts.gradients; })

@@ -187,6 +187,22 @@ def test_slices_have_one_kind_of_colours():
     assert [ax.collections[0].colorbar.ax.get_ylabel() for ax in axes] == ["$u$"] * 4
 
 
+def test_below_the_title_stands_what_a_run_falls_short_of(wave):
+    def title(result):
+        return seiche.plot.energy(result).get_title().splitlines()
+
+    stopped = seiche.solve(wave, 1.0, h=0.0625, observer=lambda t, y, energy: t < 0.5)
+    assert title(stopped)[1] == "interrupted at $t$ = 0.5"
+    assert len(title(seiche.solve(wave, 1.0, h=0.0625))) == 1
+    stopped["law"] = "violated"
+    assert title(stopped)[1] == "interrupted at $t$ = 0.5, the energy law is violated"
+    states = np.array([np.zeros(32), np.full(32, 0.1)])
+    members = seiche.solve_ensemble(wave, 1.0, states, h=0.0625)
+    assert len(title(members)) == 1
+    members.status[1] = "failed"
+    assert title(members)[1] == "1 of 2 members failed"
+
+
 def test_titles_are_those_of_the_program(tmp_path):
     case = tmp_path / "swing.toml"
     case.write_text(

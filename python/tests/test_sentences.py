@@ -1,5 +1,7 @@
 """What is said of calls that cannot mean anything, and of habits from other programs."""
 
+import warnings
+
 import numpy as np
 import pytest
 import seiche
@@ -87,7 +89,41 @@ def test_a_right_hand_side_is_answered_with_what_is_wanted_instead(call):
         call(lambda t, z: -z)
 
 
-def test_a_step_size_that_was_not_given_is_said():
+def stiff(**parameters):
+    """Duffing, which steps of half a period leave with a modified energy that has nothing to do with H."""
+    return seiche.problem("oscillator", **({"omega_squared": 1, "alpha": 100, "gamma": 0.01} | parameters))
+
+
+def test_what_may_be_inaccurate_is_a_warning():
+    with pytest.warns(seiche.SeicheWarning, match="H itself rose from .* although no solution of the equation") as caught:
+        result = seiche.solve(stiff(), 50.0, [2, 0], h=0.5)
+    assert caught[0].filename == __file__
+    assert result.success and str(caught[0].message) in result.message
+    with pytest.warns(seiche.SeicheWarning, match="2 of 2 members may be inaccurate, the first of them member 0: .*H itself rose"):
+        seiche.solve_ensemble(stiff(), 50.0, [[2, 0], [2.1, 0]], h=0.5)
+    with pytest.warns(seiche.SeicheWarning, match="no solution was found"):
+        seiche.solve(seiche.problem("klein_gordon", points=64, alpha=1), 10.0, method="crkn4", linear="explicit", h=0.5)
+
+
+def test_a_run_without_fault_warns_of_nothing():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        seiche.solve(stiff(), 1.0, [2, 0], h=1 / 256)
+        seiche.solve_ensemble(stiff(), 1.0, [[2, 0], [2.1, 0]], h=1 / 256)
+
+
+def test_a_long_message_is_printed_whole():
+    with pytest.warns(seiche.SeicheWarning):
+        result = seiche.solve(stiff(), 50.0, [2, 0], h=0.5)
+    assert len(result.message) > 200
+    printed = repr(result).splitlines()
+    assert max(map(len, printed)) < 130
+    assert result.message in " ".join(line.strip() for line in printed)
+
+
+def test_a_step_size_that_was_not_given_is_said(tmp_path):
+    (tmp_path / "case.toml").write_text('[problem]\nname = "oscillator"\n[time]\nend = 1.0\n')
+    assert any("h is not given" in note for note in seiche.solve(seiche.load(tmp_path / "case.toml")).notes)
     assert any("h is not given: steps of 0.015625" in note for note in seiche.solve(duffing(), 1.0).notes)
     assert not any("not given" in note for note in seiche.solve(duffing(), 1.0, h=0.1).notes)
     assert not any("not given" in note for note in seiche.solve(duffing(), 1.0, tolerance=1e-6).notes)

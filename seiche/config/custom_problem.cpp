@@ -201,9 +201,11 @@ class Builder {
       const std::string& name = p_.fields[static_cast<std::size_t>(i)];
       // Of [[0, I], [−I, 0]]: ∂H/∂p is the velocity of q, and −∂H/∂q the force on p.
       const std::string& other = p_.fields[static_cast<std::size_t>((i + half) % fields())];
-      p_.notes.push_back(custom_.S.empty() ? fmt::format("the energy does not name {0}: S gives {1} {2}", name, other,
-                                                         i < half ? "no force" : "no velocity")
-                                           : fmt::format("the energy does not name {0}: ∂H/∂{0} = 0", name));
+      p_.notes.push_back(
+          custom_.S.empty()
+              ? fmt::format("the energy does not name {0}: S gives {1} {2}", name, other,
+                            i < half ? "no force" : fmt::format("no velocity, and {} stays where it is", other))
+              : fmt::format("the energy does not name {0}: ∂H/∂{0} = 0", name));
     }
   }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -31,7 +32,7 @@ class Parser {
         constants_(constants),
         advice_(advice),
         allowed_(allowed),
-        tokens_(tokenise_formula(text)) {}
+        tokens_(tokenise_formula(text, variables)) {}
 
   ParsedFormula parse() {
     if (token().kind == FormulaToken::Kind::end) throw formula_error(text_, 0, "the formula is empty");
@@ -196,8 +197,16 @@ class Parser {
       throw error(
           fmt::format("units such as {} are none of the language: numbers are in those of the equation", next.text));
     const bool called = last.kind == FormulaToken::Kind::name && next.is('(');
-    throw error(called ? fmt::format("{0} is not a function; for a product write {0}*(…)", last.text)
-                       : fmt::format("a multiplication sign is missing: write {}*{}", last.text, next.text));
+    if (!called) throw error(fmt::format("a multiplication sign is missing: write {}*{}", last.text, next.text));
+    const std::string hint = is_index(tokens_[at_ + 1]) ? hint_on_neighbours(last.text, variables_) : "";
+    throw error(hint.empty() ? fmt::format("{0} is not a function; for a product write {0}*(…)", last.text)
+                             : fmt::format("{} has no index: {}", last.text, hint));
+  }
+
+  // As j in u(j+1); a name that means something else makes a product of it.
+  bool is_index(const FormulaToken& token) const {
+    constexpr std::array<std::string_view, 4> letters = {"i", "j", "k", "n"};
+    return std::find(letters.begin(), letters.end(), token.text) != letters.end() && !is_known(token.text);
   }
 
   bool is_known(std::string_view name) const {

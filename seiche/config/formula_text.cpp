@@ -91,7 +91,16 @@ Error formula_error(std::string_view text, std::size_t position, std::string_vie
                shown, end < text.size() ? "…" : "", std::string(indent, ' '));
 }
 
-std::vector<FormulaToken> tokenise_formula(std::string_view text) {
+std::string hint_on_neighbours(std::string_view name, const std::vector<std::string>& names) {
+  const auto known = [&](const std::string& other) {
+    return std::find(names.begin(), names.end(), other) != names.end();
+  };
+  if (known(fmt::format("d{}", name)))
+    return fmt::format("d{0} is the difference to the next point, {0}_{{j+1}} − {0}_j", name);
+  return known(fmt::format("{}_x", name)) ? fmt::format("{0}_x is its derivative along x", name) : "";
+}
+
+std::vector<FormulaToken> tokenise_formula(std::string_view text, const std::vector<std::string>& names) {
   if (text.size() > longest_formula)
     throw Error("a formula of {} characters is too long: at most {} are read", text.size(), longest_formula);
 
@@ -116,6 +125,9 @@ std::vector<FormulaToken> tokenise_formula(std::string_view text) {
     } else {
       const std::string_view character = text.substr(at, end_of_character(text, at) - at);
       const bool shows = static_cast<unsigned char>(c) >= 0x20U && c != 0x7F;
+      if (c == '[' && !tokens.empty() && tokens.back().kind == TokenKind::name)
+        if (const std::string hint = hint_on_neighbours(tokens.back().text, names); !hint.empty())
+          throw formula_error(text, at, fmt::format("{} has no index: {}", tokens.back().text, hint));
       const std::string sign =
           shows ? fmt::format("'{}'", character) : fmt::format("with code {}", static_cast<int>(c));
       throw formula_error(text, at, fmt::format("the character {} has no meaning here{}", sign, advice(character)));

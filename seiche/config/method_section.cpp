@@ -85,7 +85,8 @@ class MethodSection {
     };
     if (r_.on("method", "h", read) || r_.problem == nullptr || r_.asks_for_tolerance()) return;
     spec_.h = read_number("method.h", default_value(r_.problem->default_h));
-    if (spec_.h <= spec_.t_end) return;
+    spec_.h_is_default = spec_.h <= spec_.t_end;
+    if (spec_.h_is_default) return;
     spec_.h = spec_.t_end;
     spec_.notes.push_back(fmt::format("method.h is not given and its default {} is more than time.end: h = {}",
                                       r_.problem->default_h, spec_.h));

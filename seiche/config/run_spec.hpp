@@ -48,6 +48,7 @@ struct RunSpec {
   std::string method = "seisav";    // or "auto"
   double h = 0.0;                   // the step size; beside a tolerance the first one, or 0
   std::optional<double> tolerance;  // steps of variable size
+  bool h_is_default = false;        // the case says nothing about it
   double h_max = 0.0;               // and none longer than this; 0: no bound
   MethodOptions method_options;
   std::string backend = "auto";

@@ -115,8 +115,9 @@ void Simulation::restart() {
 
 LawPromise promise_energy_law(const Simulation& simulation, double t_end) {
   const std::string objection = simulation.method_options().objection(simulation.method());
-  if (!objection.empty()) return {false, objection};
-  return promise_energy_law(simulation.problem(), t_end);
+  LawPromise promise = promise_energy_law(simulation.problem(), t_end);
+  if (!objection.empty()) promise.withdraw(objection);
+  return promise;
 }
 
 }  // namespace seiche

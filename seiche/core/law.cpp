@@ -65,6 +65,24 @@ LawPromise promise_of_stencils(const Problem& problem, double t_end, const Opera
   return promise_given_semidefinite_MD(problem);
 }
 
+// Is there any damping but a rate that is written down as 0?
+bool is_damped(const Problem& problem) {
+  const LinearDamping& damping = problem.damping;
+  const bool rests = !damping.rate || (damping.rate->is_constant() && damping.rate->value(0) == 0);
+  return !rests || damping.field_rate || problem.friction || problem.has_constant_damping();
+}
+
+// What stands against a law whatever S, M and D are; beside it a negative rate, which a reader would look for next.
+std::string complaints_beyond_linear(const Problem& problem, double t_end) {
+  std::string all = complaint_beyond_linear(problem, t_end);
+  if (all.empty()) return "";
+  const LinearDamping& damping = problem.damping;
+  for (const std::string& rate :
+       {complaint_about_rate(damping.rate.get(), t_end), complaint_about_rate(damping.field_rate.get(), t_end)})
+    if (!rate.empty()) all += ", and " + rate;
+  return all;
+}
+
 struct TimeSpan {
   double begin, length;
 };
@@ -134,10 +152,13 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
 }
 
 LawPromise promise_energy_law(const Problem& problem, double t_end, const OperatorFindings& findings) {
-  if (const std::string complaint = complaint_beyond_linear(problem, t_end); !complaint.empty())
+  if (const std::string complaint = complaints_beyond_linear(problem, t_end); !complaint.empty())
     return {false, complaint};
-  return problem.matrices ? promise_energy_law_of_matrices(problem, t_end, findings)
-                          : promise_of_stencils(problem, t_end, findings);
+  LawPromise promise = problem.matrices ? promise_energy_law_of_matrices(problem, t_end, findings)
+                                        : promise_of_stencils(problem, t_end, findings);
+  promise.never_grows = promise.promised;
+  promise.never_changes = findings.S_is_skew && !is_damped(problem);
+  return promise;
 }
 
 std::string negative_rate(const Problem& problem) {

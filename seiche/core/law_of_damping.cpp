@@ -32,10 +32,12 @@ bool shrinks_together(const Problem& problem) {
 }  // namespace
 
 std::string complaint_beyond_linear(const Problem& problem, double t_end) {
-  if (problem.has_forces()) return "an external force does work on the system";
-  if (!problem.friction || problem.friction->is_dissipative()) return "";
+  const std::string driven = problem.has_forces() ? "an external force does work on the system" : "";
+  if (!problem.friction || problem.friction->is_dissipative()) return driven;
   const std::string place = problem.friction->feeds_at(t_end);
-  return place.empty() ? "" : fmt::format("the friction {} feeds energy at {}", problem.friction->text(), place);
+  if (place.empty()) return driven;
+  return fmt::format("{}the friction {} feeds energy at {}", driven.empty() ? "" : driven + ", and ",
+                     problem.friction->text(), place);
 }
 
 LawPromise promise_given_semidefinite_MD(const Problem& problem) {

@@ -5,7 +5,9 @@
 #include <seiche/core/replaced_steps.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace seiche {
@@ -14,6 +16,13 @@ namespace seiche {
 struct LawPromise {
   bool promised = false;
   std::string reason;  // the hypothesis that carries it, or the one that fails
+  // Of H along exact solutions, whatever a method makes of it.
+  bool never_grows = false, never_changes = false;
+
+  void withdraw(std::string why) {  // by a method that does not keep it; the solutions stay what they are
+    promised = false;
+    reason = std::move(why);
+  }
 };
 
 enum class LawVerdict { holds, violated, not_promised };
@@ -22,6 +31,15 @@ struct EnergySummary {
   double initial = 0.0;
   double final = 0.0;
   double max_increase = 0.0;  // max over the recorded steps of after − before; negative if it always fell
+};
+
+// H from where it started, or behind an event, to where that is furthest from what the equation does.
+struct EnergyDrift {
+  double from = 0.0;
+  double to = 0.0;
+  double t = 0.0;            // of `to`
+  bool is_damped = false;    // the equation lets H fall; else it keeps H
+  std::string text() const;  // "H itself rose from 1 to 300 at t = 2"
 };
 
 struct RunReport {
@@ -35,6 +53,7 @@ struct RunReport {
   EnergySummary modified;
   LawVerdict law = LawVerdict::not_promised;
   std::string law_reason;
+  std::optional<EnergyDrift> drift;  // by more than a tenth, where no violated law says it already
   Potential::Counts potential_counts;
   std::int64_t scalar_iterations = 0;
   std::int64_t fallbacks = 0;  // times a solver left its first choice; most of them cost no accuracy
@@ -48,9 +67,11 @@ struct RunReport {
   std::string remark_on_replaced() const;
   // More than one step in ten was replaced, or one by next to nothing: what has come out is no solution of the equation.
   bool lacks_solution() const { return replaced.ruinous || 10 * replaced.count > steps; }
-  void judge_replaced();      // puts that remark into `message`; a run that lacks a solution has failed
-  std::string brief() const;  // one line
-  std::string full() const;   // a paragraph for a terminal
+  void judge_replaced();                     // puts that remark into `message`; a run that lacks a solution has failed
+  std::string remark_on_drift() const;       // what H did that no solution does, and what helps; "" where it did not
+  std::vector<std::string> remarks() const;  // those of the two that are there: what nobody should miss
+  std::string brief() const;                 // one line
+  std::string full() const;                  // a paragraph for a terminal
 };
 
 std::string counted_steps(std::int64_t count);    // "1 step", "2 steps"

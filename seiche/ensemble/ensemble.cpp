@@ -232,18 +232,25 @@ class Run {
       report.message = fmt::format("reached t = {:.9g} in {}", report.t, counted_steps(report.steps));
     }
     report.judge_replaced();
-    const Simulation* simulation = block_of(member).simulation(member % lanes);
-    if (report.law != LawVerdict::not_promised && options_.objection && simulation != nullptr) {
-      const std::string reason = at.fed.empty() ? options_.objection(simulation->problem()) : at.fed;
-      if (!reason.empty()) report.law = LawVerdict::not_promised;
-      if (!reason.empty()) report.law_reason = reason;
-    }
+    hear_objection(block_of(member).simulation(member % lanes), at.fed, report);
+    if (report.drift) report.message += "; " + report.remark_on_drift();
     result.final = block_of(member).physical(member % lanes);
     if (result.final.size() == 0) {
       report.law = LawVerdict::not_promised;
       report.law_reason = "the member never started";
     }
     return result;
+  }
+
+  void hear_objection(const Simulation* simulation, const std::string& fed, RunReport& report) const {
+    if (!options_.objection || simulation == nullptr) return;
+    if (report.law == LawVerdict::not_promised && !report.drift) return;
+    const std::string reason = fed.empty() ? options_.objection(simulation->problem()) : fed;
+    if (reason.empty()) return;
+    report.drift.reset();  // H may well have risen
+    if (report.law == LawVerdict::not_promised) return;
+    report.law = LawVerdict::not_promised;
+    report.law_reason = reason;
   }
 
   std::span<const EnsembleMember> members_;

@@ -19,8 +19,11 @@ constexpr std::size_t frames_at_once = 16;  // of one script: its numbers are te
 std::string encode(const fs::path& figures, const std::string& frames, const std::string& file,
                    const std::vector<std::string>& codec) {
   PartialPath film(figures / file);
-  std::vector<std::string> command = {"ffmpeg", "-nostdin",       "-y",  "-loglevel",    "error",    "-framerate", "15",
-                                      "-i",     "film/" + frames, "-vf", "scale=720:-2", "-pix_fmt", "yuv420p"};
+  std::vector<std::string> command = {"ffmpeg", "-nostdin",       "-y",       "-loglevel", "error", "-framerate", "15",
+                                      "-i",     "film/" + frames, "-pix_fmt", "yuv420p"};
+  // What a film does not say about its colours each player guesses from its size, and not all alike.
+  command.insert(command.end(), {"-vf", "scale=720:-2:out_color_matrix=bt709:out_range=tv", "-color_range", "tv",
+                                 "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"});
   command.insert(command.end(), codec.begin(), codec.end());
   // By its temporary name ffmpeg does not know the kind.
   command.insert(command.end(),

@@ -50,8 +50,9 @@ Sizes sizes_of(const MapPlot& plot) {
   }
   const bool titled =
       std::any_of(plot.panels.begin(), plot.panels.end(), [](const MapPanel& p) { return !p.title.empty(); });
-  sizes.picture_height =
-      axes_top + static_cast<double>(sizes.rows) * (sizes.height + below_axes + (titled ? title_height : 0)) + 0.03;
+  sizes.picture_height = room_above_axes(plot.warning) +
+                         static_cast<double>(sizes.rows) * (sizes.height + below_axes + (titled ? title_height : 0)) +
+                         0.03;
   return sizes;
 }
 
@@ -107,7 +108,7 @@ std::string panel_script(const MapPlot& plot, const Sizes& sizes, std::size_t in
   const double title_room = panel.title.empty() ? 0 : title_height;
   const std::size_t row = index / plot.in_a_row;
   const double left = axes_left + static_cast<double>(index % plot.in_a_row) * (sizes.width + sizes.between);
-  const double upper = sizes.picture_height - axes_top - title_room -
+  const double upper = sizes.picture_height - room_above_axes(plot.warning) - title_room -
                        static_cast<double>(row) * (sizes.height + below_axes + title_room);
   const double lower = upper - sizes.height;
   const auto across = [](double inches) { return inches / picture_width; };
@@ -136,14 +137,14 @@ std::string panel_script(const MapPlot& plot, const Sizes& sizes, std::size_t in
     text += "set ytics format ''\n";
   }
   if (index == 0) {
-    text += title_script(plot.title, 1 - 0.5 * axes_top / sizes.picture_height, picture_width, theme);
+    text += title_script(plot.title, plot.warning, picture_width, sizes.picture_height, theme);
   }
   if (panel.colours || index == 0) {
     const ColourScale& scale = panel.colours ? *panel.colours : plot.colours;
     const double bar_left = panel.colours ? left + sizes.width + 0.05 : picture_width - bar_room + 0.07;
     const double width = panel.colours ? 0.07 : bar_width;
     double bar_low = panel.colours ? lower : 0.03 + below_axes;
-    double bar_high = panel.colours ? upper : sizes.picture_height - axes_top - title_room;
+    double bar_high = panel.colours ? upper : sizes.picture_height - room_above_axes(plot.warning) - title_room;
     const LinearTicks ticks = linear_ticks(scale.low, scale.high);
     // Beside one bar for all there is room for words; above one of many only for the symbol.
     text += panel.colours

@@ -47,9 +47,9 @@ class CommonScale {
 ColourScale choose_scales(std::vector<MapPanel>& panels);
 
 struct MapPlot {
-  std::string stem, title;
-  std::string colour_label;        // a literal for gnuplot, along the bar of all
-  std::string colour_symbol = {};  // likewise, short: above the bar of every panel
+  std::string stem, title, warning = {};  // the last below the title, "" for none
+  std::string colour_label;               // a literal for gnuplot, along the bar of all
+  std::string colour_symbol = {};         // likewise, short: above the bar of every panel
   ColourScale colours = {};
   std::vector<MapPanel> panels = {};
   std::size_t in_a_row = 1;

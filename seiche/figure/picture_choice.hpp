@@ -28,6 +28,9 @@ std::string cause_label(const EnergyHistory& history, const std::string& column)
 // What titles call the run: its problem, or its folder where the problem was written down and has no name of its own.
 std::string run_name(const RunFiles& run);
 
+// Below every title of a run that is not what was asked for: "failed at t = 3.2", "the energy law is violated"; else "".
+std::string shortfall(const RunFiles& run);
+
 // "pendulum, SEISAV, h = 2⁻⁶: energy".
 std::string title_of(const RunFiles& run, const std::string& what);
 

@@ -20,6 +20,8 @@ constexpr double right = axes_right;
 constexpr double below_axis = 0.35;  // tick labels and the axis label
 constexpr double bottom_margin = 0.05;
 
+constexpr double warning_height = 0.13;
+
 constexpr double title_size = 7;
 
 // Data blocks $name…, and the parts of the plot command that draw them; "" if nothing of it can be shown.
@@ -60,6 +62,16 @@ Drawing drawing(const Plot& plot, const Series& series, const std::string& block
   return result;
 }
 
+// A long one begins further left.
+std::string line_above_axes(const std::string& text, double y, double width, const std::string& colour) {
+  constexpr double edge = 0.16;
+  const double widest = width - edge - right;
+  const double size = title_size * std::min(1.0, widest / text_width(text, title_size));
+  const double x = std::clamp(width - right - text_width(text, size), edge, left);
+  return fmt::format("set label {} at screen {:.5f},{:.5f} left font ',{:.2f}' textcolor rgb '{}'\n",
+                     gnuplot_text(text), x / width, y, size, colour);
+}
+
 }  // namespace
 
 std::string frame_script(const Theme& theme) {
@@ -70,14 +82,14 @@ std::string frame_script(const Theme& theme) {
       theme.dark ? theme.ink : "#202020", theme.ink, theme.grid);
 }
 
-// A long title begins further left.
-std::string title_script(const std::string& title, double y, double width, const Theme& theme) {
-  constexpr double edge = 0.16;
-  const double widest = width - edge - right;
-  const double size = title_size * std::min(1.0, widest / text_width(title, title_size));
-  const double x = std::clamp(width - right - text_width(title, size), edge, left);
-  return fmt::format("set label {} at screen {:.5f},{:.5f} left font ',{:.2f}' textcolor rgb '{}'\n",
-                     gnuplot_text(title), x / width, y, size, theme.ink);
+double room_above_axes(const std::string& warning) { return axes_top + (warning.empty() ? 0 : warning_height); }
+
+std::string title_script(const std::string& title, const std::string& warning, double width, double height,
+                         const Theme& theme) {
+  std::string text = line_above_axes(title, 1 - 0.5 * axes_top / height, width, theme.ink);
+  if (!warning.empty())
+    text += line_above_axes(warning, 1 - (axes_top + 0.3 * warning_height) / height, width, theme.colour("#C62828"));
+  return text;
 }
 
 std::string axis_script(char name, const Axis& axis) {
@@ -99,16 +111,17 @@ std::string plot_script(Plot plot, const Rendering& rendering) {
   for (Series& series : plot.series) series.style.colour = theme.colour(series.style.colour);
   const Legend legend(plot.series, plot.legend_room, picture_width);
   const double axes_bottom = bottom_margin + legend.height() + below_axis;
-  const double height = axes_bottom + axes_height + axes_top;
+  const double above_axes = room_above_axes(plot.warning);
+  const double height = axes_bottom + axes_height + above_axes;
 
   std::string script = "reset\nset encoding utf8\nunset key\n";
   script += fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n", left / picture_width,
                         1 - right / picture_width);
   script += fmt::format("set bmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n", axes_bottom / height,
-                        1 - axes_top / height);
+                        1 - above_axes / height);
   script += frame_script(theme);
   script += axis_script('x', plot.x) + axis_script('y', plot.y);
-  script += title_script(plot.title, 1 - 0.5 * axes_top / height, picture_width, theme);
+  script += title_script(plot.title, plot.warning, picture_width, height, theme);
   script += fmt::format("set label {} at screen {:.5f},{:.5f} center font ',7' textcolor rgb '{}'\n",
                         with_unit(plot.x_label, plot.x.linear), (left + axes_width / 2) / picture_width,
                         (axes_bottom - 0.245) / height, theme.ink);

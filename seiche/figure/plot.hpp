@@ -37,6 +37,7 @@ struct Series {
 struct Plot {
   std::string stem;  // of the files
   std::string title;
+  std::string warning = {};      // a line below the title, in red; "" for none
   std::string x_label, y_label;  // literals for gnuplot, see gnuplot_text
   Axis x, y;
   std::vector<Series> series;   // in the order of the legend
@@ -48,10 +49,12 @@ struct Plot {
 std::string plot_script(Plot plot, const Rendering& rendering = {});
 
 // What pictures of all kinds share: frame, ticks and grid in the colours of the theme; range and ticks of an axis x or y; a title
-// above the left end of the axes, at a height `y` of a picture `width` wide.
+// with its warning above the left end of the axes of a picture, and the room that they take; inches.
 std::string frame_script(const Theme& theme);
 std::string axis_script(char name, const Axis& axis);
-std::string title_script(const std::string& title, double y, double width, const Theme& theme);
+std::string title_script(const std::string& title, const std::string& warning, double width, double height,
+                         const Theme& theme);
+double room_above_axes(const std::string& warning);
 
 void mark_all(Series& series);
 

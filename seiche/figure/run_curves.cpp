@@ -263,6 +263,12 @@ std::string run_name(const RunFiles& run) {
   return folder.filename().empty() ? run.problem : folder.filename().string();
 }
 
+std::string shortfall(const RunFiles& run) {
+  std::string text = run.status == "success" ? "" : fmt::format("{} at t = {:.6g}", run.status, run.t);
+  if (run.law == "violated") text += text.empty() ? "the energy law is violated" : ", the energy law is violated";
+  return text;
+}
+
 std::string title_of(const RunFiles& run, const std::string& what) {
   const std::string steps = run.spec.tolerance ? fmt::format("tolerance {:g}", *run.spec.tolerance)
                                                : fmt::format("h = {}", step_text(run.spec.h));

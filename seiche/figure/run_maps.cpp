@@ -180,6 +180,7 @@ MapPlot film_frame(const RunFiles& run, const SolutionReader& solution, Index fi
   Vector values;
   solution.field(field, k, values);
   MapPlot plot = plot_of(run, solution, field, "", "");
+  plot.warning = shortfall(run);
   plot.colours = colours;
   plot.equal_scales = true;
   plot.panels = {plane(solution, values, 0, 1)};

@@ -73,10 +73,12 @@ RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const Pi
   const Rendering light{.theme = &light_theme(), .formats = pictures.formats};
   const Rendering dark{.theme = &dark_theme(), .formats = pictures.formats};
   std::vector<std::string> scripts(2);  // one process each
-  const auto add = [&](const auto& plot, const std::string& caption, const auto& script) {
+  const std::string warning = shortfall(run);
+  const auto add = [&](auto plot, const std::string& caption, const auto& script) {
+    plot.warning = warning;
     scripts[0] += script(plot, light);
     scripts[1] += script(plot, dark);
-    pictures.list.push_back({plot.stem, plot.title, caption});
+    pictures.list.push_back({plot.stem, plot.title + (warning.empty() ? "" : "; " + warning), caption});
   };
   const auto add_curves = [&](const CurvePicture& picture) { add(picture.plot, picture.caption, plot_script); };
   const auto add_map = [&](const MapPicture& map) { add(map.plot, map.caption, map_script); };

@@ -28,7 +28,8 @@ std::string mark(const char* kind, const char* symbol, const std::string& text) 
 
 std::string status_mark(const RunFiles& run) {
   if (run.status == "success") return mark("holds", "✓", "success");
-  return run.status == "failed" ? mark("fails", "✗", run.status) : mark("depends", "≈", run.status);
+  const std::string when = fmt::format("{} at t = {:.6g}", run.status, run.t);
+  return run.status == "failed" ? mark("fails", "✗", when) : mark("depends", "≈", when);
 }
 
 std::string law_mark(const RunFiles& run) {

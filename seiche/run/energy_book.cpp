@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace seiche {
@@ -21,6 +22,7 @@ EnergyBook::EnergyBook(LawPromise promise, bool has_modified_energy)
 
 void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
   take_size(reading);
+  follow(reading, t);
   if (empty_) {
     energy_ = {.initial = reading.H, .final = reading.H, .max_increase = 0.0};
     modified_ = {.initial = reading.modified, .final = reading.modified, .max_increase = 0.0};
@@ -58,11 +60,33 @@ void EnergyBook::take_size(const EnergyReading& reading) {
   if (records_ == 1 || rests_) size_ = std::max(size_, size);
 }
 
+void EnergyBook::follow(const EnergyReading& reading, double t) {
+  if (empty_ || reopened_) H_at_start_ = reading.H;
+  largest_terms_ = std::max(largest_terms_, reading.round_off / (50 * epsilon));
+  const double change = reading.H - H_at_start_;
+  if (change > rise_.to - rise_.from) rise_ = {.from = H_at_start_, .to = reading.H, .t = t};
+  if (change < fall_.to - fall_.from) fall_ = {.from = H_at_start_, .to = reading.H, .t = t};
+}
+
+// H near zero may be a difference of large terms, of which every method misses a little. The terms count ½zᵀMz twice: half of them
+// are about H where none of it cancels.
+std::optional<EnergyDrift> EnergyBook::drift() const {
+  if (!promise_.never_grows && !promise_.never_changes) return {};
+  if (promise_.promised && (violation_.found || drowned_.found)) return {};
+  const bool falls_more = fall_.from - fall_.to > rise_.to - rise_.from;
+  EnergyDrift largest = promise_.never_changes && falls_more ? fall_ : rise_;
+  const double size = std::max(std::abs(largest.from), largest_terms_ / 2);
+  if (std::abs(largest.to - largest.from) <= 0.1 * size) return {};
+  largest.is_damped = !promise_.never_changes;
+  return largest;
+}
+
 void EnergyBook::write_to(RunReport& report) const {
   report.energy = energy_;
   report.has_modified_energy = has_modified_energy_;
   report.modified = modified_;
   report.law_reason = promise_.reason;
+  report.drift = drift();
   if (!promise_.promised) {
     report.law = LawVerdict::not_promised;
     return;

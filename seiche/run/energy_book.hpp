@@ -25,6 +25,8 @@ class EnergyBook {
 
  private:
   void take_size(const EnergyReading& reading);
+  void follow(const EnergyReading& reading, double t);
+  std::optional<EnergyDrift> drift() const;
 
   LawPromise promise_;
   bool has_modified_energy_;
@@ -32,9 +34,12 @@ class EnergyBook {
   bool reopened_ = false;
   bool has_increase_ = false;
   std::int64_t last_n_ = 0;
-  int records_ = 0;     // as far as they are counted
-  double size_ = 0.0;   // of the terms of the energy that is promised, at the start
-  bool rests_ = false;  // all of them were 0 there
+  int records_ = 0;             // as far as they are counted
+  double size_ = 0.0;           // of the terms of the energy that is promised, at the start
+  bool rests_ = false;          // all of them were 0 there
+  double H_at_start_ = 0.0;     // or behind the last event
+  double largest_terms_ = 0.0;  // of H, in the whole run
+  EnergyDrift rise_, fall_;     // the largest
   EnergyReading last_;
   EnergySummary energy_, modified_;
   struct Violation {

@@ -139,9 +139,11 @@ RunReport Recording::finish(const std::function<std::string()>& objection, const
 }
 
 void Recording::hear_objection(const std::function<std::string()>& objection) {
-  if (report_.law == LawVerdict::not_promised || !objection) return;
+  if (!objection || (report_.law == LawVerdict::not_promised && !report_.drift)) return;
   const std::string reason = objection();
   if (reason.empty()) return;
+  report_.drift.reset();  // H may well have risen
+  if (report_.law == LawVerdict::not_promised) return;
   report_.law = LawVerdict::not_promised;
   report_.law_reason = reason;
 }
@@ -156,13 +158,7 @@ void Recording::complete_message(const std::string& remark) {
         "; C of the modified energy rose to {:.3g}, {:.1g} times the energy at the start, because V fell so far, and drowns it in "
         "round-off: take a smaller h, or a method without C (seilm, egc4); where these fail too, the solution blows up",
         state_.shift, state_.shift / state_.energy_scale);
-  const EnergySummary& H = report_.energy;
-  if (report_.has_modified_energy && report_.law == LawVerdict::holds &&
-      H.final - H.initial > 0.1 * std::abs(H.initial) + 1e3 * epsilon * state_.energy_scale)
-    report_.message += fmt::format(
-        "; the law holds for the modified energy, and H itself rose from {:.6g} to {:.6g}: the two have parted, and the solution is "
-        "inaccurate; take a smaller h, or a method whose law is that of H (seilm, egc4)",
-        H.initial, H.final);
+  if (report_.drift) report_.message += "; " + report_.remark_on_drift();
   if (report_.unresolved > 0)
     report_.message += fmt::format("; {} scalar equations were not resolved", report_.unresolved);
   if (report_.law == LawVerdict::not_promised) report_.message += "; no energy law is promised: " + report_.law_reason;

@@ -58,6 +58,30 @@ void RunReport::judge_replaced() {
   if (lacks_solution()) status = Status::failed;
 }
 
+std::string EnergyDrift::text() const {
+  return fmt::format("H itself {} from {:.6g} to {:.6g} at t = {:.6g}", to > from ? "rose" : "fell", from, to, t);
+}
+
+std::string RunReport::remark_on_drift() const {
+  if (!drift) return "";
+  const char* equation =
+      drift->is_damped ? "no solution of the equation lets it rise" : "nothing in the equation changes it";
+  if (has_modified_energy && law == LawVerdict::holds)
+    return fmt::format(
+        "the law holds for the modified energy, and {}, although {}: the two have parted, and the solution is inaccurate; take "
+        "smaller steps, or a method whose law is that of H (seilm, egc4)",
+        drift->text(), equation);
+  return fmt::format(
+      "{}, although {}: the solution is inaccurate; take smaller steps, or a method whose law is that of H (seilm, egc4)",
+      drift->text(), equation);
+}
+
+std::vector<std::string> RunReport::remarks() const {
+  std::vector<std::string> all = {remark_on_replaced(), remark_on_drift()};
+  std::erase(all, "");
+  return all;
+}
+
 std::string RunReport::brief() const {
   return fmt::format("{}: t = {:.9g} after {} in {:.3g} s; H {:.6g} → {:.6g}, law {}", to_string(status), t,
                      counted_steps(steps), wall_seconds, energy.initial, energy.final, to_string(law));

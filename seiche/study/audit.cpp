@@ -5,9 +5,10 @@
 #include <seiche/core/law.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/study/audit.hpp>
+#include <seiche/study/audit_book.hpp>
 #include <seiche/study/csv_table.hpp>
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace seiche {
 namespace {
@@ -33,26 +35,11 @@ Json summary_of(const std::filesystem::path& file) {
   return summary;
 }
 
-// H of states in files, by a backend of its own.
-class Energies {
- public:
-  explicit Energies(const Problem& problem)
-      : system_(automatic_backend(problem).system(problem, {})), z_(system_.initial) {}
-  EnergyTerms of(const Vector& physical) {
-    system_.space->from_physical(physical, z_);
-    return system_.energy_terms(z_);
-  }
-
- private:
-  System system_;
-  Vector z_;
-};
-
 class Auditor {
  public:
-  explicit Auditor(const std::filesystem::path& directory)
+  Auditor(const std::filesystem::path& directory, RunSpec spec)
       : directory_(directory),
-        spec_(read_case(directory / "case.toml")),
+        spec_(std::move(spec)),
         problem_(make_problem(spec_)),
         energies_(problem_),
         energy_(CsvTable::read(directory / "energy.csv")),
@@ -62,7 +49,8 @@ class Auditor {
     for (const double H : H_) largest_ = std::max(largest_, std::abs(H));
     const EnergyTerms start = energies_.of(problem_.initial);
     round_off_ = std::max(start.round_off(), 50 * epsilon * largest_);  // H may grow, where it is driven
-    compare("H at the start is that of the initial data in case.toml", start.sum(), H_.front(), start.round_off());
+    book_.compare("H at the start is that of the initial data in case.toml", start.sum(), H_.front(),
+                  start.round_off());
   }
 
   Audit run() {
@@ -72,21 +60,10 @@ class Auditor {
     summary();
     law();
     ledger();
-    return audit_;
+    return book_.audit();
   }
 
  private:
-  void add(std::string claim, Verdict verdict, std::string evidence) {
-    audit_.entries.push_back({std::move(claim), verdict, std::move(evidence)});
-  }
-
-  void compare(const std::string& claim, double recomputed, double written, double allowed) {
-    const double distance = std::abs(recomputed - written);
-    add(claim, distance <= allowed ? Verdict::confirmed : Verdict::contradicted,
-        fmt::format("{:.17g} recomputed, {:.17g} in the files: {:.2g} apart, round-off explains {:.2g}", recomputed,
-                    written, distance, allowed));
-  }
-
   // Files of two runs in one folder are no evidence of either.
   void origin() {
     std::vector<std::string> differences;
@@ -113,27 +90,25 @@ class Auditor {
       differences.push_back(fmt::format("end = {:.17g} in case.toml and t = {:.17g} in summary.json", spec_.t_end, t));
     if (t != t_.back())
       differences.push_back(fmt::format("t = {:.17g} in summary.json and {:.17g} in energy.csv", t, t_.back()));
-    add("case.toml, summary.json and energy.csv are of one run",
-        differences.empty() ? Verdict::confirmed : Verdict::contradicted,
-        differences.empty()
-            ? fmt::format("{}, the same {} and t = {:.6g} in all", method, spec_.tolerance ? "tolerance" : "h", t)
-            : fmt::format("{}", fmt::join(differences, "; ")));
+    book_.add_differences("case.toml, summary.json and energy.csv are of one run", differences,
+                          fmt::format("{}, the same {} and t = {:.6g} in all", method,
+                                      spec_.tolerance ? "tolerance" : "h", t));
   }
 
   void case_of(const SolutionReader& solution) {
     const std::string claim = "solution.h5 is of the case in case.toml";
     const std::string inside = solution.text("case");
-    if (inside.empty()) return add(claim, Verdict::not_checked, "it does not say of which case it is");
+    if (inside.empty()) return book_.add(claim, Verdict::not_checked, "it does not say of which case it is");
     std::ifstream file(directory_ / "case.toml");
     const std::string beside{std::istreambuf_iterator<char>(file), {}};
     const bool same = inside == beside || inside == write_case(spec_);  // a comment makes no other case
-    add(claim, same ? Verdict::confirmed : Verdict::contradicted,
-        same ? "the case that it holds says the same" : "the case that it holds says something else");
+    book_.add(claim, same ? Verdict::confirmed : Verdict::contradicted,
+              same ? "the case that it holds says the same" : "the case that it holds says something else");
   }
 
   void final_state() {
     const EnergyTerms end = energies_.of(read_initial_file(directory_ / "final.txt", problem_));
-    compare("the last H is that of final.txt", end.sum(), H_.back(), std::max(round_off_, end.round_off()));
+    book_.compare("the last H is that of final.txt", end.sum(), H_.back(), std::max(round_off_, end.round_off()));
   }
 
   // H of every state in solution.h5 against the H beside it, and against energy.csv where that has the time too.
@@ -164,26 +139,21 @@ class Auditor {
       at = times[k];
     }
     const std::string claim = "H of every state in solution.h5 is what it and energy.csv say";
-    if (times.empty()) return add(claim, Verdict::not_checked, "it holds no state");
-    add(claim, worst <= 1 ? Verdict::confirmed : Verdict::contradicted,
+    if (times.empty()) return book_.add(claim, Verdict::not_checked, "it holds no state");
+    book_.add(
+        claim, worst <= 1 ? Verdict::confirmed : Verdict::contradicted,
         fmt::format("{} states, {} of them at times of energy.csv; the largest difference, at t = {:.6g}, is {:.2g} of "
                     "what round-off explains",
                     times.size(), in_both, at, worst));
   }
 
-  static double largest_increase(const std::vector<double>& values) {
-    double largest = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < values.size(); ++i) largest = std::max(largest, values[i] - values[i - 1]);
-    return values.size() > 1 ? largest : 0.0;
-  }
-
   void summary() {
     const Json& energy = summary_["energy"];
     const auto number = [](const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); };
-    compare("energy.initial of summary.json is the first H", H_.front(), number(energy["initial"]), 0);
-    compare("energy.final of summary.json is the last H", H_.back(), number(energy["final"]), 0);
-    compare("energy.max_increase of summary.json is the largest of energy.csv", largest_increase(H_),
-            number(energy["max_increase"]), 0);
+    book_.compare("energy.initial of summary.json is the first H", H_.front(), number(energy["initial"]), 0);
+    book_.compare("energy.final of summary.json is the last H", H_.back(), number(energy["final"]), 0);
+    book_.compare("energy.max_increase of summary.json is the largest of energy.csv", largest_increase(H_),
+                  number(energy["max_increase"]), 0);
   }
 
   // The energy that the law is about, with the tolerance of a run: 50ε of its terms for every step between two rows.
@@ -199,16 +169,16 @@ class Auditor {
     const std::string evidence =
         fmt::format("largest increase {:.3g}, round-off explains about {:.3g}; {}", increase, allowed,
                     promise.promised ? "promised: " + promise.reason : "not promised: " + promise.reason);
-    if (verdict == "not promised") return add(claim, Verdict::not_checked, evidence);
+    if (verdict == "not promised") return book_.add(claim, Verdict::not_checked, evidence);
     const bool holds = increase <= allowed;
-    add(claim, promise.promised && holds == (verdict == "holds") ? Verdict::confirmed : Verdict::contradicted,
-        evidence);
+    book_.add(claim, promise.promised && holds == (verdict == "holds") ? Verdict::confirmed : Verdict::contradicted,
+              evidence);
   }
 
   void ledger() {
     const std::string claim = "the columns of the ledger add up to the change of H";
     if (!energy_.has("damping_left"))
-      return add(claim, Verdict::not_checked, "the run kept none; output.ledger = \"on\" does");
+      return book_.add(claim, Verdict::not_checked, "the run kept none; output.ledger = \"on\" does");
     std::vector<std::vector<double>> columns;
     for (const LedgerPart& part : ledger_parts())
       if (energy_.has(std::string(part.name))) columns.push_back(energy_.column(std::string(part.name)));
@@ -225,24 +195,24 @@ class Auditor {
     }
     const double allowed = ledger_round_off * largest_;
     const bool sums = worst <= allowed && std::abs(total - (H_.back() - H_.front())) <= allowed;
-    add(claim, sums ? Verdict::confirmed : Verdict::contradicted,
-        fmt::format("{} rows; the sum of all is {:.17g} and H(end) − H(start) is {:.17g}", H_.size() - 1, total,
-                    H_.back() - H_.front()));
+    book_.add(claim, sums ? Verdict::confirmed : Verdict::contradicted,
+              fmt::format("{} rows; the sum of all is {:.17g} and H(end) − H(start) is {:.17g}", H_.size() - 1, total,
+                          H_.back() - H_.front()));
     const double explained = 4 * round_off_ * static_cast<double>(std::max<std::int64_t>(1, spec_.energy_every));
-    add("what the ledger calls round-off is no more than that",
-        unexplained <= explained ? Verdict::confirmed : Verdict::contradicted,
-        fmt::format("at most {:.2g} a row, and {:.2g} is explained", unexplained, explained));
+    book_.add("what the ledger calls round-off is no more than that",
+              unexplained <= explained ? Verdict::confirmed : Verdict::contradicted,
+              fmt::format("at most {:.2g} a row, and {:.2g} is explained", unexplained, explained));
   }
 
   std::filesystem::path directory_;
   RunSpec spec_;
   Problem problem_;
-  Energies energies_;
+  RecomputedEnergy energies_;
   CsvTable energy_;
   Json summary_;
   std::vector<double> t_, H_;
   double largest_ = 0, round_off_ = 0;
-  Audit audit_;
+  AuditBook book_;
 };
 
 }  // namespace
@@ -258,7 +228,8 @@ bool Audit::confirms() const {
 
 Audit audit(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
-  return Auditor(directory).run();
+  RunSpec spec = read_case(directory / "case.toml");
+  return spec.ensemble ? audit_ensemble(directory, spec) : Auditor(directory, std::move(spec)).run();
 }
 
 std::string to_string(AuditEntry::Verdict verdict) {

@@ -218,8 +218,9 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   const bool bent = std::any_of(list.begin(), list.end(), [](const Hypothesis& h) {
     return h.name == "S(z) skew" && h.grade == Grade::violated;
   });
-  const std::string given_up = bent ? "S(z) is not skew" : options.method_options.objection(method);
-  certificate.law = given_up.empty() ? law : LawPromise{false, given_up};
+  certificate.law = bent ? LawPromise{false, "S(z) is not skew"} : law;
+  if (const std::string given_up = options.method_options.objection(method); !bent && !given_up.empty())
+    certificate.law.withdraw(given_up);
   if (certificate.law.promised) certificate.theorem = theorem(problem, method);
   return certificate;
 }

@@ -1,0 +1,48 @@
+// What audits of runs and of ensembles share: entries, and energies of states in files.
+#pragma once
+
+#include <seiche/config/run_spec.hpp>
+#include <seiche/core/problem.hpp>
+#include <seiche/core/system.hpp>
+#include <seiche/study/audit.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+class AuditBook {
+ public:
+  using Verdict = AuditEntry::Verdict;
+
+  void add(std::string claim, Verdict verdict, std::string evidence);
+  // Confirmed where nothing is in `differences`, which are joined to sentences; else `agreement` is the evidence.
+  void add_differences(std::string claim, const std::vector<std::string>& differences, std::string agreement);
+  // Confirmed where two numbers lie no further apart than `allowed`; with evidence.
+  void compare(std::string claim, double recomputed, double written, double allowed);
+
+  Audit audit() const { return audit_; }
+
+ private:
+  Audit audit_;
+};
+
+// H of physical states, by a backend of its own.
+class RecomputedEnergy {
+ public:
+  explicit RecomputedEnergy(const Problem& problem);
+  EnergyTerms of(const Vector& physical);
+
+ private:
+  System system_;
+  Vector z_;
+};
+
+// The largest value − the one before it; 0 for less than two.
+double largest_increase(const std::vector<double>& values);
+
+// The part for folders of ensembles. Throws Error as `audit` does.
+Audit audit_ensemble(const std::filesystem::path& directory, const RunSpec& spec);
+
+}  // namespace seiche
