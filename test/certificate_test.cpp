@@ -2,6 +2,7 @@
 #include "support/error_of.hpp"
 #include "support/paper_cases.hpp"
 
+#include <seiche/config/case_file.hpp>
 #include <seiche/config/formula_compiler.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/damping/field_rates.hpp>
@@ -49,7 +50,7 @@ TEST(Certificate, NamesTheModeThatMakesMIndefinite) {
   const Hypothesis M = find(c, "M ⪰ 0");
   EXPECT_EQ(M.grade, Grade::violated);
   EXPECT_NEAR(*M.margin, -0.3, 1e-15);
-  EXPECT_THAT(M.witness, HasSubstr("mode k = (0), |z| = (u: 1, v: 0)"));
+  EXPECT_THAT(M.witness, HasSubstr("mode k = (0), z = (u: 1, v: 0)"));
   EXPECT_FALSE(c.law.promised);
   EXPECT_EQ(c.theorem, "");
 }
@@ -104,6 +105,20 @@ TEST(Certificate, PromisesTheLawExactlyWhereTheRunDoes) {
 TEST(Certificate, IsNotFinishedWhereItIsToStop) {
   const std::atomic<bool> stop = true;
   EXPECT_EQ(error_of([&] { certify(gkdv_case(), {.t_end = 1, .stop = &stop}); }), "interrupted");
+}
+
+// zᵀMDz < 0 for M = (1, 0.9; 0.9, 1) and D = diag(0, 1): where the components have opposite signs, and nowhere else.
+TEST(Certificate, AWitnessOfAMatrixHasItsSigns) {
+  const RunSpec spec = parse_case(
+      "[problem]\nname = \"custom\"\nfields = [\"a\", \"b\"]\nM = [[1, 0.9], [0.9, 1]]\nD = [[0, 0], [0, 1]]\n"
+      "initial = { a = 1, b = 0 }\n",
+      "x.toml");
+  const Problem p = make_problem(spec);
+  const Certificate certificate = certify(p, {.method = "egc4", .t_end = 1, .sample_solution = false});
+  const auto MD = std::find_if(certificate.hypotheses.begin(), certificate.hypotheses.end(),
+                               [](const Hypothesis& h) { return h.grade == Grade::violated; });
+  ASSERT_NE(MD, certificate.hypotheses.end());
+  EXPECT_THAT(MD->witness, HasSubstr("z = (a: 0.934, b: -0.358), where it is -0.172681"));
 }
 
 }  // namespace

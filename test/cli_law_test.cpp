@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 namespace seiche {
@@ -230,6 +231,36 @@ TEST_F(Cli, AnAuditConfirmsARunFromItsFilesAndSeesWhatWasChanged) {
   EXPECT_EQ(seiche("audit nowhere").exit, 2);
   fs::remove(directory / "out" / "final.txt");
   EXPECT_EQ(seiche("audit out").exit, 2);
+}
+
+TEST_F(Cli, AnAuditSeesRowsThatMovedAndEnergyThatIsBookedElsewhere) {
+  write_case();
+  ASSERT_EQ(seiche("run case.toml --out out --set output.ledger=on").exit, 0);
+  const std::string whole = text("out/energy.csv");
+  const std::vector<std::string> rows = lines("out/energy.csv");
+  const auto refused_with = [&](const std::string& changed, const char* claim) {
+    std::ofstream(directory / "out" / "energy.csv") << changed;
+    const Result bad = seiche("audit out");
+    EXPECT_EQ(bad.exit, 1) << claim;
+    EXPECT_THAT(bad.out, HasSubstr(claim));
+    std::ofstream(directory / "out" / "energy.csv") << whole;
+  };
+  std::string without_a_row, late, as_work;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string row = rows[i] + "\n";
+    if (i != 2) without_a_row += row;
+    late += i == 2 ? "0.0" + row.substr(2) : row;
+    // t,H,H_modified,work,damping_left,…: what damping takes, as the work of a force
+    std::vector<std::string> cells;
+    std::stringstream cells_of(rows[i]);
+    for (std::string cell; std::getline(cells_of, cell, ',');) cells.push_back(cell);
+    if (i > 0) std::swap(cells[3], cells[4]);
+    for (std::size_t c = 0; c < cells.size(); ++c) as_work += (c > 0 ? "," : "") + cells[c];
+    as_work += "\n";
+  }
+  refused_with(without_a_row, "contradicted  energy.csv has the rows of this run");
+  refused_with(late, "contradicted  energy.csv has the rows of this run");
+  refused_with(as_work, "contradicted  without a force none does work");
 }
 
 TEST_F(Cli, AnAuditOfARunByToleranceLooksAtTheSnapshotsInsideStepsToo) {

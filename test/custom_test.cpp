@@ -267,6 +267,13 @@ TEST(Custom, TheEnergyLawHoldsWithPowersOfThePlaceInV) {
   }
 }
 
+// Formulas are tried on a few points first, where 1/(x − 5) may have its pole, and the grid of the case has none.
+TEST(Custom, APoleBetweenThePointsOfAGridIsNone) {
+  const std::string wave = "length = 10.0\nH = \"v^2/2 + u_x^2/2\"\nD = { v = \"1/(x - 5)^2\" }\ninitial = \"zero\"\n";
+  EXPECT_EQ(complaint(wave + "points = 63"), "");
+  EXPECT_THAT(complaint(wave + "points = 64"), HasSubstr("is inf at t = 0 at x = 5 (j = 32)"));
+}
+
 TEST(Custom, FrictionAndForcesMayNameTheParameters) {
   const std::string text =
       "parameters = { c = 0.5, F = 2 }\nH = \"p^2/2 + q^4\"\ninitial = { q = 0, p = 1 }\n"

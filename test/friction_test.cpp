@@ -194,14 +194,14 @@ TEST(Friction, VanDerPolsOscillatorFindsItsLimitCycle) {
   }
 }
 
-// Between the velocities that are tried before a run it feeds, and the run meets that.
+// Between the coordinates that are tried before a run it feeds, and the run meets that.
 TEST(Friction, WhatTheRunMeetsIsKnownAfterIt) {
   Problem problem = oscillator({.alpha = 0});
-  problem.initial << -1.0, 0.0;  // the velocity rises to about 0.5
-  problem.friction = formula_friction(formula("v*(1 - 2*exp(-((v-0.37)/0.005)^2))"), problem.grid);
+  problem.initial << -1.0, 0.0;
+  problem.friction = formula_friction(formula("v*(1 - 2*exp(-((u-0.37)/0.005)^2))"), problem.grid);
   EXPECT_TRUE(promise_energy_law(problem, 10).promised);
   for (const char* method : {"seisav", "egc4"}) {
-    problem.friction = formula_friction(formula("v*(1 - 2*exp(-((v-0.37)/0.005)^2))"), problem.grid);
+    problem.friction = formula_friction(formula("v*(1 - 2*exp(-((u-0.37)/0.005)^2))"), problem.grid);
     Simulation simulation(problem, {.method = method});
     EXPECT_EQ(problem.friction->fed_at(), "");
     for (int n = 0; n < 1280; ++n) ASSERT_TRUE(simulation.step(1.0 / 256).solved());
@@ -283,6 +283,21 @@ TEST(Friction, WhatFeedsEnergyIsPromisedNoLawAndTheWitnessIsNamed) {
       }
     EXPECT_EQ(violated, feeds ? 1 : 0) << name;
   }
+}
+
+// Between two places that are looked at, and between decades.
+TEST(Friction, ThatFeedsInANarrowBandIsFound) {
+  for (const char* r : {"v*(v-2)*(v-3)", "v*((v-1.25)^2-0.05)", "v*((v-0.25)^2-0.002)", "v*((v+0.85)^2-0.02)",
+                        "v*((v-0.85)^2-0.015)"}) {
+    Problem p = oscillator();
+    p.friction = formula_friction(formula(r), p.grid);
+    EXPECT_FALSE(promise_energy_law(p, 10).promised) << r;
+  }
+  Problem p = oscillator();
+  p.friction = position_friction(formula("(u-3)^2-0.0001"), p.grid);
+  EXPECT_FALSE(promise_energy_law(p, 10).promised);
+  p.friction = position_friction(formula("(u-3)^2+0.0001"), p.grid);
+  EXPECT_TRUE(promise_energy_law(p, 10).promised);
 }
 
 // Reversed van der Pol: c = 1 − u² feeds where |u| > 1, as one of the members does.

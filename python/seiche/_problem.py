@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import numbers
 import operator
 import os
@@ -346,11 +347,19 @@ _SECTIONS = {
 _OTHER_NAMES = dict.fromkeys(("t_end", "tend", "tmax", "t_max", "T", "tspan"), "t_span") | dict.fromkeys(("y0", "u0", "x0"), "z0")
 
 
+_ARGUMENTS = (
+    "t_span", "z0", "t_eval", "events", "dense_output", "observer", "record_every", "ledger", "backend", "threads",
+)  # beside the keys of [method], which the parser of cases knows
+
+
 def refuse_other_names(options: Mapping[str, Any]) -> None:
-    """What other programs call an argument that is no key of a case."""
+    """What other programs call an argument that is no key of a case, and arguments that are misspelt."""
     for name in options:
-        if name in _OTHER_NAMES:
-            raise ValueError(f"unknown argument '{name}'; did you mean '{_OTHER_NAMES[name]}'?")
+        nearest = _OTHER_NAMES.get(name)
+        if nearest is None and name not in _SECTIONS:
+            nearest = next(iter(difflib.get_close_matches(name, _ARGUMENTS, 1, 0.75)), None)
+        if nearest is not None:
+            raise ValueError(f"unknown argument '{name}'; did you mean '{nearest}'?")
 
 
 def run_case(given: "Problem | Case", options: Mapping[str, Any]) -> _core.Case:

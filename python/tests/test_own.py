@@ -199,6 +199,8 @@ def test_a_function_that_returns_no_number_is_a_type_error():
         (lambda p: seiche.solve(p, 1.0, atol=1e-6), "^unknown argument 'atol'; did you mean 'tolerance'"),
         (lambda p: seiche.solve("oscillator", 1.0, tol=1e-6), "^unknown argument 'tol'; did you mean 'tolerance'"),
         (lambda p: seiche.solve(p, 1.0, dt=0.1), "^unknown argument 'dt'; did you mean 'h'"),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, t_evl=[1]), "^unknown argument 't_evl'; did you mean 't_eval'"),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, event=len), "^unknown argument 'event'; did you mean 'events'"),
         (lambda p: seiche.solve("oscillator", 1.0, step=0.1), "^unknown argument 'step'; did you mean 'h'"),
         (lambda p: seiche.solve(p, 1.0, h=0.1, max_step=0.1), "^unknown argument 'max_step'; did you mean 'h_max'"),
         (lambda p: seiche.solve(p, t_end=1.0, h=0.1), "^unknown argument 't_end'; did you mean 't_span'"),

@@ -182,6 +182,10 @@ ModeTable::ModeTable(ModeLayout layout, Index modes, Index rows, Index columns)
     : columns_(checked_columns(columns)), factors_(layout, modes, rows * columns) {}
 
 void ModeTable::apply(std::span<const double* const> in, std::span<double* const> out, int threads) const {
+  if (columns_ == 0) {  // of forces alone, where V = 0
+    for (double* const row : out) std::fill_n(row, factors_.slots(), 0.0);
+    return;
+  }
   over_blocks(factors_, threads, [&]<ModeLayout layout>(Index, Index first, Index last) {
     with_columns(columns_, [&]<int known>() { sum_rows<layout, known>(factors_, in, out, first, last); });
   });

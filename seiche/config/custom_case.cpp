@@ -159,6 +159,7 @@ ProblemEntry custom_entry(const CustomProblem& custom, bool has_grid) {
 void try_formulas(const CustomProblem& custom, const ParameterValues& values) {
   CustomProblem small = custom;
   small.initial.clear();
+  small.is_trial = small.grid.has_value();
   for (auto& [name, value] : small.parameters) value = values.real(name);
   if (small.grid) {
     constexpr Index points = 8;

@@ -46,6 +46,7 @@ class Builder {
   Problem build() {
     p_.S = custom_.S.empty() ? canonical_structure() : tables().block("S", custom_.S);
     p_.damping = tables().damping(custom_.D);
+    if (!custom_.is_trial) tables().require_finite_rates(p_.damping);
     if (!custom_.H.empty()) {
       if (!custom_.V.empty() || !custom_.M.empty())
         throw Error("problem.H is the whole energy: leave out M and V, or write these two without H");

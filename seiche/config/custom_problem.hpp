@@ -23,8 +23,9 @@ struct CustomProblem {
   // Or both apart: M by entries of numbers and derivatives (d_x, d_x^2, laplacian), and V in fields, place and differences.
   FormulaTable M = {};
   std::string V = {};
-  FormulaTable S = {};  // entries as for M; empty: [[0, I], [−I, 0]]
-  FormulaTable D = {};  // the same, and on the diagonal also rates in t and place; empty: no damping
+  FormulaTable S = {};    // entries as for M; empty: [[0, I], [−I, 0]]
+  FormulaTable D = {};    // the same, and on the diagonal also rates in t and place; empty: no damping
+  bool is_trial = false;  // on a grid of a few points, to read the formulas: what they give there is not looked at
   std::map<std::string, std::string> initial = {};  // a formula in x, y, z and j for every field; empty: zero
 };
 

@@ -71,18 +71,19 @@ LinearDamping CustomTables::damping(const FormulaTable& entries) const {
     const DampingRate changing = compile_damping_rate("problem.D", rate, constants_);
     damping.rate = changing.uniform;
     if (changing.varying) damping.field_rate = changing.varying->on(problem_.grid);
-    require_finite_rate(damping, rate);
   }
   return damping;
 }
 
-void CustomTables::require_finite_rate(const LinearDamping& damping, const std::string& text) const {
+void CustomTables::require_finite_rates(const LinearDamping& damping) const {
+  if (!damping.rate && !damping.field_rate) return;
   std::vector<double> gamma(static_cast<std::size_t>(problem_.grid.unknowns()));
   if (damping.field_rate) damping.field_rate->values(0, gamma);
   if (damping.rate) gamma.assign(1, damping.rate->value(0));
   for (std::size_t j = 0; j < gamma.size(); ++j)
     if (!std::isfinite(gamma[j]))
-      throw Error("problem.D: the rate {} is {} at t = 0{}", text, number_text(gamma[j]),
+      throw Error("problem.D: the rate {} is {} at t = 0{}",
+                  damping.rate ? damping.rate->text() : damping.field_rate->text(), number_text(gamma[j]),
                   damping.rate ? "" : place_text(problem_.grid, static_cast<Index>(j)));
 }
 

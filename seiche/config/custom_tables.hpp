@@ -21,8 +21,9 @@ class CustomTables {
   BlockStencil block(const char* name, const FormulaTable& entries) const;
 
   // Of D. A rate on the diagonal acts exactly on its fields, and apart from derivatives. Throws Error also for rates off the
-  // diagonal, for two that differ, and for one that is no finite number at t = 0.
+  // diagonal, and for two that differ.
   LinearDamping damping(const FormulaTable& entries) const;
+  void require_finite_rates(const LinearDamping& damping) const;  // at t = 0; throws Error with the point
 
   std::string entry_key(const char* name, Index row, Index column) const;
 
@@ -31,7 +32,6 @@ class CustomTables {
   void require_shape(const char* name, const FormulaTable& entries) const;
   template <class Take>
   void for_entries(const char* name, const FormulaTable& entries, bool may_vary, const Take& take) const;
-  void require_finite_rate(const LinearDamping& damping, const std::string& text) const;
   void take_constant_rate(LinearDamping& damping) const;
 
   const Problem& problem_;

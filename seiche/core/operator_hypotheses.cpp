@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
 
 namespace seiche {
 namespace {
@@ -19,13 +22,28 @@ std::string text_of(const Mode& mode, const Grid& grid) {
   return fmt::format("mode k = ({})", fmt::join(k, ", "));
 }
 
-// "mode k = (3), z = (u: 0.98, v: 0.2)"
-std::string witness(const Problem& problem, const SmallestEigenvalue& s) {
-  std::string text = has_modes(problem) ? text_of(s.mode, problem.grid) + ", |z| = (" : "|z| = (";
+// 0.2, or 0.1-0.3i
+std::string text_of(std::complex<double> x) {
+  constexpr double digits = 5e-4;  // of a vector of norm 1, as they are shown
+  if (std::abs(x.imag()) < digits) return fmt::format("{:.3g}", std::abs(x.real()) < digits ? 0.0 : x.real());
+  return fmt::format("{:.3g}{:+.3g}i", std::abs(x.real()) < digits ? 0.0 : x.real(), x.imag());
+}
+
+// "z = (u: 0.98, v: -0.2)", with a phase that makes the largest component real and positive
+std::string text_of(const Problem& problem, const Eigen::VectorXcd& z) {
+  Index largest = 0;
+  z.cwiseAbs().maxCoeff(&largest);
+  const std::complex<double> phase = std::conj(z[largest]) / std::abs(z[largest]);
+  std::vector<std::string> components;
   for (Index f = 0; f < problem.field_count(); ++f)
-    text += fmt::format("{}{}: {:.3g}", f > 0 ? ", " : "", problem.fields[static_cast<std::size_t>(f)],
-                        std::abs(s.vector[f]));
-  return text + fmt::format("), where it is {:.6g}", s.value);
+    components.push_back(fmt::format("{}: {}", problem.fields[static_cast<std::size_t>(f)], text_of(phase * z[f])));
+  return fmt::format("z = ({})", fmt::join(components, ", "));
+}
+
+// "mode k = (3), z = (u: 0.98, v: -0.2), where it is -0.17"
+std::string witness(const Problem& problem, const SmallestEigenvalue& s) {
+  const std::string mode = has_modes(problem) ? text_of(s.mode, problem.grid) + ", " : "";
+  return fmt::format("{}{}, where it is {:.6g}", mode, text_of(problem, s.vector), s.value);
 }
 
 std::string witness(const Problem& problem, const NegativeDirection& x) {
@@ -48,6 +66,8 @@ Hypothesis semidefinite(const Problem& problem, std::string name, const Semidefi
                                  has_modes(problem) ? " over all modes" : "", std::max(s.value, 0.0));
   if (s.zeros > 0 && has_modes(problem))
     text += fmt::format("; {} vanish, the first at {}", s.zeros, text_of(s.first_zero, problem.grid));
+  else if (s.zeros > 0)  // the smallest of all then is one
+    text += fmt::format("; it vanishes on {}", text_of(problem, s.vector));
   return {std::move(name), Grade::verified, std::move(text), std::max(s.value, 0.0)};
 }
 

@@ -2,6 +2,7 @@
 #include <seiche/damping/formula_frictions.hpp>
 
 #include <fmt/format.h>
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,12 +20,31 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// 0 and ± 10ᵏ, k from −4 to 3 by quarters: where the sign of a formula is looked at. Of 0 alone if it does not matter.
-std::vector<double> sizes_to_try(bool matters) {
+// 0 and ± 10ˣ, −4 ≤ x ≤ 3, in rising order: where the sign of a formula is looked at. Of 0 alone if it does not matter.
+std::vector<double> sizes_to_try(bool matters, int per_decade) {
   std::vector<double> sizes = {0.0};
-  for (int k = -16; matters && k <= 12; ++k)
-    for (const double sign : {-1.0, 1.0}) sizes.push_back(sign * std::pow(10.0, k / 4.0));
+  for (int k = -4 * per_decade; matters && k <= 3 * per_decade; ++k)
+    for (const double sign : {-1.0, 1.0}) sizes.push_back(sign * std::pow(10.0, static_cast<double>(k) / per_decade));
+  std::sort(sizes.begin(), sizes.end());
   return sizes;
+}
+
+// An x where f is not ≥ 0: one of the rising `places`, or between two of them where f dips; nothing where none is found.
+template <class F>
+std::optional<double> find_negative(const std::vector<double>& places, const F& f) {
+  constexpr int bits = 24;
+  double before = 0, here = 0;  // f at the last two places
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double next = f(places[i]);
+    if (!(next >= 0)) return places[i];
+    if (i >= 2 && here <= before && here <= next) {
+      const auto [x, value] = boost::math::tools::brent_find_minima(f, places[i - 2], places[i], bits);
+      if (!(value >= 0)) return x;
+    }
+    before = here;
+    here = next;
+  }
+  return std::nullopt;
 }
 
 class FormulaFriction : public Friction {
@@ -51,9 +72,12 @@ class FormulaFriction : public Friction {
 
   std::string feeds_at(double t_end) const override {
     constexpr std::size_t most_places = 16, most_tries = 1U << 21U, least_times = 64;
+    constexpr int fine = 128, coarse = 12;  // places in a decade, of one variable or of each of two
     const std::size_t stride = f_.uses_place ? std::max<std::size_t>(1, places_.size() / most_places) : places_.size();
-    const std::vector<double> speeds = speeds_to_try();
-    const std::vector<double> coordinates = sizes_to_try(f_.uses_u);
+    const bool by_speed = !is_proportional();  // else v > 0 says all, and the sign is that of a function of u
+    const int density = by_speed && f_.uses_u ? coarse : fine;
+    const std::vector<double> speeds = by_speed ? sizes_to_try(true, density) : std::vector{1.0};
+    const std::vector<double> coordinates = sizes_to_try(f_.uses_u, density);
     const std::size_t per_time = (places_.size() / stride) * speeds.size() * coordinates.size();
     const std::size_t times = f_.uses_t ? std::clamp(most_tries / per_time, least_times, std::size_t{4096}) : 1;
     constexpr double golden = 0.6180339887498949;  // its multiples avoid every period
@@ -61,17 +85,13 @@ class FormulaFriction : public Friction {
       const double fraction = static_cast<double>(n) * golden;
       const double t = t_end * (fraction - std::floor(fraction));
       for (std::size_t j = 0; j < places_.size(); j += stride)
-        for (const double u : coordinates)
-          for (const double v : speeds) {
-            const double r = rate(t, u, v, places_[j]);
-            if (!(v * r >= 0)) return witness(t, u, v, r);
-          }
+        if (const std::string found = feeds_at(t, places_[j], speeds, coordinates); !found.empty()) return found;
     }
     return "";
   }
 
  protected:
-  virtual std::vector<double> speeds_to_try() const { return sizes_to_try(true); }
+  virtual bool is_proportional() const { return false; }  // to v
   // R at one point.
   virtual double rate(double t, double u, double v, const Place& place) const = 0;
 
@@ -86,6 +106,23 @@ class FormulaFriction : public Friction {
   }
 
  private:
+  std::string feeds_at(double t, const Place& place, const std::vector<double>& speeds,
+                       const std::vector<double>& coordinates) const {
+    const auto feeds = [&](double u, double v) { return witness(t, u, v, rate(t, u, v, place)); };
+    if (speeds.size() == 1) {
+      const double v = speeds.front();
+      const auto u = find_negative(coordinates, [&](double at) { return v * rate(t, at, v, place); });
+      return u ? feeds(*u, v) : "";
+    }
+    // r/v has the sign of v·r, and no dip at v = 0 for its being small there.
+    for (const double u : coordinates)
+      if (const auto v = find_negative(speeds, [&](double at) {
+            return at == 0 ? 0.0 * rate(t, u, at, place) : rate(t, u, at, place) / at;
+          }))
+        return feeds(u, *v);
+    return "";
+  }
+
   std::string witness(double t, double u, double v, double r) const {
     std::string text = fmt::format("v = {:.4g}", v);
     if (f_.uses_u) text += fmt::format(", u = {:.4g}", u);
@@ -114,7 +151,7 @@ class PositionFriction final : public FormulaFriction {
   FrictionPointer with_own_memory() const override { return std::make_shared<PositionFriction>(*this); }
 
  private:
-  std::vector<double> speeds_to_try() const override { return {1.0}; }  // the sign is that of c
+  bool is_proportional() const override { return true; }
   double rate(double t, double u, double v, const Place& place) const override { return formula(t, u, 0, place) * v; }
 };
 

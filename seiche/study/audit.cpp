@@ -55,6 +55,7 @@ class Auditor {
 
   Audit run() {
     origin();
+    times();
     final_state();
     snapshots();
     summary();
@@ -93,6 +94,35 @@ class Auditor {
     book_.add_differences("case.toml, summary.json and energy.csv are of one run", differences,
                           fmt::format("{}, the same {} and t = {:.6g} in all", method,
                                       spec_.tolerance ? "tolerance" : "h", t));
+  }
+
+  // From 0 on and rising; with steps of one size after every energy_every of them, and so many as there are.
+  void times() {
+    const std::string claim = "energy.csv has the rows of this run, one after the other";
+    const double apart = spec_.h * static_cast<double>(spec_.energy_every);
+    const auto is_expected = [&](std::size_t i) {
+      if (i == 0) return t_[0] == 0;
+      if (!(t_[i] > t_[i - 1])) return false;
+      const bool is_last = i + 1 == t_.size();
+      if (spec_.tolerance || is_last) return is_last || t_[i] < t_.back();
+      return std::abs(t_[i] - static_cast<double>(i) * apart) <= 1e-9 * spec_.t_end;
+    };
+    for (std::size_t i = 0; i < t_.size(); ++i)
+      if (!is_expected(i))
+        return book_.add(claim, Verdict::contradicted,
+                         fmt::format("row {} is at t = {:.17g}{}", i + 1, t_[i],
+                                     spec_.tolerance || i == 0 ? "" : fmt::format(", after {:.17g}", t_[i - 1])));
+    const auto steps = summary_.value("steps", Json());
+    const double of_run = spec_.tolerance ? std::nan("") : std::ceil(t_.back() / spec_.h - 1e-6);
+    if (!spec_.tolerance && steps.is_number() && steps.get<double>() != of_run)
+      return book_.add(claim, Verdict::contradicted,
+                       fmt::format("t = {:.6g} takes {} steps of h = {:.6g}, and summary.json says {}", t_.back(),
+                                   of_run, spec_.h, steps.get<double>()));
+    const auto expected = static_cast<std::size_t>(
+        spec_.tolerance ? 0 : std::ceil(of_run / static_cast<double>(spec_.energy_every) - 1e-9) + 1);
+    if (!spec_.tolerance && t_.size() != expected)
+      return book_.add(claim, Verdict::contradicted, fmt::format("{} rows, where the run has {}", t_.size(), expected));
+    book_.add(claim, Verdict::confirmed, fmt::format("{} rows from t = 0 to {:.6g}", t_.size(), t_.back()));
   }
 
   void case_of(const SolutionReader& solution) {
@@ -164,6 +194,7 @@ class Auditor {
     const std::string objection = spec_.method_options.objection(find_method(spec_.method));
     const LawPromise promise =
         objection.empty() ? promise_energy_law(problem_, spec_.t_end) : LawPromise{false, objection};
+    promised_ = promise.promised;
     const double increase = largest_increase(modified ? energy_.column("H_modified") : H_);
     const double allowed = 2 * round_off_ * static_cast<double>(std::max<std::int64_t>(1, spec_.energy_every));
     const std::string evidence =
@@ -198,7 +229,21 @@ class Auditor {
     book_.add(claim, sums ? Verdict::confirmed : Verdict::contradicted,
               fmt::format("{} rows; the sum of all is {:.17g} and H(end) − H(start) is {:.17g}", H_.size() - 1, total,
                           H_.back() - H_.front()));
+    if (problem_.forces.empty() && !problem_.friction && energy_.has("work")) {
+      const std::vector<double> work = energy_.column("work");
+      const bool none = std::all_of(work.begin() + 1, work.end(), [](double w) { return w == 0; });
+      book_.add("without a force none does work", none ? Verdict::confirmed : Verdict::contradicted,
+                none ? "the column is 0" : "the column is not 0");
+    }
     const double explained = 4 * round_off_ * static_cast<double>(std::max<std::int64_t>(1, spec_.energy_every));
+    if (promised_) {
+      double fed = 0;
+      for (const char* part : {"damping_left", "damping_right"})
+        if (energy_.has(part))
+          for (const double row : energy_.column(part)) fed = std::max(fed, row);
+      book_.add("damping feeds no energy in any row", fed <= explained ? Verdict::confirmed : Verdict::contradicted,
+                fmt::format("at most {:.2g}, and round-off explains {:.2g}", fed, explained));
+    }
     book_.add("what the ledger calls round-off is no more than that",
               unexplained <= explained ? Verdict::confirmed : Verdict::contradicted,
               fmt::format("at most {:.2g} a row, and {:.2g} is explained", unexplained, explained));
@@ -212,6 +257,7 @@ class Auditor {
   Json summary_;
   std::vector<double> t_, H_;
   double largest_ = 0, round_off_ = 0;
+  bool promised_ = false;  // the law
   AuditBook book_;
 };
 
