@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <regex>
 
 namespace seiche::test {
@@ -340,6 +341,99 @@ TEST(Adaptive, AReplacedStepIsNotCountedWhereItIsTakenBackOrItsErrorIsAccepted) 
   ASSERT_EQ(report.status, RunReport::Status::success) << report.message;
   EXPECT_GT(report.rejected, 0);
   EXPECT_EQ(report.replaced.count, 0) << report.message;
+}
+
+// Each piece between jumps is smooth, and is integrated by itself with small steps.
+Vector piecewise(const std::string& problem, double t_end, const std::vector<double>& jumps) {
+  std::vector<double> ends = jumps;
+  ends.push_back(t_end);
+  const Problem p = make_problem(parse_case(problem, "x.toml"));
+  Simulation simulation(p, {.method = "egc8"});
+  double begin = 0;
+  for (const double end : ends) {
+    const int steps = 400;
+    simulation.state().history_h = 0;
+    for (int n = 0; n < steps; ++n) {
+      EXPECT_TRUE(simulation.step((end - begin) / steps).solved());
+      simulation.state().t = begin + (end - begin) * (n + 1) / steps;
+    }
+    begin = end;
+  }
+  return simulation.physical();
+}
+
+// Gauss' nodes may all lie on one side of a jump, so that only the integral of γ(t) or f(t) tells that there is one.
+TEST(Adaptive, TheToleranceHoldsWhereRatesAndForcesJump) {
+  const double pi = std::numbers::pi;
+  const std::string duffing = "[problem]\nname = \"oscillator\"\nomega_squared = 1.0\nalpha = 1.0\n";
+  for (const std::string drive : {"gamma = \"0.3 + 0.25*sign(sin(t))\"", "gamma = \"abs(sin(t))\"",
+                                  "gamma = 0.1\nforce = \"0.5*sign(sin(t))\""}) {
+    const Vector exact = piecewise(duffing + drive, 10, {pi, 2 * pi, 3 * pi});
+    for (const std::string method : {"egc4", "egc6", "egc8", "etdrk4"}) {
+      for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
+        const Problem p = make_problem(parse_case(duffing + drive, "x.toml"));
+        Simulation simulation(p, {.method = method, .variable_steps = true});
+        const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(),
+                                                    simulation.state(), {.tolerance = tolerance, .t_end = 10});
+        EXPECT_EQ(report.status, RunReport::Status::success) << drive << " " << method << ": " << report.message;
+        const Vector distance = simulation.physical() - exact;
+        EXPECT_LE(distance.lpNorm<Eigen::Infinity>(), 20 * tolerance) << drive << " " << method << " " << tolerance;
+      }
+    }
+  }
+}
+
+TEST(Adaptive, AShortPulseOfARateIsSeen) {
+  const std::string pulse =
+      "[problem]\nname = \"oscillator\"\nomega_squared = 1.0\nalpha = 1.0\ngamma = \"40*exp(-((t - 7.77)/0.01)^2)\"";
+  const Vector exact = piecewise(pulse, 10, {7.5, 7.7, 7.77, 7.84, 8});
+  for (const std::string method : {"egc4", "egc6", "egc8"}) {
+    const Problem p = make_problem(parse_case(pulse, "x.toml"));
+    Simulation simulation(p, {.method = method, .variable_steps = true});
+    integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                       {.tolerance = 1e-6, .t_end = 10});
+    const Vector distance = simulation.physical() - exact;
+    EXPECT_LE(distance.lpNorm<Eigen::Infinity>(), 2e-5) << method;
+  }
+}
+
+// Without V there are no forces, and the φ-maps of the error estimate have no columns.
+TEST(Adaptive, LinearEquationsTakeATolerance) {
+  for (const NamedProblem& linear :
+       {NamedProblem{"wave", klein_gordon({.alpha = 0.0})},
+        NamedProblem{"dirichlet",
+                     klein_gordon({.grid = {.points = {16}, .length = {2.0}, .boundary = {Boundary::dirichlet}},
+                     .alpha = 0.0})}}) {
+    for (const std::string method : {"egc2", "egc4", "egc6", "egc8"})
+      for (const std::string backend : {"modal", "dense", "sparse"}) {
+        Problem p = linear.problem;
+        p.potential = nullptr;
+        Simulation simulation(p, {.method = method, .backend = backend, .variable_steps = true});
+        const std::vector<double> asked = every_unit(3);
+        const Reference reference = make_reference(p, asked);
+        Judge judge(reference, *simulation.system().space);
+        const std::vector<Observer*> observers = {&judge};
+        const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(),
+                                                    simulation.state(), {.tolerance = 1e-6, .t_end = 3}, observers);
+        EXPECT_EQ(report.status, RunReport::Status::success) << linear.name << " " << method << " " << report.message;
+        EXPECT_LE(judge.error, 1e-9) << linear.name << " " << method << " " << backend;
+      }
+  }
+}
+
+TEST(Adaptive, AToleranceIsMeasuredByTheStateItIsAbout) {
+  Problem small = oscillator({.alpha = 0.0});
+  small.initial *= 1e-9;
+  Simulation simulation(small, {.method = "egc4", .variable_steps = true});
+  const auto run_with = [&](double tolerance) {
+    simulation.restart();
+    return integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                              {.tolerance = tolerance, .t_end = 1})
+        .message;
+  };
+  EXPECT_NE(run_with(1e-6).find("is more than the largest number of the initial state, 1e-09"), std::string::npos);
+  EXPECT_EQ(run_with(1e-12).find("more than"), std::string::npos);
+  EXPECT_THROW(run_with(1e-24), Error);
 }
 
 }  // namespace

@@ -51,6 +51,14 @@ TEST(AutoMethod, EveryProblemRunsAndReachesItsTolerance) {
   }
 }
 
+TEST(AutoMethod, TakesCollocationWhereFrictionTurnsNoFasterThanTheSolution) {
+  Problem p = klein_gordon_case(0.0, 1.0);
+  p.friction = saturating_friction(0.4, 1.0);
+  EXPECT_EQ(Simulation(p, {.method = "auto", .variable_steps = true, .tolerance = 1e-7}).method().name, "egc6");
+  p.friction = saturating_friction(0.4, 1e-4);
+  EXPECT_EQ(Simulation(p, {.method = "auto", .variable_steps = true, .tolerance = 1e-7}).method().name, "seisav");
+}
+
 TEST(AutoMethod, TakesExactFlowsWhereFrictionIsSharp) {
   Problem p = klein_gordon_case(0.0, 1.0);
   p.friction = dry_friction(0.1);

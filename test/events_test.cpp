@@ -154,5 +154,26 @@ TEST(Adaptive, BouncesShorterThanAStepAreMetToo) {
   }
 }
 
+// A bouncing ball: infinitely many bounces before t = 10.
+TEST(Adaptive, EventsThatAccumulateEndTheRun) {
+  CustomProblem ball;
+  ball.fields = {"q", "p"};
+  ball.H = "p^2/2 + 9.81*q";
+  ball.initial = {{"q", "1"}, {"p", "0"}};
+  Simulation simulation(custom_problem(ball), {.method = "egc4", .variable_steps = true});
+  const std::vector<Event> events = {{.g = [](double, const Vector& z) { return z[0]; },
+                                      .action =
+                                          [](State& state) {
+                                            state.z[0] = 0;
+                                            state.z[1] *= -0.8;
+                                            return true;
+                                          },
+                                      .direction = Event::Direction::falling}};
+  const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                              {.tolerance = 1e-8, .t_end = 10, .events = events});
+  EXPECT_EQ(report.status, RunReport::Status::failed);
+  EXPECT_NE(report.message.find("events accumulate at t = 4.06"), std::string::npos) << report.message;
+}
+
 }  // namespace
 }  // namespace seiche::test

@@ -358,14 +358,17 @@ TEST(RunReport, BriefIsOneLineAndFullHoldsTheMessage) {
   EXPECT_EQ(to_string(LawVerdict::not_promised), "not promised");
 }
 
-// H of a run whose terms have the size `terms`; a modified energy falls all the while.
+// H of a run whose terms have the size `terms`; a modified energy follows it down, and falls all the while.
 RunReport booked(const LawPromise& promise, const std::vector<double>& H, bool has_modified, double terms = 1,
                  std::int64_t event_before = -1) {
   EnergyBook book(promise, has_modified);
+  double lowest = H.front();
   for (std::size_t n = 0; n < H.size(); ++n) {
-    if (static_cast<std::int64_t>(n) == event_before) book.reopen();
+    const bool is_behind_event = static_cast<std::int64_t>(n) == event_before;
+    if (is_behind_event) book.reopen();
+    lowest = is_behind_event ? H[n] : std::min(lowest, H[n]);
     book.add({.H = H[n],
-              .modified = -static_cast<double>(n),
+              .modified = lowest - 1e-9 * static_cast<double>(n),
               .round_off = 50 * epsilon * std::max(terms, std::abs(H[n])),
               .modified_round_off = 50 * epsilon},
              static_cast<double>(n), static_cast<std::int64_t>(n));
@@ -373,6 +376,19 @@ RunReport booked(const LawPromise& promise, const std::vector<double>& H, bool h
   RunReport report;
   book.write_to(report);
   return report;
+}
+
+// H may fall, but not away from the energy that the law is about.
+TEST(EnergyBook, SaysThatHAndItsModifiedEnergyHaveParted) {
+  EnergyBook book({true, "damped", true, false}, true);
+  int n = 0;
+  for (const auto& [H, modified] : {std::pair(100.0, 100.0), {95.0, 99.9}, {5.0, 99.8}, {50.0, 99.7}}) {
+    book.add({.H = H, .modified = modified, .round_off = 5e-13, .modified_round_off = 5e-13}, n, n);
+    ++n;
+  }
+  RunReport report;
+  book.write_to(report);
+  EXPECT_THAT(report.remark_on_drift(), HasSubstr("at t = 2 that is 99.8 where H is 5: the two have parted"));
 }
 
 TEST(EnergyBook, SaysWhereHWentThatNoSolutionGoes) {
@@ -392,7 +408,7 @@ TEST(EnergyBook, SaysWhereHWentThatNoSolutionGoes) {
   EXPECT_EQ(booked(damped, {1, 0.9, 40, 39}, true, 1, 2).remark_on_drift(), "") << "by an event";
   EXPECT_THAT(booked(kept, {1, 0.95, 0.8}, true).remark_on_drift(),
               HasSubstr("H itself fell from 1 to 0.8 at t = 2, although nothing in the equation changes it"));
-  EXPECT_EQ(booked(kept, {1, 0.95, 1.05}, true).remark_on_drift(), "");
+  EXPECT_EQ(booked(kept, {1, 0.96, 1.05}, true).remark_on_drift(), "");
   LawPromise withdrawn = kept;
   withdrawn.withdraw("law = \"none\"");
   EXPECT_THAT(booked(withdrawn, {1, 1, 2}, false).remark_on_drift(),

@@ -26,6 +26,11 @@ const Vector& FieldDecay::factors(double t, double h) const {
   });
 }
 
+const Vector& FieldDecay::integrals(double t, double h) const {
+  rate_->integrals(t, h, all(current_));
+  return current_;
+}
+
 const Vector& FieldDecay::values(double t) const {
   rate_->values(t, all(current_));
   return current_;

@@ -17,6 +17,8 @@ class FieldDecay {
   // exp(−∫ₜᵗ⁺ʰ γ(x_j, s) ds), valid until the next call; kept for each h where γ does not depend on t.
   const Vector& factors(double t, double h) const;
   const Vector& values(double t) const;                                 // γ(x_j, t), valid until the next call
+  const Vector& integrals(double t, double h) const;                    // ∫ₜᵗ⁺ʰ γ(x_j, s) ds, likewise
+  bool is_constant() const { return rate_->is_constant(); }             // in time
   void multiply(const Vector& factors, std::span<double> slots) const;  // point by point
 
  private:

@@ -22,6 +22,10 @@ class FrictionDamping final : public Damping {
   void flow(double t, double h, Vector& z) const override;
   void apply(double t, const Vector& z, Vector& out) const override;
   bool is_frozen() const override { return false; }
+  void add_unseen(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
+                  Vector& out) const override {
+    linear_->add_unseen(t, h, c, w, z, out);
+  }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
   void apply_frozen(const Vector& z, Vector& out) const override { linear_->apply_frozen(z, out); }
   std::int64_t corrections() const override { return friction_->corrections(); }

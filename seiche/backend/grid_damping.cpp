@@ -1,5 +1,6 @@
 #include <seiche/backend/grid_damping.hpp>
 #include <seiche/backend/segment.hpp>
+#include <seiche/core/blind_ends.hpp>
 #include <seiche/core/commuting_damping.hpp>
 
 #include <algorithm>
@@ -88,6 +89,39 @@ void GridDamping::apply(double t, const Vector& z, Vector& out) const {
 void GridDamping::apply_rest(double t, const Vector& z, Vector& out) const {
   out.setZero();
   if (!is_frozen()) add_rates((rate_ ? rate_->value(t) : 0.0) - frozen_rate_, t, z, out);
+}
+
+double GridDamping::blind_part(double t, double h) const {
+  const BlindEnds& ends = blind_ends();
+  double begin = rate_->value(t), end = rate_->value(t + h);
+  for (std::size_t i = 0; i < BlindEnds::count; ++i) {
+    const double gamma = rate_->value(t + ends.points[i] * h);
+    begin -= ends.to_begin[i] * gamma;
+    end -= ends.to_end[i] * gamma;
+  }
+  return BlindEnds::width * (std::abs(begin) + std::abs(end));
+}
+
+void GridDamping::add_unseen(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
+                             Vector& out) const {
+  if (is_frozen()) return;
+  double missed = rate_ ? rate_->integral(t, h) : 0.0;
+  for (std::size_t i = 0; rate_ && i < c.size(); ++i) missed -= h * w[i] * rate_->value(t + c[i] * h);
+  if (rate_) missed += std::copysign(h * blind_part(t, h), missed);
+  const bool varies = field_rate_ && !field_rate_->is_constant();
+  if (varies) {
+    unseen_ = field_rate_->integrals(t, h);
+    for (std::size_t i = 0; i < c.size(); ++i) unseen_ -= h * w[i] * field_rate_->values(t + c[i] * h);
+  }
+  for (std::size_t f = 0; f < rate_fields_.size(); ++f) {
+    if (!rate_fields_[f]) continue;
+    const Index begin = static_cast<Index>(f) * slots_;
+    out.segment(begin, slots_) += missed * z.segment(begin, slots_);
+    if (!varies) continue;
+    scratch_.head(slots_) = z.segment(begin, slots_);
+    field_rate_->multiply(unseen_, segment(scratch_, 0, slots_));
+    out.segment(begin, slots_) += scratch_.head(slots_);
+  }
 }
 
 void GridDamping::add_rates(double gamma, double t, const Vector& z, Vector& out) const {

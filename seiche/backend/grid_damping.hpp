@@ -34,9 +34,12 @@ class GridDamping final : public Damping {
   bool is_frozen() const override { return !field_rate_ && (!rate_ || rate_->is_constant()); }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
   void apply_frozen(const Vector& z, Vector& out) const override;
+  void add_unseen(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
+                  Vector& out) const override;
   bool field_factors(double t, double h, std::span<double> factors) const override;
 
  private:
+  double blind_part(double t, double h) const;  // of γ(t), in units of h
   void apply_constant(const Vector& z, Vector& out) const;
   void constant_flow(double h, Vector& z) const;
   void rates_flow(double t, double h, Vector& z) const;
@@ -57,6 +60,7 @@ class GridDamping final : public Damping {
     double h = 0.0, decay = 1.0;
   } mutable decay_of_;  // of a constant rate: the last length asked for
   mutable Vector scratch_;
+  mutable Vector unseen_;  // at the points
 };
 
 }  // namespace seiche

@@ -13,6 +13,8 @@ namespace {
 
 // Where the curves of time against tolerance cross (docs/performance.md, The choice of "auto"); they are flat there.
 constexpr double stiff_damping = 12;  // times the rate of the solution: backward flows e^{−|a|hD} would grow
+constexpr double stiff_friction =
+    50;                               // times the rate of the solution: beside it exact flows of the friction cost less
 constexpr double stiff_kicks = 10;    // times the rate of the solution: kicks would be bound by their stability
 constexpr Index many_unknowns = 256;  // below them a transform costs no more than the differences it replaces
 constexpr double faded = 20;          // γ · t_end: by then exact flows take steps far beyond what is stable for kicks
@@ -135,7 +137,9 @@ MethodChoice choose_method(const Problem& problem, const System& system, const M
   }
   using enum Friction::Smoothness;
   const Friction::Smoothness smoothness = problem.friction ? problem.friction->smoothness() : smooth;
-  if (smoothness == sharp || smoothness == jump) {
+  // What turns within the solution's own pace is a smooth force to collocation, and resolved by its tolerance.
+  const bool is_sharp = smoothness == sharp && problem.friction->steepness() > stiff_friction * rates.solution;
+  if (is_sharp || smoothness == jump) {
     choice.method = "seisav";
     choice.reason = fmt::format("seisav, since the friction {} is no smooth force: its flow is taken exactly",
                                 problem.friction->text());

@@ -78,9 +78,7 @@ std::string example_sections(const ProblemEntry& entry) {
   text += line(
       "# tolerance", "1e-8",
       "steps of variable size, each adding at most this error per time (max norm); h is then the first step tried");
-  text += line(
-      "# h_max", "0.5",
-      "with a tolerance: no longer step; write it where γ(t) has pulses shorter than the waves: no more than their width");
+  text += line("# h_max", "0.5", "with a tolerance: no longer step");
   text += line("C", "\"auto\"", "sav family: the shift in √(V + C), energy; \"auto\" or a number");
   text +=
       line("auxiliary", "\"transport\"", "transport | frozen | refresh: what the damping does to r (sav, lm family)");

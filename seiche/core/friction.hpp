@@ -25,6 +25,7 @@ class Friction {
   // the step while a velocity stays at 0, so that no tolerance can be asked for.
   enum class Smoothness { smooth, kink, sharp, jump };
   virtual Smoothness smoothness() const { return Smoothness::smooth; }
+  virtual double steepness() const { return 0; }  // of what turns sharply: dR/dv at v = 0, in 1/time
   // "v = 0.5, t = 0": where v·R < 0, so that R feeds energy, among the places tried up to t_end; "" if none was found.
   virtual std::string feeds_at(double t_end) const = 0;
   // The same among all places met so far: trying may miss one.

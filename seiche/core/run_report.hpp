@@ -37,8 +37,10 @@ struct EnergySummary {
 struct EnergyDrift {
   double from = 0.0;
   double to = 0.0;
-  double t = 0.0;            // of `to`
-  bool is_damped = false;    // the equation lets H fall; else it keeps H
+  double t = 0.0;          // of `to`
+  bool is_damped = false;  // the equation lets H fall; else it keeps H
+  // Of a modified energy, `from` and `to` being it and H at the same time.
+  bool is_parting = false;
   std::string text() const;  // "H itself rose from 1 to 300 at t = 2"
 };
 

@@ -82,6 +82,9 @@ class AdaptiveStepper : public Stepper {
   // Of the last attempt that succeeded: an estimate of its local error, in the max norm of physical values. Nothing where
   // the method needs one more step to know.
   virtual std::optional<double> error(const State& state) = 0;
+  // Of the same attempt: the part of that error by what D(t) and f(t) do between the times at which the method looks at them, known
+  // without one more step. 0 for methods that take their integrals.
+  virtual double unseen(const State& /*state*/) { return 0; }
   virtual void undo(State& state) = 0;                                    // takes that attempt back, once
   virtual void interpolate(const State& state, double t, Vector& z) = 0;  // the solution at a time inside it
   virtual void forget(State& state) = 0;   // what it remembers of the steps before; all else stays

@@ -32,6 +32,10 @@ class ComponentFriction final : public Friction {
   std::string feeds_at(double) const override { return ""; }
   std::string fed_at() const override { return ""; }
   Smoothness smoothness() const override { return law_.smoothness(); }
+  double steepness() const override {
+    if constexpr (requires { law_.steepness(); }) return law_.steepness();
+    return 0;
+  }
   std::string text() const override { return text_; }
 
  private:
@@ -60,6 +64,7 @@ struct Cubic {
 struct Saturating {
   double c, width;
   Friction::Smoothness smoothness() const { return Friction::Smoothness::sharp; }
+  double steepness() const { return c / width; }
   double force(double v) const { return c * std::tanh(v / width); }
   double flow(double v, double tau) const {
     constexpr double large = 20;  // beyond it 2 sinh x = eˣ to the last digit

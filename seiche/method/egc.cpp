@@ -1,3 +1,4 @@
+#include <seiche/core/blind_ends.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/collocation_weights.hpp>
 #include <seiche/method/continuous_extension.hpp>
@@ -43,6 +44,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       seen_.assign(forces_.size(), {Vector::Zero(size), Vector::Zero(size)});
     for (Vector& f : forces_) f.setZero(size);
     missing_.setZero(size);
+    unseen_.setZero(size);
     physical_.setZero(system.space->physical_size());
   }
 
@@ -64,9 +66,10 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   std::optional<double> error(const State& s) override {
     if (last_.history_h == 0) return std::nullopt;
+    const double unseen = this->unseen(s);
     system_.space->to_physical(extension_.defect(last_, forces_, s.history), physical_);
     if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
-    const double of_forces = physical_.lpNorm<Eigen::Infinity>();
+    const double of_forces = std::max(physical_.lpNorm<Eigen::Infinity>(), unseen);
     // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is not,
     // the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
     const double displacement = projected_.last().displacement - projected_.last().blur;
@@ -74,6 +77,29 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     system_.space->to_physical(s.z, physical_);
     const double share = physical_.lpNorm<Eigen::Infinity>() / physical_.norm();
     return std::max(of_forces, displacement * (std::isfinite(share) ? share : 1.0));
+  }
+
+  double unseen(const State& s) override {
+    if (system_.damping->is_frozen() && !system_.force) return 0;
+    const double t = projected_.last().t, h = last_.h;
+    unseen_.setZero();
+    if (system_.force) {
+      system_.force->kick(t, h, unseen_);
+      for (Index i = 0; i < stages(); ++i) system_.force->add(t + rule_.nodes[i] * h, -h * rule_.weights[i], unseen_);
+      const BlindEnds& ends = blind_ends();
+      const double width = h * BlindEnds::width;
+      system_.force->add(t, width, unseen_);
+      system_.force->add(t + h, width, unseen_);
+      for (std::size_t i = 0; i < BlindEnds::count; ++i)
+        system_.force->add(t + ends.points[i] * h, -width * (ends.to_begin[i] + ends.to_end[i]), unseen_);
+    }
+    const auto of_rule = [](const Eigen::VectorXd& v) {
+      return std::span(v.data(), static_cast<std::size_t>(v.size()));
+    };
+    system_.damping->add_unseen(t, h, of_rule(rule_.nodes), of_rule(rule_.weights), s.z, unseen_);
+    system_.space->to_physical(unseen_, physical_);
+    const double largest = physical_.lpNorm<Eigen::Infinity>();
+    return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
   }
 
   void undo(State& s) override {
@@ -233,7 +259,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   StepDissipation::Sum coarse_;                      // of these
   std::vector<StepDissipation::Energies> energies_;  // of Z_i, where dissipation follows from them
   bool steps_are_alike_ = true;
-  Vector physical_;
+  Vector physical_, unseen_;
   ContinuousExtension::Step last_;  // the step taken last; the forces of the one before it are left in forces_
   Vector missing_;                  // what the extension misses at the end of it, once it was asked for
   bool missing_is_known_ = false;

@@ -24,7 +24,13 @@ class AdaptiveLoop {
         recording_(recording),
         controller_(stepper.order(), options.tolerance),
         events_(options.events),
-        time_(state.t) {}
+        time_(state.t),
+        size_(system.space->physical(state.z).lpNorm<Eigen::Infinity>()) {
+    if (options.tolerance < 1e-14 * size_)
+      throw Error(
+          "the tolerance {:.3g} is below what double precision can tell of numbers as large as {:.3g}; write at least {:.3g}",
+          options.tolerance, size_, 1e-14 * size_);
+  }
 
   void run() {
     if (!recording_.record(state_.t >= options_.t_end)) return;
@@ -40,7 +46,14 @@ class AdaptiveLoop {
 
   std::string remark() const {
     if (largest_ == 0) return "";
-    return fmt::format(" of {:.3g} to {:.3g}, {} rejected", smallest_, largest_, recording_.report().rejected);
+    std::string text =
+        fmt::format(" of {:.3g} to {:.3g}, {} rejected", smallest_, largest_, recording_.report().rejected);
+    if (size_ > 0 && options_.tolerance > size_)
+      text += fmt::format(
+          "; the tolerance, {:.3g}, is more than the largest number of the initial state, {:.3g}: it is absolute, "
+          "in the units of the fields",
+          options_.tolerance, size_);
+    return text;
   }
 
  private:
@@ -74,8 +87,15 @@ class AdaptiveLoop {
     recording_.count(step);
     if (!step.solved()) return reject(StepController::rounded(h / 4), step.message);
     const std::optional<double> error = stepper_.error(state_);
-    if (!error && !is_last) return hold_back(h, step);
     const double noise = 8 * epsilon * state_.z.norm() / std::sqrt(static_cast<double>(state_.z.size()));
+    if (!error) {
+      const double unseen = stepper_.unseen(state_);
+      if (unseen > noise && !controller_.accepts(unseen, h, noise)) {
+        stepper_.undo(state_);
+        return reject(controller_.next(h), too_inaccurate(h, unseen));
+      }
+      if (!is_last) return hold_back(h, step);
+    }
     if (error && !controller_.accepts(*error, h, noise)) {
       stepper_.undo(state_);
       return reject(controller_.next(h), too_inaccurate(h, *error));
@@ -169,6 +189,7 @@ class AdaptiveLoop {
     if (found.t != state_.t) stepper_.interpolate(state_, found.t, at.z);
     std::swap(state_, at);
     bool goes_on = true;
+    if (crowds(found.t)) return false;
     for (const Event* event : found.events) {
       recording_.report().events.push_back(found.t);
       goes_on = event->action && event->action(state_) && goes_on;
@@ -178,6 +199,21 @@ class AdaptiveLoop {
     recording_.reopen();
     if (!recording_.record(!goes_on) || !goes_on) return false;
     start();
+    return true;
+  }
+
+  // A ball that bounces to rest does so infinitely often in a finite time.
+  bool crowds(double t) {
+    constexpr int most = 1000;
+    constexpr double apart = 1e-7;  // of the run
+    const bool is_next = t - last_event_ < apart * std::abs(options_.t_end);
+    last_event_ = t;
+    crowd_ = is_next ? crowd_ + 1 : 0;
+    if (crowd_ < most) return false;
+    recording_.fail_step(
+        fmt::format("events accumulate at t = {:.9g}: {} of them, each within {:.3g} of the one before; an action that "
+                    "ends them, or the run, is needed there",
+                    t, most, apart * std::abs(options_.t_end)));
     return true;
   }
 
@@ -213,11 +249,14 @@ class AdaptiveLoop {
   StepController controller_;
   EventFinder events_;
   Time time_;
+  double size_;  // the largest number of the initial state
   double h_ = 0;
   int rejections_ = 0;     // since the last accepted step
   bool unproven_ = false;  // is there a first step whose error is not known yet?
   State backup_, first_;   // before it, and after
   double first_h_ = 0;
+  double last_event_ = -std::numeric_limits<double>::infinity();
+  int crowd_ = 0;  // of events, each soon after the one before
   StepReport first_step_;
   double smallest_ = std::numeric_limits<double>::infinity(), largest_ = 0;
 };

@@ -66,6 +66,8 @@ void EnergyBook::follow(const EnergyReading& reading, double t) {
   const double change = reading.H - H_at_start_;
   if (change > rise_.to - rise_.from) rise_ = {.from = H_at_start_, .to = reading.H, .t = t};
   if (change < fall_.to - fall_.from) fall_ = {.from = H_at_start_, .to = reading.H, .t = t};
+  if (has_modified_energy_ && std::abs(reading.H - reading.modified) > std::abs(parting_.to - parting_.from))
+    parting_ = {.from = reading.modified, .to = reading.H, .t = t, .is_damped = false, .is_parting = true};
 }
 
 // H near zero may be a difference of large terms, of which every method misses a little. The terms count ½zᵀMz twice: half of them
@@ -75,8 +77,10 @@ std::optional<EnergyDrift> EnergyBook::drift() const {
   if (promise_.promised && (violation_.found || drowned_.found)) return {};
   const bool falls_more = fall_.from - fall_.to > rise_.to - rise_.from;
   EnergyDrift largest = promise_.never_changes && falls_more ? fall_ : rise_;
-  const double size = std::max(std::abs(largest.from), largest_terms_ / 2);
-  if (std::abs(largest.to - largest.from) <= 0.1 * size) return {};
+  const auto is_large = [this](const EnergyDrift& d) {
+    return std::abs(d.to - d.from) > 0.1 * std::max(std::abs(H_at_start_), largest_terms_ / 2);
+  };
+  if (!is_large(largest)) return is_large(parting_) ? std::optional(parting_) : std::nullopt;
   largest.is_damped = !promise_.never_changes;
   return largest;
 }

@@ -40,6 +40,7 @@ class EnergyBook {
   double H_at_start_ = 0.0;     // or behind the last event
   double largest_terms_ = 0.0;  // of H, in the whole run
   EnergyDrift rise_, fall_;     // the largest
+  EnergyDrift parting_{.is_parting = true};
   EnergyReading last_;
   EnergySummary energy_, modified_;
   struct Violation {

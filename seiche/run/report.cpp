@@ -64,6 +64,11 @@ std::string EnergyDrift::text() const {
 
 std::string RunReport::remark_on_drift() const {
   if (!drift) return "";
+  if (drift->is_parting)
+    return fmt::format(
+        "the law is about the modified energy, and at t = {:.6g} that is {:.6g} where H is {:.6g}: the two have parted, and the "
+        "solution is inaccurate; take smaller steps, or a method whose law is that of H (seilm, egc4)",
+        drift->t, drift->from, drift->to);
   const char* equation =
       drift->is_damped ? "no solution of the equation lets it rise" : "nothing in the equation changes it";
   if (has_modified_energy && law == LawVerdict::holds)

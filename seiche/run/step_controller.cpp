@@ -28,7 +28,7 @@ double StepController::rounded(double h) {
 double StepController::first_share() const { return std::clamp(0.25 * std::pow(tolerance_, 1 / order_), 1e-3, 0.1); }
 
 void StepController::reset() {
-  scaled_ = 0;
+  scaled_ = settled_ = 0;
   previous_ = aim;
   accepted_ = starts_ = true;
 }
@@ -38,8 +38,9 @@ bool StepController::accepts(double error, double h, double noise) {
   if (!(error >= 0))
     scaled_ = std::numeric_limits<double>::infinity();
   else
-    scaled_ = error <= noise ? least : std::max(least, error / (allowed_ * h));
+    scaled_ = error <= noise ? least : std::max(least, error / (allowed_ * std::max(h, settled_ / 4)));
   accepted_ = scaled_ <= 1;
+  if (accepted_) settled_ = std::max(h, 0.9 * settled_);
   starts_ = starts_ && scaled_ < near;
   return accepted_;
 }

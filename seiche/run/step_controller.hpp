@@ -19,7 +19,9 @@ class StepController {
   // The first step as a share of |z|/|ż|, the time in which the solution changes: its p-th power is a small part of the tolerance.
   double first_share() const;
 
-  // of an estimate for a step of length h; errors below `noise` count as none; false for NaN
+  // of an estimate for a step of length h; errors below `noise` count as none; false for NaN. Where D(t) or f(t) jumps, the error
+  // of a step that holds the jump is in proportion to its length, and no step meets a bound per unit of time. So steps far
+  // shorter than the last accepted one may have the error of a quarter of that: a jump costs this once.
   bool accepts(double error, double h, double noise);
   double next(double h) const;
   double allowed() const { return allowed_; }  // error per unit of time of an accepted step, after `accepts`
@@ -28,6 +30,7 @@ class StepController {
  private:
   double order_, tolerance_, allowed_;
   double scaled_ = 0, previous_ = 0.5;  // of the last attempt, and of the last accepted step before it
+  double settled_ = 0;  // the length of steps; it follows them down slowly, since they shrink on their way to a jump
   bool accepted_ = true, starts_ = true;
 };
 
