@@ -267,7 +267,7 @@ void require_start(const Members& members, const RunSpec& spec) {
 std::vector<std::string> notes_on(const Members& members, const RunSpec& spec) {
   Problem first = *members.list.front().problem;
   if (!members.parameters.empty())
-    for (std::string& note : first.notes) note = "of member 1: " + note;
+    for (std::string& note : first.notes) note.insert(0, "of member 1: ");
   return notes(spec, first);
 }
 

@@ -288,12 +288,12 @@ TEST_F(Cli, EverySummaryHoldsTheCertificateThatCheckGives) {
     file += entry.path().string() + "'";
     // as short as the case allows: the certificate speaks of t_end, so that both have the same
     const std::string shortened = " --set time.end=0.125 method.h=1/64";
-    const Result run = seiche("run " + file + shortened + " --out out --quiet --json");
+    const Result run = seiche(fmt::format("run {}{} --out out --quiet --json", file, shortened));
     ASSERT_TRUE(run.exit == 0 || run.exit == 3) << file << run.err;
     const json summary = json::parse(run.out);
     ASSERT_TRUE(summary.contains("certificate")) << file;
-    const json certificate = summary["certificate"];
-    const json checked = json::parse(seiche("check " + file + shortened + " --json").out);
+    const json& certificate = summary["certificate"];
+    const json checked = json::parse(seiche(fmt::format("check {}{} --json", file, shortened)).out);
     EXPECT_EQ(certificate["law"], checked["law"]) << file;
     ASSERT_EQ(certificate["hypotheses"].size(), checked["hypotheses"].size()) << file;
     for (std::size_t i = 0; i < checked["hypotheses"].size(); ++i) {

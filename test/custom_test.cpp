@@ -89,7 +89,7 @@ TEST(Custom, AFieldThatTheEnergyForgetsIsSaid) {
     return all;
   };
   EXPECT_THAT(notes("H = \"q^4/4\"\n"),
-              HasSubstr("the energy does not name p: S gives q no velocity, and q stays where it is"));
+              HasSubstr("the energy does not name p: S gives q no velocity, and H does not move q"));
   EXPECT_THAT(notes("H = \"p^2/2\"\n"), HasSubstr("the energy does not name q: S gives p no force"));
   EXPECT_THAT(notes("fields = [\"a\", \"b\", \"c\"]\nS = [[0, 1, 0], [-1, 0, 0], [0, 0, 0]]\nH = \"a^4*c^2 + a^2\"\n"),
               AllOf(HasSubstr("∂H/∂b = 0"), Not(HasSubstr("∂H/∂c"))))

@@ -205,7 +205,7 @@ class Builder {
       p_.notes.push_back(
           custom_.S.empty()
               ? fmt::format("the energy does not name {0}: S gives {1} {2}", name, other,
-                            i < half ? "no force" : fmt::format("no velocity, and {} stays where it is", other))
+                            i < half ? "no force" : fmt::format("no velocity, and H does not move {}", other))
               : fmt::format("the energy does not name {0}: ∂H/∂{0} = 0", name));
     }
   }

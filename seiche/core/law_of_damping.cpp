@@ -32,7 +32,7 @@ bool shrinks_together(const Problem& problem) {
 }  // namespace
 
 std::string complaint_beyond_linear(const Problem& problem, double t_end) {
-  const std::string driven = problem.has_forces() ? "an external force does work on the system" : "";
+  std::string driven = problem.has_forces() ? "an external force does work on the system" : "";
   if (!problem.friction || problem.friction->is_dissipative()) return driven;
   const std::string place = problem.friction->feeds_at(t_end);
   if (place.empty()) return driven;

@@ -190,7 +190,7 @@ class EnsembleAuditor {
       const EnergyTerms terms = energies_.of(members_.list[m], found->second);
       worst.add(m, std::abs(terms.sum() - table_.number(m, "H_final")), std::max(terms.round_off(), round_off()));
     }
-    book_.add("the last H of every member that reached the end is that of its state in finals.csv", worst.verdict(),
+    book_.add("the last H of every member that still ran is that of its state in finals.csv", worst.verdict(),
               worst.text());
   }
 
@@ -253,8 +253,8 @@ class EnsembleAuditor {
   // Between start and end there are statistics of H alone: of every member its largest increase is looked at.
   void law() {
     const bool modified = table_.has("max_modified_increase");
-    const std::string claim =
-        fmt::format("the verdict on the law of {} of every member fits it", modified ? "the modified energy" : "H");
+    const std::string claim = fmt::format("the verdict on the law of {} of every member fits its largest increase",
+                                          modified ? "the modified energy" : "H");
     const std::string objection = spec_.method_options.objection(find_method(spec_.method));
     std::vector<std::string> differences;
     std::size_t judged = 0;
