@@ -135,8 +135,9 @@ TEST(EnergyLaw, KnowsWhereHNeverGrowsAndWhereItNeverChanges) {
   EXPECT_TRUE(damped.never_grows && !damped.never_changes);
   EXPECT_TRUE(kept.never_grows && kept.never_changes);
   EXPECT_TRUE(!fed.never_grows && !fed.never_changes);
-  const Simulation unprojected(klein_gordon_case(0.0, 1.0),
-                               {.method = "egc4", .method_options = {.law = EnergyLaw::none}});
+  SimulationOptions without_law = {.method = "egc4"};
+  without_law.method_options.law = EnergyLaw::none;
+  const Simulation unprojected(klein_gordon_case(0.0, 1.0), without_law);
   const LawPromise given_up = promise_energy_law(unprojected, 10);
   EXPECT_TRUE(!given_up.promised && given_up.never_grows && given_up.never_changes);
 }
