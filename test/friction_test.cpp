@@ -198,10 +198,10 @@ TEST(Friction, VanDerPolsOscillatorFindsItsLimitCycle) {
 TEST(Friction, WhatTheRunMeetsIsKnownAfterIt) {
   Problem problem = oscillator({.alpha = 0});
   problem.initial << -1.0, 0.0;
-  problem.friction = formula_friction(formula("v*(1 - 2*exp(-((u-0.37)/0.005)^2))"), problem.grid);
+  problem.friction = formula_friction(formula("v*(1 - 2*exp(-((u+0.37)/0.005)^2))"), problem.grid);
   EXPECT_TRUE(promise_energy_law(problem, 10).promised);
   for (const char* method : {"seisav", "egc4"}) {
-    problem.friction = formula_friction(formula("v*(1 - 2*exp(-((u-0.37)/0.005)^2))"), problem.grid);
+    problem.friction = formula_friction(formula("v*(1 - 2*exp(-((u+0.37)/0.005)^2))"), problem.grid);
     Simulation simulation(problem, {.method = method});
     EXPECT_EQ(problem.friction->fed_at(), "");
     for (int n = 0; n < 1280; ++n) ASSERT_TRUE(simulation.step(1.0 / 256).solved());

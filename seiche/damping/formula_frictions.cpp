@@ -29,10 +29,11 @@ std::vector<double> sizes_to_try(bool matters, int per_decade) {
   return sizes;
 }
 
-// An x where f is not ≥ 0: one of the rising `places`, or between two of them where f dips; nothing where none is found.
+// An x where f is not ≥ 0: 0, which says most to a reader, one of the rising `places`, or between two of them where f dips; nothing where none is found.
 template <class F>
 std::optional<double> find_negative(const std::vector<double>& places, const F& f) {
   constexpr int bits = 24;
+  if (!(f(0.0) >= 0)) return 0.0;
   double before = 0, here = 0;  // f at the last two places
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double next = f(places[i]);
@@ -72,7 +73,7 @@ class FormulaFriction : public Friction {
 
   std::string feeds_at(double t_end) const override {
     constexpr std::size_t most_places = 16, most_tries = 1U << 21U, least_times = 64;
-    constexpr int fine = 128, coarse = 12;  // places in a decade, of one variable or of each of two
+    constexpr int fine = 128, coarse = 8;  // places in a decade, of one variable or of each of two
     const std::size_t stride = f_.uses_place ? std::max<std::size_t>(1, places_.size() / most_places) : places_.size();
     const bool by_speed = !is_proportional();  // else v > 0 says all, and the sign is that of a function of u
     const int density = by_speed && f_.uses_u ? coarse : fine;
