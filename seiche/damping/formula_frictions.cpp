@@ -86,7 +86,7 @@ class FormulaFriction : public Friction {
       const double fraction = static_cast<double>(n) * golden;
       const double t = t_end * (fraction - std::floor(fraction));
       for (std::size_t j = 0; j < places_.size(); j += stride)
-        if (const std::string found = feeds_at(t, places_[j], speeds, coordinates); !found.empty()) return found;
+        if (std::string found = feeds_at(t, places_[j], speeds, coordinates); !found.empty()) return found;
     }
     return "";
   }
