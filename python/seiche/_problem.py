@@ -98,7 +98,12 @@ def _columns(name: str, matrix: Any) -> tuple | None:
 
 def _no_right_hand_side(given: Any) -> TypeError:
     if not callable(given):
-        return TypeError(f"a problem is a seiche.Problem, a seiche.Case or a name, not {given!r}")
+        shown = repr(given)
+        is_long = "\n" in shown or len(shown) > 60
+        a_result = "; of a result it is result.problem" if hasattr(given, "problem") else ""
+        return TypeError(
+            f"a problem is a seiche.Problem, a seiche.Case or a name, not {f'a {type(given).__name__}' if is_long else shown}{a_result}"
+        )
     return TypeError(
         "a problem is not a right-hand side f(t, z): the energy law needs the parts of ż = S∇H(z) − Dz. Write H by a formula, "
         'seiche.Problem(fields=["q", "p"], H="p^2/2 + q^4/4", D={"p": 0.1}, initial={"q": 1, "p": 0}), or give matrices, '
@@ -170,7 +175,12 @@ class Problem:
         if H is not None or not isinstance(fields, numbers.Integral):
             for name, value in {"gradient": gradient, "z0": z0, "gamma": gamma}.items():
                 if value is not None:
-                    raise ValueError(f"{name} belongs to a problem by parts; by formulas write V, initial and D")
+                    instead = {
+                        "gradient": "that of a formula is found by itself",
+                        "z0": "write initial by formulas, or give numbers to solve(problem, t_span, z0)",
+                        "gamma": "write D",
+                    }[name]
+                    raise ValueError(f"{name} belongs to a problem by parts; with H by a formula {instead}")
             if grows_outward:
                 raise ValueError("grows_outward belongs to a problem by parts; of formulas it is found out")
             named = None if isinstance(fields, numbers.Integral) else list(fields)
@@ -358,7 +368,7 @@ def refuse_other_names(options: Mapping[str, Any]) -> None:
         nearest = _OTHER_NAMES.get(name)
         if nearest is None and name not in _SECTIONS:
             nearest = next(iter(difflib.get_close_matches(name, _ARGUMENTS, 1, 0.75)), None)
-        if nearest is not None:
+        if nearest not in (None, name):  # an ensemble takes no events
             raise ValueError(f"unknown argument '{name}'; did you mean '{nearest}'?")
 
 

@@ -49,6 +49,7 @@ def event(**attributes):
         (lambda p: seiche.solve_ensemble(p, 1.0, z0=[[1, 0]], threads=0), "^threads = 0 must be ≥ 1"),
         (lambda p: seiche.solve(p, 1.0, foo=1), "^unknown argument 'foo'. Allowed: method, h, tolerance"),
         (lambda p: duffing(foo=1), "^unknown key in .problem. custom 'foo'. Allowed: initial, friction"),
+        (lambda p: duffing(z0=[1.0, 0.0]), "^z0 belongs to a problem by parts; with H by a formula write initial by formulas, or give"),
         (lambda p: duffing(grows_outward=True), "^grows_outward belongs to a problem by parts; of formulas it is found out$"),
         (lambda p: seiche.solve(p, 1.0, h=0.1, dense_output=True).sol(1j), "^t is complex; it must be real$"),
         (lambda p: seiche.solve(p, 1.0, h=0.1, dense_output=True).sol("a"), "^t = 'a' must be an array of numbers$"),
