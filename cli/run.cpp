@@ -126,11 +126,11 @@ ExitCode run(const RunArguments& arguments) {
   // Cheap beside a run: what structure leaves open is not looked at here.
   if (const std::string beyond = spec.tolerance ? "" : beyond_stability(simulation, spec.h); !beyond.empty())
     spec.notes.push_back(beyond);
-  const Certificate certificate = certify(problem, {.method = spec.method,
-                                                    .method_options = spec.method_options,
-                                                    .t_end = spec.t_end,
-                                                    .sample_solution = false,
-                                                    .at_start = &simulation});
+  Certificate certificate = certify(problem, {.method = spec.method,
+                                              .method_options = spec.method_options,
+                                              .t_end = spec.t_end,
+                                              .sample_solution = false,
+                                              .at_start = &simulation});
   const LawPromise& law = certificate.law;
   const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
   const std::vector<std::string> said_before = notes(spec, problem);
@@ -155,6 +155,10 @@ ExitCode run(const RunArguments& arguments) {
   if (ProgressBar::is_wanted(arguments.quiet)) observers.push_back(&progress);
 
   RunReport report = integrate(simulation, spec, law, stop, observers);
+  if (law.promised && report.law == LawVerdict::not_promised) {  // what no sample showed, the run has met
+    certificate.law = {.promised = false, .reason = report.law_reason};
+    certificate.theorem.clear();
+  }
   const RunIdentity identity{.problem = problem.name,
                              .method = spec.method,
                              .backend = simulation.backend(),

@@ -263,6 +263,27 @@ TEST_F(Cli, AnAuditSeesRowsThatMovedAndEnergyThatIsBookedElsewhere) {
   refused_with(as_work, "contradicted  without a force none does work");
 }
 
+// Friction that feeds in a band which is not looked at before: one summary must not say two things.
+TEST_F(Cli, APromiseThatTheRunRefutesIsTakenBackInItsCertificateToo) {
+  std::ofstream(directory / "band.toml") << R"toml([problem]
+name = "oscillator"
+alpha = 0.0
+gamma = 0.0
+friction = { kind = "formula", r = "0.1*v*(1 - 2*exp(-((u + 0.37)/0.005)^2))" }
+[method]
+name = "egc4"
+h = "1/256"
+[time]
+end = 5.0
+)toml";
+  EXPECT_THAT(seiche("check band.toml").out, HasSubstr("promised"));
+  ASSERT_EQ(seiche("run band.toml --out band").exit, 0);
+  const json summary = json::parse(text("band/summary.json"));
+  EXPECT_EQ(summary["energy"]["law"], "not promised");
+  EXPECT_FALSE(summary["certificate"]["law"]["promised"]);
+  EXPECT_THAT(summary["certificate"]["law"]["reason"].get<std::string>(), HasSubstr("feeds energy at t = "));
+}
+
 TEST_F(Cli, AnAuditOfARunByToleranceLooksAtTheSnapshotsInsideStepsToo) {
   write_case("alpha = 1.0");
   for (const std::string method : {"egc4", "crkn6", "seilm"}) {
