@@ -389,6 +389,7 @@ TEST(EnergyBook, SaysThatHAndItsModifiedEnergyHaveParted) {
   RunReport report;
   book.write_to(report);
   EXPECT_THAT(report.remark_on_drift(), HasSubstr("at t = 2 that is 99.8 where H is 5: the two have parted"));
+  EXPECT_EQ(report.drift->text(), "H is 5 where its modified energy is 99.8, at t = 2");
 }
 
 TEST(EnergyBook, SaysWhereHWentThatNoSolutionGoes) {

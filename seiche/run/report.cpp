@@ -59,6 +59,7 @@ void RunReport::judge_replaced() {
 }
 
 std::string EnergyDrift::text() const {
+  if (is_parting) return fmt::format("H is {:.6g} where its modified energy is {:.6g}, at t = {:.6g}", to, from, t);
   return fmt::format("H itself {} from {:.6g} to {:.6g} at t = {:.6g}", to > from ? "rose" : "fell", from, to, t);
 }
 
