@@ -5,6 +5,7 @@
 #include "support/worst.hpp"
 
 #include <seiche/backend/equal_rows.hpp>
+#include <seiche/config/formula_compiler.hpp>
 #include <seiche/config/kick_stability.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
@@ -13,6 +14,7 @@
 #include <seiche/problem/beta_fpu.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/sine_gordon.hpp>
 #include <seiche/run/integrate.hpp>
 
@@ -258,6 +260,15 @@ TEST(Kicks, AreWhatExplicitMethodsRunOnByThemselves) {
   EXPECT_EQ(Simulation(klein_gordon({.grid = {.discretisation = Discretisation::spectral}}), options).backend(),
             "modal");
   EXPECT_EQ(Simulation(chain({.points = 40, .mass = 2.0}), options).backend(), "modal");  // p is no velocity
+}
+
+TEST(Rates, ThatStepsOfAMethodDoNotResolveAreSaidBeforeTheRun) {
+  const Problem p = oscillator({.gamma = formula_rate(compile_formula("1000*sin(3*t)^2", {"t"}))});
+  EXPECT_THAT(beyond_rate(Simulation(p, {.method = "egc8"}), 1.0 / 512, 10),
+              testing::AllOf(testing::HasSubstr("1000*sin(3*t)^2 reaches 1e+03"), testing::HasSubstr("h ≤ 0.001")));
+  EXPECT_EQ(beyond_rate(Simulation(p, {.method = "egc8"}), 1e-4, 10), "");
+  EXPECT_EQ(beyond_rate(Simulation(p, {.method = "seisav"}), 1.0 / 512, 10), "") << "takes its integral";
+  EXPECT_EQ(beyond_rate(Simulation(oscillator(), {.method = "egc8"}), 1, 10), "");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Do explicit kicks suit the step size?
+// Do the parts of a method that are explicit suit the step size?
 #pragma once
 
 #include <seiche/config/simulation.hpp>
@@ -10,5 +10,9 @@ namespace seiche {
 // What to say before a run with steps of one size h whose method kicks by all forces, where h is beyond the stability of the scheme
 // at the fastest rate of the linear part (which is known from below); else "".
 std::string beyond_stability(const Simulation& simulation, double h);
+
+// The same where a rate γ(t) rises up to t_end so far above what the exponential of the method holds, its value at the start, that
+// steps of h do not resolve it.
+std::string beyond_rate(const Simulation& simulation, double h, double t_end);
 
 }  // namespace seiche
