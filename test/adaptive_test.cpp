@@ -57,7 +57,7 @@ class Judge final : public Observer {
 };
 
 struct Outcome {
-  double error;
+  double error = 0;
   RunReport report;
 };
 
@@ -227,7 +227,7 @@ TEST(Adaptive, ABoundOnStepsSeesWhatHappensInsideOne) {
 
 TEST(Adaptive, NumbersThatMakeNoSenseAreRefused) {
   Simulation simulation(duffing_case(), {.method = "egc4", .variable_steps = true});
-  const auto with = [&](AdaptiveOptions options) {
+  const auto with = [&](const AdaptiveOptions& options) {
     return integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(), options);
   };
   EXPECT_THROW(with({.tolerance = 0, .t_end = 1}), Error);
