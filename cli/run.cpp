@@ -124,10 +124,10 @@ ExitCode run(const RunArguments& arguments) {
   simulation_with.backend_options.threads = arguments.threads;
   Simulation simulation(problem, simulation_with);
   // Cheap beside a run: what structure leaves open is not looked at here.
-  if (const std::string beyond = spec.tolerance ? "" : beyond_stability(simulation, spec.h); !beyond.empty())
-    spec.notes.push_back(beyond);
-  if (const std::string beyond = spec.tolerance ? "" : beyond_rate(simulation, spec.h, spec.t_end); !beyond.empty())
-    spec.notes.push_back(beyond);
+  if (!spec.tolerance)
+    for (const std::string& beyond :
+         {beyond_stability(simulation, spec.h), beyond_rate(simulation, spec.h, spec.t_end)})
+      if (!beyond.empty()) spec.notes.push_back(beyond);
   Certificate certificate = certify(problem, {.method = spec.method,
                                               .method_options = spec.method_options,
                                               .t_end = spec.t_end,

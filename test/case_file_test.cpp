@@ -1,5 +1,5 @@
 // Case files: what is right is read, what is wrong is refused with its place and what would be right.
-#include "support/error_of.hpp"
+#include "support/case_text.hpp"
 
 #include <seiche/config/case_file.hpp>
 #include <seiche/problem/problems.hpp>
@@ -17,17 +17,14 @@ namespace seiche {
 namespace {
 
 namespace fs = std::filesystem;
+using test::complaint;
 using test::error_of;
+using test::minimal;
+using test::Overrides;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-using Overrides = std::vector<std::string>;
 
-const std::string minimal = "[problem]\nname = \"klein_gordon\"\n";
-
-std::string complaint(const std::string& text, const Overrides& overrides = {}) {
-  return error_of([&] { parse_case(text, "x.toml", overrides); });
-}
 std::string complaint_of_override(const std::string& override) { return complaint(minimal, {override}); }
 
 TEST(CaseFile, MissingKeysTakeTheirDefaults) {

@@ -1,5 +1,5 @@
 // Initial states of case files: formulas, and files beside them.
-#include "support/error_of.hpp"
+#include "support/case_text.hpp"
 #include "support/temporary_directory.hpp"
 
 #include <seiche/config/case_file.hpp>
@@ -17,17 +17,12 @@ namespace seiche {
 namespace {
 
 namespace fs = std::filesystem;
+using test::complaint;
 using test::error_of;
+using test::minimal;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-using Overrides = std::vector<std::string>;
-
-const std::string minimal = "[problem]\nname = \"klein_gordon\"\n";
-
-std::string complaint(const std::string& text, const Overrides& overrides = {}) {
-  return error_of([&] { parse_case(text, "x.toml", overrides); });
-}
 
 class CaseFolder : public test::InTemporaryDirectory {
  protected:

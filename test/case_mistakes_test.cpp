@@ -1,30 +1,24 @@
 // Mistakes in case files: each is said at its place, with what is allowed.
-#include "support/error_of.hpp"
+#include "support/case_text.hpp"
 
 #include <seiche/config/case_file.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace seiche {
 namespace {
 
-namespace fs = std::filesystem;
+using test::complaint;
 using test::error_of;
+using test::minimal;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-using Overrides = std::vector<std::string>;
 
-const std::string minimal = "[problem]\nname = \"klein_gordon\"\n";
-
-std::string complaint(const std::string& text, const Overrides& overrides = {}) {
-  return error_of([&] { parse_case(text, "x.toml", overrides); });
-}
 std::string complaint_of_override(const std::string& override) { return complaint(minimal, {override}); }
 
 TEST(CaseFile, UnknownSectionsAndKeysAreRefusedWithTheNearestName) {

@@ -83,12 +83,13 @@ void GridDamping::apply_frozen(const Vector& z, Vector& out) const {
 
 void GridDamping::apply(double t, const Vector& z, Vector& out) const {
   apply_constant(z, out);
-  add_rates(rate_ ? rate_->value(t) : 0.0, t, z, out);
+  add_rates(rate_ ? rate_->value(t) : 0.0, field_rate_ ? &field_rate_->values(t) : nullptr, z, out);
 }
 
 void GridDamping::apply_rest(double t, const Vector& z, Vector& out) const {
   out.setZero();
-  if (!is_frozen()) add_rates((rate_ ? rate_->value(t) : 0.0) - frozen_rate_, t, z, out);
+  if (is_frozen()) return;
+  add_rates((rate_ ? rate_->value(t) : 0.0) - frozen_rate_, field_rate_ ? &field_rate_->values(t) : nullptr, z, out);
 }
 
 double GridDamping::blind_part(double t, double h) const {
@@ -113,25 +114,17 @@ void GridDamping::add_unseen(double t, double h, std::span<const double> c, std:
     unseen_ = field_rate_->integrals(t, h);
     for (std::size_t i = 0; i < c.size(); ++i) unseen_ -= h * w[i] * field_rate_->values(t + c[i] * h);
   }
-  for (std::size_t f = 0; f < rate_fields_.size(); ++f) {
-    if (!rate_fields_[f]) continue;
-    const Index begin = static_cast<Index>(f) * slots_;
-    out.segment(begin, slots_) += missed * z.segment(begin, slots_);
-    if (!varies) continue;
-    scratch_.head(slots_) = z.segment(begin, slots_);
-    field_rate_->multiply(unseen_, segment(scratch_, 0, slots_));
-    out.segment(begin, slots_) += scratch_.head(slots_);
-  }
+  add_rates(missed, varies ? &unseen_ : nullptr, z, out);
 }
 
-void GridDamping::add_rates(double gamma, double t, const Vector& z, Vector& out) const {
+void GridDamping::add_rates(double gamma, const Vector* at_points, const Vector& z, Vector& out) const {
   for (std::size_t f = 0; f < rate_fields_.size(); ++f) {
     const Index begin = static_cast<Index>(f) * slots_;
     if (!rate_fields_[f]) continue;
     out.segment(begin, slots_) += gamma * z.segment(begin, slots_);
-    if (!field_rate_) continue;
+    if (at_points == nullptr) continue;
     scratch_.head(slots_) = z.segment(begin, slots_);
-    field_rate_->multiply(field_rate_->values(t), segment(scratch_, 0, slots_));
+    field_rate_->multiply(*at_points, segment(scratch_, 0, slots_));
     out.segment(begin, slots_) += scratch_.head(slots_);
   }
 }

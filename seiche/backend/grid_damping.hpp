@@ -43,8 +43,9 @@ class GridDamping final : public Damping {
   void apply_constant(const Vector& z, Vector& out) const;
   void constant_flow(double h, Vector& z) const;
   void rates_flow(double t, double h, Vector& z) const;
-  double rate_decay(double t, double h) const;                                 // e^{−∫γ}
-  void add_rates(double gamma, double t, const Vector& z, Vector& out) const;  // out += (γ + γ(x, t))P z
+  double rate_decay(double t, double h) const;  // e^{−∫γ}
+  // out += (γ + γ_j)P z, with γ_j of every point; null: none
+  void add_rates(double gamma, const Vector* at_points, const Vector& z, Vector& out) const;
 
   Index slots_;
   std::unique_ptr<LinearMap> constant_;  // null: none

@@ -12,8 +12,6 @@ using GiNaC::ex;
 // is the force of |q|³ at rest — and has no sech.
 constexpr const char* own_abs = "magnitude";  // GiNaC warns of a second one with the same name
 
-ex of_numbers(const ex& value, const ex& otherwise) { return GiNaC::is_a<GiNaC::numeric>(value) ? value : otherwise; }
-
 ex function_of(unsigned serial, const ex& x) { return GiNaC::function(serial, x); }
 ex held(unsigned serial, const ex& x) { return GiNaC::function(serial, x).hold(); }
 
@@ -39,7 +37,7 @@ ex abs_eval(const ex& x) {
   if (!number.is_equal(1)) return GiNaC::abs(number) * function_of(abs_serial(), x / number);
   return held(abs_serial(), x);
 }
-ex abs_evalf(const ex& x) { return of_numbers(GiNaC::abs(x), held(abs_serial(), x)); }
+ex abs_evalf(const ex& x) { return is_number(x) ? GiNaC::abs(x) : held(abs_serial(), x); }
 ex abs_derivative(const ex& x, unsigned) { return function_of(sign_serial(), x); }
 ex abs_power(const ex& x, const ex& exponent) {
   if (exponent.info(GiNaC::info_flags::even)) return GiNaC::power(x, exponent);
@@ -56,7 +54,7 @@ ex sign_evalf(const ex& x) { return is_number(x) ? sign_of(x) : held(sign_serial
 ex sign_derivative(const ex&, unsigned) { return 0; }  // but at 0, where V has a kink
 
 ex sech_eval(const ex& x) { return x.is_zero() ? ex(1) : held(sech_serial(), x); }
-ex sech_evalf(const ex& x) { return of_numbers(1 / GiNaC::cosh(x), held(sech_serial(), x)); }
+ex sech_evalf(const ex& x) { return is_number(x) ? ex(1 / GiNaC::cosh(x)) : held(sech_serial(), x); }
 ex sech_derivative(const ex& x, unsigned) { return -function_of(sech_serial(), x) * GiNaC::tanh(x); }
 
 unsigned abs_serial() {
