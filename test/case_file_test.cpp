@@ -1,5 +1,6 @@
 // Case files: what is right is read, what is wrong is refused with its place and what would be right.
 #include "support/case_text.hpp"
+#include "support/paths.hpp"
 
 #include <seiche/config/case_file.hpp>
 #include <seiche/problem/problems.hpp>
@@ -153,7 +154,7 @@ TEST(CaseFile, ExampleSaysTheDefaultsAndTheMeanings) {
 
 TEST(CaseFile, ShippedCasesAreReadAndMake) {
   int count = 0;
-  for (const auto& file : fs::directory_iterator(fs::path(SEICHE_SOURCE_DIR) / "cases")) {
+  for (const auto& file : fs::directory_iterator(fs::path(test::source_directory()) / "cases")) {
     if (file.path().extension() != ".toml") continue;
     const RunSpec spec = read_case(file.path());
     EXPECT_EQ(spec.output_directory, "out/" + file.path().stem().string());

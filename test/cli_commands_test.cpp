@@ -1,5 +1,6 @@
 // The other commands: list, converge, spectrum, paper.
 #include "support/background.hpp"
+#include "support/paths.hpp"
 #include "support/program.hpp"
 
 #include <gmock/gmock.h>
@@ -130,7 +131,7 @@ TEST_F(Cli, SpectrumWithoutGnuplotSaysAndKeepsWhatItComputed) {
 }
 
 TEST_F(Cli, ConvergeTakesTheBackendOfTheCase) {
-  const std::string sparse = "converge '" SEICHE_SOURCE_DIR
+  const std::string sparse = "converge '" + test::source_directory() +
                              "/cases/sparse.toml' --json --h 1/2,1/4 --set time.end=1 "
                              "method.name=seisav backend.name=sparse backend.exponential=pade backend.pade_degree=";
   const auto error = [&](const std::string& degree) {

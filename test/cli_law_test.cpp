@@ -1,4 +1,5 @@
 // How a run's energy law is promised, checked and said: exit codes, certificates, audits.
+#include "support/paths.hpp"
 #include "support/program.hpp"
 
 #include <fmt/format.h>
@@ -303,7 +304,7 @@ TEST_F(Cli, AnAuditOfARunByToleranceLooksAtTheSnapshotsInsideStepsToo) {
 
 TEST_F(Cli, EverySummaryHoldsTheCertificateThatCheckGives) {
   int open_questions = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(SEICHE_SOURCE_DIR) / "cases")) {
+  for (const auto& entry : fs::directory_iterator(fs::path(test::source_directory()) / "cases")) {
     if (entry.path().extension() != ".toml") continue;
     std::string file = "'";
     file += entry.path().string() + "'";

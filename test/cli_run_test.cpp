@@ -1,4 +1,5 @@
 // seiche run: what it leaves, what it says, and when it stops.
+#include "support/paths.hpp"
 #include "support/program.hpp"
 
 #include <gmock/gmock.h>
@@ -151,13 +152,14 @@ TEST_F(Cli, CtrlCLeavesWholeFilesAndExitsWith130) {
   write_case();
   for (const int signal : {SIGINT, SIGTERM}) {
     fs::remove_all(directory / "out");
+    const std::string program = test::program_path();
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
       const std::string home = directory.string();
       if (chdir(home.c_str()) != 0 || !freopen("stdout.txt", "w", stdout) || !freopen("stderr.txt", "w", stderr))
         _exit(9);
-      execl(SEICHE_PROGRAM, "seiche", "run", "case.toml", "--out", "out", "--json", "--set", "time.end=1e7",
+      execl(program.c_str(), "seiche", "run", "case.toml", "--out", "out", "--json", "--set", "time.end=1e7",
             "output.energy_every=1000", static_cast<char*>(nullptr));
       _exit(9);
     }
@@ -224,15 +226,15 @@ TEST_F(Cli, ARunDoesNotNeedStandardStreams) {
   write_case();
   for (const char* streams : {"2>/dev/full", "2>&-", "<&- >&- 2>&-"}) {
     fs::remove_all(directory / "out");
-    const std::string command =
-        "cd '" + directory.string() + "' && '" SEICHE_PROGRAM "' run case.toml --out out --set method.h=0.3 " + streams;
+    const std::string command = "cd '" + directory.string() + "' && '" + test::program_path() +
+                                "' run case.toml --out out --set method.h=0.3 " + streams;
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << streams;
     EXPECT_EQ(lines("out/energy.csv").size(), 1U + 5U) << streams;
     for (const auto& entry : fs::directory_iterator(directory / "out"))
       EXPECT_EQ(text(entry.path()).find("success:"), std::string::npos) << entry.path() << " took the place of stderr";
     EXPECT_EQ(SolutionReader(directory / "out/solution.h5").times().back(), 1.0) << streams;
   }
-  const std::string closed = "'" SEICHE_PROGRAM "' list problems >&- 2>/dev/null";
+  const std::string closed = "'" + test::program_path() + "' list problems >&- 2>/dev/null";
   EXPECT_EQ(WEXITSTATUS(std::system(closed.c_str())), 1) << "nothing came out";
 }
 
@@ -257,7 +259,7 @@ TEST_F(Cli, AToleranceTakesStepsOfItsOwnAndShowsAskedTimes) {
 
 TEST_F(Cli, EveryProblemsExampleCaseRunsFromStandardInput) {
   for (const std::string& name : problem_names()) {
-    const std::string new_case = "'" SEICHE_PROGRAM "' new " + name + " |";
+    const std::string new_case = "'" + test::program_path() + "' new " + name + " |";
     const Result result = seiche("run - --out " + name + " --json --set time.end=0.25", new_case);
     EXPECT_EQ(result.exit, 0) << name << ": " << result.err;
     EXPECT_EQ(json::parse(result.out)["problem"], name);
@@ -266,7 +268,7 @@ TEST_F(Cli, EveryProblemsExampleCaseRunsFromStandardInput) {
 
 TEST_F(Cli, EveryCaseFileRuns) {
   int count = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(SEICHE_SOURCE_DIR) / "cases")) {
+  for (const auto& entry : fs::directory_iterator(fs::path(test::source_directory()) / "cases")) {
     if (entry.path().extension() != ".toml") continue;
     const Result result = seiche("run '" + entry.path().string() + "' --out out --json --quiet --set time.end=0.125");
     EXPECT_EQ(result.exit, 0) << entry.path() << ": " << result.err;

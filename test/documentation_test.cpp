@@ -1,4 +1,6 @@
 // What the documentation shows is what is compiled, run and listed.
+#include "support/paths.hpp"
+
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/simulation.hpp>
 
@@ -13,7 +15,7 @@ namespace seiche::test {
 namespace {
 
 std::string text_of(const std::string& path) {
-  std::ifstream file(std::string(SEICHE_SOURCE_DIR) + "/" + path);
+  std::ifstream file(test::source_directory() + "/" + path);
   EXPECT_TRUE(file) << path;
   std::ostringstream text;
   text << file.rdbuf();
@@ -48,14 +50,14 @@ TEST(Documentation, TheCaseOfTheReadmeRuns) {
 TEST(Documentation, EveryTestAndFileThatTheMapOfThePaperAndTheTheoryNameExists) {
   const std::string map = text_of("docs/paper_map.md") + text_of("docs/site/theory.md");
   std::string tests;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(SEICHE_SOURCE_DIR) + "/test"))
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_directory() + "/test"))
     if (entry.path().extension() == ".cpp") tests += text_of("test/" + entry.path().filename().string());
   const std::regex file("`((?:core|method|backend|study|problem|cases|docs)/[a-z_]+\\.(?:hpp|cpp|toml|md))");
   int files = 0;
   for (std::sregex_iterator i(map.begin(), map.end(), file), end; i != end; ++i, ++files) {
     const std::string path = (*i)[1];
-    const bool ours = std::filesystem::exists(std::string(SEICHE_SOURCE_DIR) + "/seiche/" + path) ||
-                      std::filesystem::exists(std::string(SEICHE_SOURCE_DIR) + "/" + path);
+    const bool ours = std::filesystem::exists(test::source_directory() + "/seiche/" + path) ||
+                      std::filesystem::exists(test::source_directory() + "/" + path);
     EXPECT_TRUE(ours) << path;
   }
   EXPECT_GT(files, 10);

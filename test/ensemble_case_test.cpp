@@ -1,6 +1,7 @@
 // [ensemble] in a case file: its members, its mistakes, and the files that a run leaves.
 #include "support/background.hpp"
 #include "support/error_of.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/text_of.hpp"
 
@@ -121,9 +122,8 @@ class EnsembleProgram : public InTemporaryDirectory {
     std::ofstream(directory / "case.toml") << "[problem]\nname = \"klein_gordon\"\nalpha = -1.0\n[method]\nh = 0.0625\n"
                                            << more << "[time]\nend = 1.0\n[ensemble]\n"
                                            << ensemble;
-    const std::string command = "cd '" + directory.string() + "' && " + before +
-                                " '" SEICHE_PROGRAM "' run case.toml --out out --quiet " + arguments +
-                                " >stdout.txt 2>stderr.txt";
+    const std::string command = "cd '" + directory.string() + "' && " + before + " '" + test::program_path() +
+                                "' run case.toml --out out --quiet " + arguments + " >stdout.txt 2>stderr.txt";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

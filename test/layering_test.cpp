@@ -1,4 +1,6 @@
 // Reads every #include of the library, the program and the Python module and compares it with the table of who may include whom.
+#include "support/paths.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
 
-const fs::path root = SEICHE_SOURCE_DIR;
+const fs::path root = seiche::test::source_directory();
 
 // Who may include which folder of ours, beside its own.
 const std::map<std::string, Folders> may_include = {

@@ -1,4 +1,5 @@
 // What is special to one problem: its equation written out, its invariants, what it is known for.
+#include "support/paths.hpp"
 #include "support/worst.hpp"
 
 #include <seiche/backend/backends.hpp>
@@ -174,7 +175,7 @@ TEST(BetaFpu, TheEnergyReturnsToTheFirstMode) {
 
 // Of the case file: the part of the energy that is left when the pulse would be back in the middle.
 double energy_left(const std::vector<std::string>& overrides) {
-  const RunSpec spec = read_case(std::string(SEICHE_SOURCE_DIR) + "/cases/sponge_layer.toml", overrides);
+  const RunSpec spec = read_case(test::source_directory() + "/cases/sponge_layer.toml", overrides);
   Simulation simulation(make_problem(spec), simulation_options(spec));
   const double start = simulation.energy().H;
   while (simulation.state().t < spec.t_end) EXPECT_TRUE(simulation.step(1.0 / 16).solved());

@@ -1,5 +1,6 @@
 // solution.h5 as others read it: shapes, axes, coordinates, what it costs, and what is left when a run ends early.
 #include "support/error_of.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/text_of.hpp"
 
@@ -249,8 +250,8 @@ void change_a_value(const fs::path& file) {
 TEST_F(Solution, AnAuditSeesAChangedDigit) {
   std::ofstream(directory / "case.toml")
       << "[problem]\nname = \"klein_gordon\"\npoints = 8\n[method]\nname = \"seisav\"\nh = \"1/64\"\n[time]\nend = 1.0\n";
-  const std::string run = "'" SEICHE_PROGRAM "' run '" + (directory / "case.toml").string() + "' --quiet --out '" +
-                          (directory / "out").string() + "' --set output.snapshot_every=16";
+  const std::string run = "'" + test::program_path() + "' run '" + (directory / "case.toml").string() +
+                          "' --quiet --out '" + (directory / "out").string() + "' --set output.snapshot_every=16";
   ASSERT_EQ(std::system(run.c_str()), 0);
   EXPECT_TRUE(audit(directory / "out").confirms());
   change_a_value(directory / "out" / "solution.h5");
@@ -268,9 +269,8 @@ TEST_F(Solution, AFullDiskEndsTheRunWithASentence) {
       << "[problem]\nname = \"klein_gordon\"\npoints = 512\n[method]\nname = "
          "\"seisav\"\nh = \"1/64\"\n[time]\nend = 50.0\n[output]\nsnapshot_every = 1\n"
          "energy_every = 100\n";
-  const std::string run = "cd '" + directory.string() +
-                          "' && trap '' XFSZ && ulimit -f 2048 && '" SEICHE_PROGRAM
-                          "' run case.toml --out out --quiet 2>stderr.txt";
+  const std::string run = "cd '" + directory.string() + "' && trap '' XFSZ && ulimit -f 2048 && '" +
+                          test::program_path() + "' run case.toml --out out --quiet 2>stderr.txt";
   const int status = std::system(("bash -c \"" + run + "\"").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1) << text("stderr.txt");
   EXPECT_THAT(text("stderr.txt"), HasSubstr("solution.h5"));

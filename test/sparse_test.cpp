@@ -2,6 +2,7 @@
 #include "support/error_of.hpp"
 #include "support/matrices.hpp"
 #include "support/paper_cases.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/worst.hpp"
 
@@ -404,7 +405,7 @@ TEST_F(MatrixMarket, AMistakeIsNamedWithItsLine) {
 }
 
 TEST(Sparse, CaseFilesNameMatricesBesideThemselves) {
-  const std::filesystem::path cases = std::filesystem::path(SEICHE_SOURCE_DIR) / "cases";
+  const std::filesystem::path cases = std::filesystem::path(test::source_directory()) / "cases";
   for (const std::string name : {"wave", "truss", "network", "sparse"}) {
     const RunSpec spec = read_case(cases / (name + ".toml"));
     Simulation simulation(make_problem(spec), simulation_options(spec));

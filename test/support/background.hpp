@@ -1,6 +1,8 @@
 // The program beside the test, to be sent signals.
 #pragma once
 
+#include "paths.hpp"
+
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,12 +26,13 @@ class Background {
     std::vector<char*> values;
     for (std::string& word : words) values.push_back(word.data());
     values.push_back(nullptr);
+    const std::string program = program_path();
     child_ = fork();
     if (child_ != 0) return;
     if (chdir(home.c_str()) != 0 || !freopen("stdout.txt", "w", stdout) || !freopen("stderr.txt", "w", stderr) ||
         (input >= 0 && dup2(input, STDIN_FILENO) < 0))
       _exit(9);
-    execv(SEICHE_PROGRAM, values.data());
+    execv(program.c_str(), values.data());
     _exit(9);
   }
   ~Background() {

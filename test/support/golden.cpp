@@ -1,5 +1,7 @@
 #include "golden.hpp"
 
+#include "paths.hpp"
+
 #include <algorithm>
 #include <fstream>
 
@@ -8,7 +10,7 @@ namespace {
 
 const nlohmann::json& golden() {
   static const nlohmann::json document = [] {
-    std::ifstream file(std::string(SEICHE_TEST_DATA) + "/golden.json");
+    std::ifstream file(test::test_data_directory() + "/golden.json");
     return nlohmann::json::parse(file);
   }();
   return document;

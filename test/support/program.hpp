@@ -1,6 +1,7 @@
 // The program in a temporary directory: its exit code, and what it said.
 #pragma once
 
+#include "paths.hpp"
 #include "temporary_directory.hpp"
 
 #include <gmock/gmock.h>
@@ -27,8 +28,8 @@ class Cli : public InTemporaryDirectory {
  protected:
   // `arguments` as a shell would split them, in the temporary directory.
   Result seiche(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + directory.string() + "' && " + before + " '" SEICHE_PROGRAM "' " + arguments +
-                                " >stdout.txt 2>stderr.txt";
+    const std::string command = "cd '" + directory.string() + "' && " + before + " '" + test::program_path() + "' " +
+                                arguments + " >stdout.txt 2>stderr.txt";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("stdout.txt"), text("stderr.txt")};
   }

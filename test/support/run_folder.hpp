@@ -2,6 +2,7 @@
 #pragma once
 
 #include "error_of.hpp"
+#include "paths.hpp"
 #include "temporary_directory.hpp"
 #include "text_of.hpp"
 
@@ -28,7 +29,7 @@ class RunFolder : public InTemporaryDirectory {
   // The exit code of the program, whose words go to said.txt.
   int seiche(const std::string& arguments, const std::string& before = "") const {
     const std::string command =
-        before + " '" SEICHE_PROGRAM "' " + arguments + " >'" + (directory / "said.txt").string() + "' 2>&1";
+        before + " '" + test::program_path() + "' " + arguments + " >'" + (directory / "said.txt").string() + "' 2>&1";
     return WEXITSTATUS(std::system(command.c_str()));
   }
   std::string said() const { return text_of(directory / "said.txt"); }

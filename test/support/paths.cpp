@@ -1,0 +1,9 @@
+#include "paths.hpp"
+
+namespace seiche::test {
+
+std::string source_directory() { return SEICHE_SOURCE_DIR; }
+std::string test_data_directory() { return SEICHE_TEST_DATA; }
+std::string program_path() { return SEICHE_PROGRAM; }
+
+}  // namespace seiche::test
