@@ -140,8 +140,9 @@ TEST(Summary, HasTheKeysOfTheInterfaceInTheirOrder) {
       json["energy"].dump(),
       R"({"initial":0.0,"final":0.0,"max_increase":0.0,"modified":{"initial":0.0,"final":0.0,"max_increase":0.0},)"
       R"("law":"not promised"})");
-  EXPECT_EQ(json["counts"].dump(),
-            R"({"gradients":0,"potentials":0,"scalar_iterations":0,"fallbacks":0,"replaced":0})");
+  EXPECT_EQ(
+      json["counts"].dump(),
+      R"({"gradients":0,"potentials":0,"scalar_iterations":0,"fallbacks":0,"replaced":0,"widened":0,"halved":0})");
   EXPECT_EQ(json["h"], 0.00390625);
   EXPECT_EQ(json["message"], "said \"so\"\n");
 }

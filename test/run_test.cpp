@@ -378,6 +378,28 @@ RunReport booked(const LawPromise& promise, const std::vector<double>& H, bool h
   return report;
 }
 
+TEST(EnergyBook, DoesNotExcuseARiseByTheRoundOffThatCameWithIt) {
+  const auto law_of = [](std::initializer_list<std::pair<double, double>> H_and_terms) {
+    EnergyBook book({true, "damped", true, false}, false);
+    int n = 0;
+    for (const auto& [H, terms] : H_and_terms) {
+      book.add({.H = H, .modified = H, .round_off = 50 * epsilon * terms, .modified_round_off = 50 * epsilon * terms},
+               n, n);
+      ++n;
+    }
+    RunReport report;
+    book.write_to(report);
+    return report.law;
+  };
+  EXPECT_EQ(law_of({{1, 1}, {1, 1}, {1e90, 1e120}}), LawVerdict::violated);
+  EXPECT_EQ(law_of({{1, 1}, {1e90, 1e120}}), LawVerdict::violated) << "in the first step";
+  EXPECT_EQ(law_of({{1, 1}, {1, 1e5}, {1 + 1e-10, 1e5}}), LawVerdict::holds);
+  EXPECT_EQ(law_of({{0, 1e-16}, {1e-17, 1}, {2e-17, 1}}), LawVerdict::holds) << "from next to rest";
+  EXPECT_EQ(law_of({{1e-16, 1e-16}, {1e-16, 1e-10}, {1e-16, 1e-5}, {3e-16, 1}}), LawVerdict::not_promised)
+      << "the solution has grown";
+  EXPECT_EQ(law_of({{1, 1}}), LawVerdict::not_tested);
+}
+
 // H may fall, but not away from the energy that the law is about.
 TEST(EnergyBook, SaysThatHAndItsModifiedEnergyHaveParted) {
   EnergyBook book({true, "damped", true, false}, true);

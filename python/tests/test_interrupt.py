@@ -77,7 +77,7 @@ CONVERGE = 'seiche.converge(seiche.problem("klein_gordon", points=64), ["seavf"]
 # The damping moves what V depends on, and is sampled along a solution; the longest, which is cut, takes minutes.
 CHECK = 'seiche.check(seiche.problem("gkdv", points=512, mu=1e-6), t_end=1e6)'
 # A step with a projection is not linear, and modes are stepped one at a time, for some seconds.
-SPECTRUM = 'seiche.spectrum(seiche.problem("klein_gordon", points=8000, gamma=0.1), method="egc6", h=8.0)'
+SPECTRUM = 'seiche.spectrum(seiche.problem("klein_gordon", points=1000000, gamma=0.1), method="egc6", h=8.0)'
 
 
 @pytest.mark.parametrize("study", [CONVERGE, CHECK, SPECTRUM])

@@ -25,7 +25,12 @@ struct LawPromise {
   }
 };
 
-enum class LawVerdict { holds, violated, not_promised };
+enum class LawVerdict {
+  holds,
+  violated,
+  not_promised,
+  not_tested,  // promised, and no two records to compare
+};
 
 struct EnergySummary {
   double initial = 0.0;
@@ -60,6 +65,9 @@ struct RunReport {
   std::int64_t scalar_iterations = 0;
   std::int64_t fallbacks = 0;  // times a solver left its first choice; most of them cost no accuracy
   ReplacedSteps replaced;
+  // Steps in which h does not resolve the linear flow and the energy interval was widened for it (beyond round-off in E*), and steps
+  // that were taken in parts.
+  std::int64_t widened = 0, halved = 0;
   std::int64_t unresolved = 0;
   std::int64_t rejected = 0;        // steps tried and taken back, with variable steps
   std::vector<double> events = {};  // times at which events were met
@@ -69,7 +77,9 @@ struct RunReport {
   std::string remark_on_replaced() const;
   // More than one step in ten was replaced, or one by next to nothing: what has come out is no solution of the equation.
   bool lacks_solution() const { return replaced.ruinous || 10 * replaced.count > steps; }
-  void judge_replaced();                     // puts that remark into `message`; a run that lacks a solution has failed
+  void judge_replaced();  // puts that remark into `message`; a run that lacks a solution has failed
+  // What h does not resolve; "" where it resolves all. No law and no status depends on it.
+  std::string remark_on_resolution() const;
   std::string remark_on_drift() const;       // what H did that no solution does, and what helps; "" where it did not
   std::vector<std::string> remarks() const;  // those of the two that are there: what nobody should miss
   std::string brief() const;                 // one line
@@ -78,6 +88,6 @@ struct RunReport {
 
 std::string counted_steps(std::int64_t count);    // "1 step", "2 steps"
 std::string to_string(RunReport::Status status);  // "success", "failed", "interrupted"
-std::string to_string(LawVerdict verdict);        // "holds", "violated", "not promised"
+std::string to_string(LawVerdict verdict);        // "holds", "violated", "not promised", "not tested"
 
 }  // namespace seiche

@@ -1,5 +1,6 @@
 #include <seiche/core/stepper.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace seiche {
@@ -42,6 +43,8 @@ StepReport& StepReport::operator+=(const StepReport& other) {
   scalar_iterations += other.scalar_iterations;
   fallbacks += other.fallbacks;
   unresolved += other.unresolved;
+  widened = std::max(widened, other.widened);
+  halved = std::max(halved, other.halved);
   replaced += other.replaced;
   ledger += other.ledger;
   return *this;

@@ -32,7 +32,9 @@ ContinuousExtension::Maps ContinuousExtension::maps(const Step& step, double the
                  .of_state = of_state};
     return phi_.map(rows, step.h);
   };
-  Maps made{step.history_h, nullptr, map(C.rightCols(s), !difference)};
+  Maps made{step.history_h, nullptr, map(C.rightCols(s), !difference), Eigen::VectorXd::Zero(C.cols())};
+  for (Index k = 0; k < C.rows(); ++k)
+    made.moments += square(step.h) / static_cast<double>((k + 1) * (k + 2)) * C.row(k).transpose();
   if (!alone) made.of_before = map(C.leftCols(s), false);
   return made;
 }
@@ -53,6 +55,15 @@ const ContinuousExtension::Maps& ContinuousExtension::defect_maps(const Step& st
   if (found == of_h.end() && of_h.size() == 4) found = of_h.erase(of_h.begin(), of_h.end());
   if (found == of_h.end()) found = of_h.insert(of_h.end(), maps(step, 1.0, true));
   return *found;
+}
+
+void ContinuousExtension::moment(const Step& step, std::span<const Vector> forces_before,
+                                 std::span<const Vector> forces, Vector& m) {
+  const Eigen::VectorXd& w = defect_maps(step).moments;
+  const Index s = rule_.nodes.size();
+  m.setZero();
+  for (Index i = 0; i < s; ++i)
+    m += w[i] * forces_before[static_cast<std::size_t>(i)] + w[s + i] * forces[static_cast<std::size_t>(i)];
 }
 
 const Vector& ContinuousExtension::defect(const Step& step, std::span<const Vector> forces_before,

@@ -30,11 +30,15 @@ class ContinuousExtension {
   void prepare(double h) { defect_maps({h, h}); }
   // The difference at the end, in the coordinates of the state; a reference to scratch. history_h must not be 0.
   const Vector& defect(const Step& step, std::span<const Vector> forces_before, std::span<const Vector> forces);
+  // m ← h²∫₀¹ (1 − θ)d(θ) dθ of the difference d of the two polynomials, as a force. With L = 0 the defect above is none, since Gauss's
+  // rule integrates d, which vanishes at its nodes, exactly: what is left of the error is N′m.
+  void moment(const Step& step, std::span<const Vector> forces_before, std::span<const Vector> forces, Vector& m);
 
  private:
   struct Maps {
     double history_h = 0.0;
     std::unique_ptr<PhiMap> of_before, of_this;
+    Eigen::VectorXd moments;  // weights of the forces before, then of these
   };
   Maps maps(const Step& step, double theta, bool difference) const;
   const Maps& defect_maps(const Step& step);

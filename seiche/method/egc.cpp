@@ -1,4 +1,5 @@
 #include <seiche/core/blind_ends.hpp>
+#include <seiche/core/generic_state.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/collocation_weights.hpp>
 #include <seiche/method/continuous_extension.hpp>
@@ -46,6 +47,12 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     missing_.setZero(size);
     unseen_.setZero(size);
     physical_.setZero(system.space->physical_size());
+    for (Vector* v : {&moment_, &change_, &rate_}) v->setZero(size);
+    if (output_.kind == PhiRows::Forces::gradients) {
+      moment_ = generic_state(*system.space);
+      as_rate(moment_);
+      moves_itself_ = moment_.segment(of_forces_.begin, of_forces_.size).squaredNorm() > 0;
+    }
   }
 
   void begin(State& s) override {
@@ -69,7 +76,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     const double unseen = this->unseen(s);
     system_.space->to_physical(extension_.defect(last_, forces_, s.history), physical_);
     if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
-    const double of_forces = std::max(physical_.lpNorm<Eigen::Infinity>(), unseen);
+    const double of_linear_flow = physical_.lpNorm<Eigen::Infinity>();
+    const double of_forces = std::max({of_linear_flow, of_nonlinear_part(s, of_linear_flow), unseen});
     // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is not,
     // the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
     const double displacement = projected_.last().displacement - projected_.last().blur;
@@ -136,6 +144,40 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   void keep_ledger() override { projected_.keep_ledger(); }
 
  private:
+  // N′m, where m is the first moment of the defect: all there is to the error where L = 0. Two values of N, and only where L has little
+  // part in the error; 0 where a force does not move what it depends on.
+  double of_nonlinear_part(const State& s, double of_linear_flow) {
+    if (!moves_itself_) return 0;
+    extension_.moment(last_, forces_, s.history, moment_);
+    as_rate(moment_);
+    const double moved = moment_.norm();
+    change_ = s.history.back() - forces_.back();
+    as_rate(change_);
+    const double steepness = change_.norm() / (s.z - projected_.before()).norm();
+    constexpr double little = 0.25;
+    if (!(little * steepness * moved > of_linear_flow)) return 0;
+    const double t = projected_.last().t + last_.h;
+    moment_ += s.z;
+    change_ = s.z;
+    force_.evaluate(t, moment_);
+    force_.evaluate(t, change_);
+    moment_ -= change_;
+    as_rate(moment_);
+    system_.space->to_physical(moment_, physical_);
+    constexpr double with_higher_moments = 2;  // of N′², N′³, …, and the quadrature of N itself: as large together
+    return with_higher_moments * physical_.lpNorm<Eigen::Infinity>();
+  }
+
+  // A force, as PhiRows has it, as what it adds to ż.
+  void as_rate(Vector& f) {
+    if (output_.kind == PhiRows::Forces::states) return;
+    const Index behind = of_forces_.begin + of_forces_.size;
+    f.head(of_forces_.begin).setZero();
+    f.tail(f.size() - behind).setZero();
+    system_.linear->apply_S(f, rate_);
+    f.swap(rate_);
+  }
+
   int stages() const { return static_cast<int>(forces_.size()); }
 
   struct Tables {
@@ -230,6 +272,9 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
                                 dissipation_.kind() == StepDissipation::Kind::general ? &coarse_ : nullptr);
   }
 
+  void prepare_flow(double h) override { dissipation_.prepare_flow(h); }
+  double flow_missed(const State& s, double h) override { return dissipation_.flow_missed(h, s.z, forces_); }
+
   // The forces before the step are left in forces_.
   void accept(State& s, double h, bool resolved) override {
     last_ = {h, s.history_h};
@@ -260,6 +305,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   std::vector<StepDissipation::Energies> energies_;  // of Z_i, where dissipation follows from them
   bool steps_are_alike_ = true;
   Vector physical_, unseen_;
+  bool moves_itself_ = true;  // does a force move what it depends on?
+  Vector moment_, change_, rate_;
   ContinuousExtension::Step last_;  // the step taken last; the forces of the one before it are left in forces_
   Vector missing_;                  // what the extension misses at the end of it, once it was asked for
   bool missing_is_known_ = false;

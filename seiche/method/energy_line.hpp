@@ -34,8 +34,9 @@ class EnergyLine {
     double K = 0, V = 0;
     double size = 0;  // of the terms of K and V, as far as they are known one by one
     double H() const { return K + V; }
-    double round_off() const { return 4 * epsilon * (std::abs(K) + std::abs(V)); }  // to be hoped for
-    double loss() const { return 16 * epsilon * size; }                             // to be put up with
+    double values() const { return std::abs(K) + std::abs(V); }
+    double round_off() const { return 4 * epsilon * values(); }  // to be hoped for
+    double loss() const { return 16 * epsilon * size; }          // to be put up with
   };
   Parts at(double lambda) const;
 

@@ -13,6 +13,12 @@ constexpr int max_bisections = 60;
 constexpr double blurred = 1e-13;     // moves relative to z that round-off in H may ask for
 constexpr double least_slope = 0.05;  // relative to its terms: below, H hardly changes along the line
 
+// By how much H may pass the cap: its round-off at a point, but for points whose terms have grown beyond reason.
+double slack(const EnergyLine::Parts& parts, const EnergyTarget& aim) {
+  const double of_start = 16 * epsilon * EnergyProjection::gross_growth * aim.terms;
+  return of_start > 0 ? std::min(parts.loss(), of_start) : parts.loss();  // at rest nothing has a size yet
+}
+
 }  // namespace
 
 EnergyProjection::EnergyProjection(const System& system, const PhiEvaluator& phi)
@@ -31,15 +37,17 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
     start = line.at(0);
     outcome.H = outcome.computed = start.H();
     outcome.loss = start.loss();
+    outcome.values = start.values();
+    outcome.terms = start.size;
     aim = wanted(outcome.computed);
-    if (std::abs(start.H() - aim.H) <= start.round_off() && start.H() <= aim.cap + start.loss()) {
+    if (std::abs(start.H() - aim.H) <= start.round_off() && start.H() <= aim.cap + slack(start, aim)) {
       outcome.admissible = true;
       outcome.H = aim.H;
       return outcome;
     }
     const EnergyLine::Slope slope = line.slope();
     // Near rest H is flat: to mend round-off in H, z would move by far more than its own.
-    if (std::abs(start.H() - aim.H) <= start.loss() && start.H() <= aim.cap + start.loss() &&
+    if (std::abs(start.H() - aim.H) <= start.loss() && start.H() <= aim.cap + slack(start, aim) &&
         start.loss() > blurred * std::abs(slope.value)) {
       outcome.admissible = true;
       outcome.H = aim.H;
@@ -58,7 +66,7 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
   }
   outcome.by_bisection = true;
   outcome.H = std::min(start.H(), aim.cap);
-  outcome.admissible = start.H() <= aim.cap + start.loss();  // below what it should be: safe all the same
+  outcome.admissible = start.H() <= aim.cap + slack(start, aim);  // below what it should be: safe all the same
   if (outcome.admissible) return outcome;
 
   // H falls from H(z) > goal to H(Πz) or H(0) ≤ goal: there is a root between (intermediate value theorem).
@@ -86,13 +94,14 @@ bool EnergyProjection::solve(EnergyLine& line, EnergyLine::Parts here, const Ene
     lambda = next.lambda + (aim.H - next.H()) * (next.lambda - here.lambda) / (next.H() - here.H());
     here = next;
   }
-  if (!(miss(here) <= here.loss()) || !(here.H() <= aim.cap + here.loss())) return false;
+  if (!(miss(here) <= here.loss()) || !(here.H() <= aim.cap + slack(here, aim))) return false;
   if (here.lambda != 0) {
     outcome.displacement = std::abs(here.lambda) * line.direction().norm();
     line.move(z, here.lambda);
   }
   outcome.admissible = true;
   outcome.H = aim.H;
+  outcome.terms = here.size;
   return true;
 }
 
@@ -113,6 +122,7 @@ bool EnergyProjection::bisect(const EnergyLine& line, double goal, Vector& z, Ou
   line.move(z, low.lambda);
   outcome.admissible = true;
   outcome.H = low.H();
+  outcome.terms = low.size;
   return true;
 }
 

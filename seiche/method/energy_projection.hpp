@@ -11,6 +11,9 @@ namespace seiche {
 // positive under the energy-compatible damping condition with D = I, so that the equation H(z(λ)) = E is well conditioned.
 class EnergyProjection {
  public:
+  static constexpr double gross_growth =
+      1e6;  // of the terms of H in one step: no solution of an equation that a step resolves
+
   // `system` and `phi` outlive the projection.
   EnergyProjection(const System& system, const PhiEvaluator& phi);
 
@@ -24,12 +27,15 @@ class EnergyProjection {
     double H = 0;             // of the z that came out; the target itself, where it was met to round-off
     double displacement = 0;  // Euclidean norm of the move
     double loss = 0;          // what round-off makes of H there
+    double values = 0;        // |½ẑᵀMẑ| + |V(ẑ)|, of the z that was passed
+    double terms = 0;         // the sizes of the terms of H, of the z that came out
   };
   using Wanted = FunctionRef<EnergyTarget(double computed)>;
   // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned: then z
   // stays as it is if target < cap and H(z) ≤ cap, for the cap is the law; and otherwise it moves along ∇H. If no iteration
   // converges, to a point with H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if H(0) > cap and
-  // H(z) > cap.
+  // H(z) > cap. H ≤ cap is meant up to round-off: of the terms of H at z, as far as these are no more than `gross_growth` times
+  // those before the step, target.terms.
   Outcome project(Vector& z, Wanted wanted);
   // Was z, which came out of it, moved by more than a tenth of its length? Moves of accurate steps are of the size of their error.
   bool moved_far(const Outcome& outcome, const Vector& z) const;

@@ -43,6 +43,8 @@ class ExponentialRungeKutta final : public BaseStep {
       return dissipation_.measure(t, h, s.z, used(), dissipation_.energies(s.z, s.energy), dissipation_.energies(z, H));
     return dissipation_.measure(t, h, s.z, used());
   }
+  void prepare_flow(double h) override { dissipation_.prepare_flow(h); }
+  double flow_missed(const State& s, double h) override { return dissipation_.flow_missed(h, s.z, used()); }
 
  private:
   struct Tables {

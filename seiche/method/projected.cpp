@@ -26,8 +26,14 @@ Projected::Projected(const System& system, const PhiEvaluator& phi, BaseStep& ba
   saved_.z = z_;
 }
 
+void Projected::read_energy(State& s) const {
+  const EnergyTerms terms = system_.energy_terms(s.z);
+  s.energy = terms.sum();
+  s.energy_terms = terms.quadratic.magnitude + terms.potential.magnitude;
+}
+
 void Projected::begin(State& s) {
-  s.energy = system_.energy(s.z);
+  read_energy(s);
   if (!std::isfinite(s.energy))
     throw Error("the energy of the initial state is not a finite number (H = {})", number_text(s.energy));
 }
@@ -56,6 +62,7 @@ StepReport Projected::step(State& s, double h) {
       fail(report, s, h, taken, max_halvings);
       return report;
     }
+    report.halved = 1;
   }
   s.n = n + 1;
   s.t = t + h;
@@ -77,6 +84,7 @@ StepReport Projected::attempt(State& s, double h) {
 void Projected::undo(State& s) {
   s.z.swap(z_);
   s.energy = last_.energy;
+  s.energy_terms = last_.energy_terms;
   s.t = last_.t;
   --s.n;
 }
@@ -85,7 +93,7 @@ void Projected::keep_between(const State& s, Vector& z) {
   if (law_ == EnergyLaw::none || last_.gained) return;  // H may rise between: no law to keep
   const double low = std::min(s.energy, last_.energy);
   projection_.project(z, [&](double computed) {
-    return EnergyTarget{std::clamp(computed, low, last_.energy), last_.energy};
+    return EnergyTarget{.H = std::clamp(computed, low, last_.energy), .cap = last_.energy, .terms = last_.energy_terms};
   });
 }
 
@@ -105,7 +113,10 @@ void Projected::fail(StepReport& report, const State& s, double h, Taken taken, 
 Projected::Taken Projected::take(State& s, double t, double h, bool strict, StepReport& report) {
   if (law_ == EnergyLaw::none) return take_without_law(s, t, h, report);
   const auto make_free = [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); };
-  if (!strict && may_flow_freely_) free_.at(h, make_free);  // now: later steps of this length are to allocate nothing
+  if (!strict) {  // now: later steps of this length are to allocate nothing
+    if (may_flow_freely_) free_.at(h, make_free);
+    if (law_ == EnergyLaw::interval) base_.prepare_flow(h);
+  }
   const StepDissipation::Kind kind = base_.dissipation_kind();
   bool resolved = base_.compute(s, t, h, z_);
   report.fallbacks += base_.fallbacks();
@@ -113,12 +124,18 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   // The guard asks whether H may rise, and a nonnegative form says no.
   const bool asked = law_ == EnergyLaw::interval || kind == StepDissipation::Kind::general || keeps_ledger_;
   EnergyProjection::Outcome outcome;
+  bool widened = false;
   if (resolved) {
     outcome = projection_.project(z_, [&](double computed) {
       if (asked && kind != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, computed);
-      return energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount, kind);
+      amount.negative = amount.negative && amount.gain > 16 * epsilon * s.energy_terms;  // else H cannot show it
+      EnergyTarget target = energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount, kind,
+                                          [&] { return base_.flow_missed(s, h); });
+      widened = target.widened;
+      target.terms = s.energy_terms;
+      return target;
     });
-    resolved = std::isfinite(outcome.computed);  // ẑ may be finite where its energy is none
+    resolved = std::isfinite(outcome.terms) && !has_grown_beyond_reason(outcome, s, t, h);
   }
   if (!resolved) {
     if (strict || !may_flow_freely_) return Taken::unresolved;
@@ -128,20 +145,37 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
     ++report.fallbacks;
     outcome = projection_.project(z_, [&](double computed) {
       const bool conserves = kind == StepDissipation::Kind::none;
-      return EnergyTarget{conserves ? s.energy : std::min(computed, s.energy), s.energy};
+      return EnergyTarget{.H = conserves ? s.energy : std::min(computed, s.energy),
+                          .cap = s.energy,
+                          .terms = s.energy_terms};
     });
   }
   report.scalar_iterations += outcome.iterations;
   report.fallbacks += outcome.by_bisection ? 1 : 0;
-  if (!outcome.admissible || !std::isfinite(outcome.computed)) return Taken::inadmissible;
+  if (!outcome.admissible || !std::isfinite(outcome.terms)) return Taken::inadmissible;
   if (!resolved)
     note_replaced(report, s, base_.failure());
   else if (base_.moved_far() || projection_.moved_far(outcome, z_))
     note_replaced(
         report, s,
         "what the scheme gave was moved by more than a tenth of its length to have an energy that the law allows");
+  if (widened && resolved) report.widened = 1;
   finish(s, t, h, resolved, amount, outcome, report);
   return Taken::whole;
+}
+
+// Are |½ẑᵀMẑ| and |V(ẑ)| more than the terms of Hⁿ and what the force N gives z from rest within the step explain? s is still as it was
+// before the step.
+bool Projected::has_grown_beyond_reason(const EnergyProjection::Outcome& outcome, const State& s, double t, double h) {
+  constexpr double growth = EnergyProjection::gross_growth;
+  if (outcome.values <= growth * s.energy_terms) return false;
+  if (!force_) force_ = std::make_unique<NonlinearForce>(system_, PhiRows::Forces::states);
+  Vector push = s.z;
+  force_->evaluate(t, push);
+  push *= h;
+  if (system_.force) system_.force->kick(t, h, push);
+  const ValueAndMagnitude pushed = system_.linear->quadratic(push);
+  return !(outcome.values <= growth * (s.energy_terms + pushed.magnitude));
 }
 
 // s is still as it was before the step, and z_ what it is to become.
@@ -173,10 +207,12 @@ void Projected::finish(State& s, double t, double h, bool resolved, const StepDi
   const double blurred = outcome.displacement > 0 ? std::min(1.0, outcome.loss / asked) : 0;
   last_ = {.t = t,
            .energy = s.energy,
+           .energy_terms = s.energy_terms,
            .displacement = outcome.displacement,
            .blur = blurred * outcome.displacement,
            .gained = amount.negative};
   s.energy = outcome.H;
+  s.energy_terms = outcome.terms;
   report.ledger += {.work = amount.work,
                     .damping_left = -(amount.fine + amount.work),
                     .substep = outcome.computed - last_.energy + amount.fine,

@@ -6,6 +6,7 @@
 #include <seiche/method/base_step.hpp>
 #include <seiche/method/energy_law.hpp>
 #include <seiche/method/energy_projection.hpp>
+#include <seiche/method/nonlinear_force.hpp>
 
 #include <memory>
 
@@ -20,7 +21,7 @@ class Projected {
   Projected(const System& system, const PhiEvaluator& phi, BaseStep& base, EnergyLaw law);
 
   void begin(State& s);  // throws Error where H of the state is no finite number
-  void restart(State& s) { s.energy = system_.energy(s.z); }
+  void restart(State& s) { read_energy(s); }
   StepReport step(State& s, double h);
   StepReport attempt(State& s, double h);  // fails where `step` would take e^{hL}z or halves
   void undo(State& s);                     // the last attempt, once
@@ -30,6 +31,7 @@ class Projected {
   struct Last {
     double t = 0.0;             // of its start
     double energy = 0.0;        // Hⁿ
+    double energy_terms = 0.0;  // of Hⁿ
     double displacement = 0.0;  // Euclidean norm of the projection
     double blur = 0.0;          // what of it round-off in H may have asked for: near rest, where H is flat, much
     bool gained = false;        // has damping fed energy anywhere in it?
@@ -45,10 +47,12 @@ class Projected {
     unresolved,    // not: ẑ is no solution
     inadmissible,  // not: no point near ẑ has an energy that the law allows
   };
+  void read_energy(State& s) const;
   Taken take(State& s, double t, double h, bool strict, StepReport& report);
   Taken take_without_law(State& s, double t, double h, StepReport& report);
   void finish(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
               const EnergyProjection::Outcome& outcome, StepReport& report);
+  bool has_grown_beyond_reason(const EnergyProjection::Outcome& outcome, const State& s, double t, double h);
   void note_replaced(StepReport& report, const State& s, std::string_view why) const;
   bool take_halves(State& s, double t, double h, int depth, StepReport& report);
   void fail(StepReport& report, const State& s, double h, Taken taken, int halvings) const;
@@ -63,6 +67,7 @@ class Projected {
   Vector z_;                // ẑ, then zⁿ
   State saved_;
   Last last_;
+  std::unique_ptr<NonlinearForce> force_;  // made when it is first asked for
   bool keeps_ledger_ = false;
 };
 

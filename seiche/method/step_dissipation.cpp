@@ -36,13 +36,24 @@ StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, 
                       (system.force && system.force->touches_potential())),
       follows_energies_(kind_ == Kind::general && follow_energies(system)),
       cache_(cached_step_sizes(system.space->size())) {
-  if (kind_ != Kind::general) return;
+  if (kind_ == Kind::none) return;
   const Index size = system.space->size();
+  Eigen::VectorXd nodes = rules_.fine.nodes, weights = rules_.fine.weights;
+  if (follows_energies_) {
+    nodes.resize(rules_.nested.fine.size());
+    nodes << 0, 1, rules_.nested.coarse.nodes, rules_.nested.more;
+    weights = rules_.nested.fine;
+  }
+  flow_ = std::make_unique<FlowQuadrature>(system, phi, std::move(nodes), std::move(weights));
+  at_end_ = output_.weights(1.0);
+  start_.setZero(size);
+  gradient_.setZero(size);
+  if (kind_ != Kind::general) return;
   between_.resize(rules_.nested.coarse.nodes.size() + rules_.nested.more.size());
   between_ << rules_.nested.coarse.nodes, rules_.nested.more;
   energies_.resize(static_cast<std::size_t>(between_.size()));
   node_.assign(1, Vector::Zero(size));
-  for (Vector* v : {&gradient_, &scratch_, &gradient_H_}) v->setZero(size);
+  for (Vector* v : {&scratch_, &gradient_H_}) v->setZero(size);
 }
 
 StepDissipation::Tables& StepDissipation::tables(double h) {
@@ -60,11 +71,16 @@ StepDissipation::Tables& StepDissipation::tables(double h) {
   });
 }
 
+void StepDissipation::Sum::add(double weight, const System::Dissipation& q) {
+  taken += weight * q.rate;
+  work += weight * q.work;
+  if (!(q.rate < -q.round_off)) return;
+  negative = true;
+  gain -= weight * q.rate;
+}
+
 void StepDissipation::add(double t, const Vector& z, const Vector& gradient, double weight, Sum& sum) {
-  const System::Dissipation q = system_.dissipation(t, z, gradient, scratch_, gradient_H_);
-  sum.taken += weight * q.rate;
-  sum.work += weight * q.work;
-  sum.negative = sum.negative || q.rate < -q.round_off;
+  sum.add(weight, system_.dissipation(t, z, gradient, scratch_, gradient_H_));
 }
 
 void StepDissipation::add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces,
@@ -102,11 +118,30 @@ StepDissipation::Amount StepDissipation::measure(double t, double h, const Vecto
       amount = {.fine = by_fine.taken,
                 .coarse = by_coarse.taken,
                 .work = by_fine.work,
-                .negative = by_coarse.negative || by_fine.negative};
+                .negative = by_coarse.negative || by_fine.negative,
+                .gain = std::max(by_coarse.gain, by_fine.gain)};
       break;
     }
   }
   return amount;
+}
+
+void StepDissipation::prepare_flow(double h) {
+  if (flow_) flow_->prepare(h);
+}
+
+// The polynomial through the forces takes the value Σ_j C_0j n_j at θ = 0, and weights(1) begins with C_0j for each force.
+double StepDissipation::flow_missed(double h, const Vector& z, std::span<const Vector> forces) {
+  if (!flow_) return 0;
+  const bool gradients = output_.kind == PhiRows::Forces::gradients;
+  const Potential::Support of = gradients ? system_.potential->support() : Potential::Support{0, z.size()};
+  Vector& sum = gradients ? gradient_ : start_;
+  sum.setZero();
+  for (std::size_t j = 0; j < forces.size(); ++j)
+    sum.segment(of.begin, of.size) +=
+        at_end_[j * static_cast<std::size_t>(output_.order)] * forces[j].segment(of.begin, of.size);
+  if (gradients) system_.linear->apply_S(sum, start_);
+  return flow_->miss(h, z, start_);
 }
 
 StepDissipation::Energies StepDissipation::energies(const Vector& z, double H) const {

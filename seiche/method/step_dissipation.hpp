@@ -3,9 +3,11 @@
 
 #include <seiche/core/step_cache.hpp>
 #include <seiche/core/system.hpp>
+#include <seiche/method/flow_quadrature.hpp>
 #include <seiche/method/gauss.hpp>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -42,13 +44,16 @@ class StepDissipation {
   struct Sum {
     double taken = 0.0;  // ∫Q − ∫∇Hᵀf
     double work = 0.0;   // ∫∇Hᵀf, what external forces give
-    // Is some integrand beyond round-off below zero? Then the energy-compatible damping condition fails, or a force feeds.
+    // Is some integrand beyond round-off below zero? Then the energy-compatible damping condition fails, or a force feeds: so much.
     bool negative = false;
+    double gain = 0.0;
+    void add(double weight, const System::Dissipation& q);
   };
   struct Amount {
     double fine = 0.0, coarse = 0.0;  // of `taken`
     double work = 0.0;                // fine
     bool negative = false;
+    double gain = std::numeric_limits<double>::infinity();  // where that is so, and how much is not known
   };
   // Of the step from (t, z) with these forces. `coarse`: where it is known already (general), else null.
   Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Sum* coarse = nullptr);
@@ -67,6 +72,10 @@ class StepDissipation {
   // never.
   Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Energies& before,
                  const Energies& after, std::span<const Energies> at_nodes = {});
+
+  // What the finer quadrature misses of the linear flow from z under the force of the step's start; 0 where it resolves it.
+  double flow_missed(double h, const Vector& z, std::span<const Vector> forces);
+  void prepare_flow(double h);  // so that this allocates nothing
 
  private:
   using NodeMaps = std::vector<std::unique_ptr<PhiMap>>;  // one for each node of a rule
@@ -91,6 +100,9 @@ class StepDissipation {
   Eigen::VectorXd between_;         // nodes of the nested rules but for the ends
   std::vector<Energies> energies_;  // there
   Vector gradient_, scratch_, gradient_H_;
+  std::unique_ptr<FlowQuadrature> flow_;
+  std::vector<double> at_end_;  // weights of the output at θ = 1
+  Vector start_;                // the force of the step's start, as a state
 };
 
 }  // namespace seiche

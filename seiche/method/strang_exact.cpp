@@ -39,11 +39,10 @@ class StrangExact final : public BaseStep {
 
   // By the values of Q at both ends, which is all that is known.
   StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double) override {
-    StepDissipation::Amount amount;
-    add_end(t, s.z, h / 2, amount);
-    add_end(t + h, z, h / 2, amount);
-    amount.coarse = amount.fine;
-    return amount;
+    StepDissipation::Sum sum;
+    add_end(t, s.z, h / 2, sum);
+    add_end(t + h, z, h / 2, sum);
+    return {.fine = sum.taken, .coarse = sum.taken, .work = sum.work, .negative = sum.negative, .gain = sum.gain};
   }
 
  private:
@@ -53,12 +52,9 @@ class StrangExact final : public BaseStep {
     force_.evaluate(t, rate_);
   }
 
-  void add_end(double t, const Vector& z, double weight, StepDissipation::Amount& amount) {
+  void add_end(double t, const Vector& z, double weight, StepDissipation::Sum& sum) {
     system_.potential->gradient(z, gradient_);
-    const System::Dissipation q = system_.dissipation(t, z, gradient_, scratch_, rest_);
-    amount.fine += weight * q.rate;
-    amount.work += weight * q.work;
-    amount.negative = amount.negative || q.rate < -q.round_off;
+    sum.add(weight, system_.dissipation(t, z, gradient_, scratch_, rest_));
   }
 
   const System& system_;

@@ -42,7 +42,9 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                     {"potentials", report.potential_counts.values},
                     {"scalar_iterations", report.scalar_iterations},
                     {"fallbacks", report.fallbacks},
-                    {"replaced", report.replaced.count}}},
+                    {"replaced", report.replaced.count},
+                    {"widened", report.widened},
+                    {"halved", report.halved}}},
                   {"wall_seconds", number(report.wall_seconds)},
                   {"versions", versions}};
   if (!run.certificate.empty()) summary["certificate"] = Json::parse(run.certificate);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace seiche {
@@ -13,6 +14,14 @@ namespace {
 void advance(EnergySummary& summary, double increase, double value, bool first_increase) {
   summary.final = value;
   summary.max_increase = first_increase ? increase : std::max(summary.max_increase, increase);
+}
+
+// By how much no solution multiplies the terms of an energy in so many steps.
+double grossest_growth(double steps) { return std::min(std::pow(1e6, steps), 1e30); }
+
+// Both ends of a difference carry round-off, so the larger counts; but a rise is not excused by terms that came with it.
+double round_off(double before, double after, double growth) {
+  return std::max(before, std::min(after, growth * before));
 }
 
 }  // namespace
@@ -36,13 +45,20 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
     has_increase_ = true;
 
     const double increase = has_modified_energy_ ? reading.modified - last_.modified : reading.H - last_.H;
-    // Both ends of the difference carry round-off, so the larger counts.
-    const double round_off = has_modified_energy_ ? std::max(reading.modified_round_off, last_.modified_round_off)
-                                                  : std::max(reading.round_off, last_.round_off);
-    const double allowed = round_off * static_cast<double>(n - last_n_);
+    const auto steps = static_cast<double>(n - last_n_);
+    // What starts near rest finds its size in the first step.
+    const bool first = records_ == 2;
+    const double growth = first ? std::numeric_limits<double>::infinity() : grossest_growth(steps);
+    const double allowed =
+        steps * (has_modified_energy_ ? round_off(last_.modified_round_off, reading.modified_round_off, growth)
+                                      : round_off(last_.round_off, reading.round_off, growth));
     if (increase > allowed && !violation_.found) violation_ = {t, increase, allowed, true};
-    // Round-off explains it, and would explain more than all there was at the start: nobody can tell any more.
-    if (increase > size_ && increase <= allowed && !drowned_.found) drowned_ = {t, allowed, size_, true};
+    // Round-off explains it, and would explain more than all there was at the start: nobody can tell any more. But in the first step
+    // it is that rise itself which takes all there was.
+    if (increase > size_ && increase <= allowed) {
+      if (first && !violation_.found) violation_ = {t, increase, last_.round_off, true};
+      if (!first && !drowned_.found) drowned_ = {t, allowed, size_, true};
+    }
   }
   reopened_ = false;
   last_ = reading;
@@ -93,6 +109,10 @@ void EnergyBook::write_to(RunReport& report) const {
   report.drift = drift();
   if (!promise_.promised) {
     report.law = LawVerdict::not_promised;
+    return;
+  }
+  if (!has_increase_) {
+    report.law = LawVerdict::not_tested;
     return;
   }
   const char* const name = has_modified_energy_ ? "modified energy" : "energy H";

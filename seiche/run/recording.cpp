@@ -34,6 +34,8 @@ void Recording::count(const StepReport& step) {
 void Recording::enter(const StepReport& step) {
   ledger_ += step.ledger;
   report_.replaced += step.replaced;
+  report_.widened += step.widened;
+  report_.halved += step.halved;
 }
 
 bool Recording::anyone_due() const {
@@ -158,6 +160,8 @@ void Recording::complete_message(const std::string& remark) {
         "; C of the modified energy rose to {:.3g}, {:.1g} times the energy at the start, because V fell so far, and drowns it in "
         "round-off: take a smaller h, or a method without C (seilm, egc4); where these fail too, the solution blows up",
         state_.shift, state_.shift / state_.energy_scale);
+  if (const std::string unresolved = report_.remark_on_resolution(); !unresolved.empty())
+    report_.message += "; " + unresolved;
   if (report_.drift) report_.message += "; " + report_.remark_on_drift();
   if (report_.unresolved > 0)
     report_.message += fmt::format("; {} scalar equations were not resolved", report_.unresolved);

@@ -1,6 +1,7 @@
 #include <seiche/core/run_report.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace seiche {
 namespace {
@@ -28,6 +29,7 @@ std::string to_string(LawVerdict verdict) {
     case LawVerdict::holds: return "holds";
     case LawVerdict::violated: return "violated";
     case LawVerdict::not_promised: return "not promised";
+    case LawVerdict::not_tested: return "not tested";
   }
   return "unknown";
 }
@@ -56,6 +58,21 @@ void RunReport::judge_replaced() {
   if (remark.empty()) return;
   message += "; " + remark;
   if (lacks_solution()) status = Status::failed;
+}
+
+std::string RunReport::remark_on_resolution() const {
+  std::vector<std::string> remarks;
+  if (widened > 0)
+    remarks.push_back(fmt::format(
+        "in {} of {} h does not resolve a layer or an oscillation of the linear flow, whose dissipation no quadrature sees; the "
+        "interval for H was widened by what it misses, and there H is only kept from rising",
+        widened, counted_steps(steps)));
+  if (halved > 0)
+    remarks.push_back(fmt::format(
+        "{} of {} were taken in shorter parts, because the whole step found no solution: h does not resolve the nonlinear part, and "
+        "errors may be large; take a smaller h",
+        halved, counted_steps(steps)));
+  return fmt::format("{}", fmt::join(remarks, "; "));
 }
 
 std::string EnergyDrift::text() const {
@@ -99,7 +116,8 @@ std::string RunReport::full() const {
   text += energy_line("H", energy);
   if (has_modified_energy) text += energy_line("H modified", modified);
   const char* of = has_modified_energy ? "H modified" : "H";
-  const std::string until = status == Status::failed ? fmt::format(" up to t = {:.9g}", t) : "";
+  const bool stopped = status == Status::failed && law != LawVerdict::not_tested;
+  const std::string until = stopped ? fmt::format(" up to t = {:.9g}", t) : "";
   const std::string why = law == LawVerdict::not_promised ? "" : fmt::format(" ({})", law_reason);  // else in `message`
   text += fmt::format("{:<10} {} for {}{}{}\n", "energy law", to_string(law), of, until, why);
   text += fmt::format(

@@ -199,7 +199,7 @@ class Auditor {
     const std::string evidence =
         fmt::format("largest increase {:.3g}, round-off explains about {:.3g}; {}", increase, allowed,
                     promise.promised ? "promised: " + promise.reason : "not promised: " + promise.reason);
-    if (verdict == "not promised") return book_.add(claim, Verdict::not_checked, evidence);
+    if (verdict == "not promised" || verdict == "not tested") return book_.add(claim, Verdict::not_checked, evidence);
     const bool holds = increase <= allowed;
     book_.add(claim, promise.promised && holds == (verdict == "holds") ? Verdict::confirmed : Verdict::contradicted,
               evidence);

@@ -264,7 +264,7 @@ class EnsembleAuditor {
     for (std::size_t m = 0; m < table_.rows(); ++m) {
       const EnsembleMember& member = members_.list[m];
       const std::string& verdict = table_.text(m, "law");
-      if (verdict == "not promised" || !has_started(m)) continue;
+      if (verdict == "not promised" || verdict == "not tested" || !has_started(m)) continue;
       if (member.problem != problem) {
         problem = member.problem;
         promise = promise_energy_law(*problem, spec_.t_end);

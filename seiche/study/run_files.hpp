@@ -32,7 +32,7 @@ struct RunFiles {
   double t = 0.0;
   EnergyNumbers energy{};
   std::optional<EnergyNumbers> modified;
-  std::string law;                                           // "holds", "violated", "not promised"
+  std::string law;                                           // "holds", "violated", "not promised", "not tested"
   std::vector<std::pair<std::string, std::int64_t>> counts;  // in the order of the file
   double wall_seconds = 0.0;
   std::map<std::string, std::string> versions;
