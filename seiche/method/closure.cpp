@@ -1,5 +1,8 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/generic_state.hpp>
 #include <seiche/method/closure.hpp>
+
+#include <cmath>
 
 namespace seiche {
 
@@ -14,6 +17,15 @@ EnergyReading Closure::energy(const State& s) const {
   reading.round_off = reading.modified_round_off = terms.round_off();
   read_modified(s, terms.quadratic, reading);
   return reading;
+}
+
+bool Closure::nothing_changes_H() const {
+  if (!system_.damping->is_zero() || system_.force || system_.structure) return false;
+  // zᵀSz = 0, tried with one vector: sym(S) ⪯ 0, so that no two of its terms cancel.
+  const Vector z = generic_state(*system_.space);
+  Vector Sz(z.size());
+  system_.linear->apply_S(z, Sz);
+  return std::abs(z.dot(Sz)) <= 1e-13 * z.norm() * Sz.norm();
 }
 
 ExplicitStep::ExplicitStep(Index size) {

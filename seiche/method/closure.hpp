@@ -34,6 +34,8 @@ class Closure {
   virtual void keep_ledger() { keeps_ledger_ = true; }
 
  protected:
+  // No damping, no force, S skew: H of a solution stays, and so does a drift by round-off, which then adds up.
+  bool nothing_changes_H() const;
   bool keeps_ledger() const { return keeps_ledger_; }
   // Replaces H, which stands there, by the modified energy and its round-off.
   virtual void read_modified(const State&, const ValueAndMagnitude& /*quadratic*/, EnergyReading&) const {}

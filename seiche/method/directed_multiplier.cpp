@@ -12,19 +12,21 @@ DirectedMultiplier::DirectedMultiplier(const System& system)
       equation_(*system.potential, system.space->size()),
       q_(system.space->size()) {}
 
-StepReport DirectedMultiplier::advance(Vector& z, Propagators& propagators, double h, int depth) {
+StepReport DirectedMultiplier::advance(Vector& z, Propagators& propagators, double h, std::optional<double> energy,
+                                       int depth) {
   start_.prepare(*system_.potential, propagators.at(h), z);
-  return finish(z, start_, propagators, h, depth);
+  return finish(z, start_, propagators, h, energy, depth);
 }
 
 //   z⁺ = z₁ + λ Fd,   d = δ₁ = z₁ − z,   (ḡ(λ) − ĝ − λd)ᵀ(d + λFd) = 0
 StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Propagators& propagators, double h,
-                                      int depth) {
+                                      std::optional<double> energy, int depth) {
   constexpr int max_iterations = 8;
   StepReport report;
   const Vector& d = start.delta;
   propagators.at(h).force(d, q_);
   equation_.set({.z = z, .z_plus = start.z_plus, .delta = d, .q = q_, .g = start.g, .e = d});
+  if (energy) equation_.make_up_for(system_.energy(z) - *energy);
   const MultiplierEquation::Root root = equation_.newton(max_iterations, MultiplierEquation::Stop::residual);
   report.scalar_iterations = root.iterations;
 
@@ -34,7 +36,7 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
   const bool near =
       correction <= 4 * equation_.gradient_gap() && equation_.gradient_gap() <= equation_.mean_gradient_norm();
   if (root.converged && (near || equation_.at(0).is_negligible())) {
-    if (keeps_ledger_) report.ledger.scalar = equation_.at(root.x).F;
+    if (keeps_ledger_) report.ledger.scalar = equation_.change(root.x);
     z = start.z_plus + root.x * q_;
     return report;
   }
@@ -47,7 +49,7 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
     return report;
   }
   ++report.fallbacks;
-  for (int half = 0; half < 2 && report.solved(); ++half) report += advance(z, propagators, h / 2, depth - 1);
+  for (int half = 0; half < 2 && report.solved(); ++half) report += advance(z, propagators, h / 2, energy, depth - 1);
   return report;
 }
 
@@ -55,14 +57,16 @@ namespace {
 
 class DmClosure final : public Closure {
  public:
-  explicit DmClosure(const System& system) : Closure(system), multiplier_(system) {}
+  explicit DmClosure(const System& system) : Closure(system), multiplier_(system), conserves_(nothing_changes_H()) {}
+  void begin(State& s) override { s.energy = system().energy(s.z); }
   StepReport advance(State& s, Propagators& propagators, double /*t*/, double h) override {
-    return multiplier_.advance(s.z, propagators, h);
+    return multiplier_.advance(s.z, propagators, h, conserves_ ? std::optional(s.energy) : std::nullopt);
   }
   void keep_ledger() override { multiplier_.keep_ledger(); }
 
  private:
   DirectedMultiplier multiplier_;
+  bool conserves_;
 };
 
 }  // namespace

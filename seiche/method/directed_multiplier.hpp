@@ -6,6 +6,7 @@
 #include <seiche/method/multiplier.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace seiche {
 
@@ -13,10 +14,13 @@ class DirectedMultiplier {
  public:
   explicit DirectedMultiplier(const System& system);
 
-  // z ← z⁺ by substeps of at least h / 2^depth: where λ is not found near 0 the substep is halved.
-  StepReport advance(Vector& z, Propagators& propagators, double h, int depth = max_depth);
+  // z ← z⁺ by substeps of at least h / 2^depth: where λ is not found near 0 the substep is halved. `energy`: what H is
+  // to be behind it, where the closure knows.
+  StepReport advance(Vector& z, Propagators& propagators, double h, std::optional<double> energy,
+                     int depth = max_depth);
   // The same, with `start` already prepared from z for h.
-  StepReport finish(Vector& z, const ExplicitStep& start, Propagators& propagators, double h, int depth = max_depth);
+  StepReport finish(Vector& z, const ExplicitStep& start, Propagators& propagators, double h,
+                    std::optional<double> energy, int depth = max_depth);
 
   void keep_ledger() { keeps_ledger_ = true; }  // as of a Closure
 

@@ -16,13 +16,15 @@ class LmClosure final : public Closure {
         frozen_(options.auxiliary == AuxiliaryMode::frozen && system.damping->touches_potential()),
         start_(system.space->size()),
         equation_(*system.potential, system.space->size()),
-        directed_(system) {
+        directed_(system),
+        conserves_(solver_ == ScalarSolver::robust && nothing_changes_H()) {
     if (frozen_ && !system.damping->is_linear())
       throw Error("auxiliary = \"frozen\" is the paper's scheme for a linear damping; with friction use \"transport\"");
     if (frozen_)
       for (Vector* v : {&before_damping_, &end_, &direction_}) v->setZero(system.space->size());
   }
 
+  void begin(State& s) override { s.energy = system().energy(s.z); }
   void damp(State& s, double t, double h) override {
     if (frozen_) before_damping_ = s.z;
     Closure::damp(s, t, h);
@@ -36,7 +38,7 @@ class LmClosure final : public Closure {
  private:
   double residual(const Vector& z, double x);
   void set_equation(const Vector& z, double t, double h);
-  StepReport solve_robustly(Vector& z, Propagators& propagators, double h);
+  StepReport solve_robustly(Vector& z, Propagators& propagators, double h, std::optional<double> energy);
   StepReport solve_by_newton(Vector& z, double t);
 
   ScalarSolver solver_;
@@ -44,6 +46,7 @@ class LmClosure final : public Closure {
   ExplicitStep start_;
   MultiplierEquation equation_;
   DirectedMultiplier directed_;
+  bool conserves_;  // and makes up for what round-off has left; Newton's iteration is the paper's
   Vector before_damping_, end_, direction_;  // frozen: zⁿ, Ψ₂z₁, Ψ₂q
 };
 
@@ -51,7 +54,10 @@ class LmClosure final : public Closure {
 StepReport LmClosure::advance(State& s, Propagators& propagators, double t, double h) {
   start_.prepare(potential(), propagators.at(h), s.z);
   set_equation(s.z, t, h);
-  return solver_ == ScalarSolver::newton ? solve_by_newton(s.z, t) : solve_robustly(s.z, propagators, h);
+  if (solver_ == ScalarSolver::newton) return solve_by_newton(s.z, t);
+  const std::optional<double> energy = conserves_ ? std::optional(s.energy) : std::nullopt;
+  if (energy) equation_.make_up_for(system().energy(s.z) - *energy);
+  return solve_robustly(s.z, propagators, h, energy);
 }
 
 // Frozen, as printed in the paper: V(Ψ₂z⁺) − V(zⁿ) on the left, both ends outside the damping half-flows.
@@ -75,10 +81,10 @@ double LmClosure::residual(const Vector& z, double x) {
   if (frozen_)
     equation_.set(
         {.z = z, .z_plus = start_.z_plus, .delta = start_.delta, .q = start_.q, .g = start_.g, .e = start_.g});
-  return equation_.at(x).F;
+  return equation_.change(x);
 }
 
-StepReport LmClosure::solve_robustly(Vector& z, Propagators& propagators, double h) {
+StepReport LmClosure::solve_robustly(Vector& z, Propagators& propagators, double h, std::optional<double> energy) {
   constexpr int max_iterations = 8;
   StepReport report;
   MultiplierEquation::Root root;
@@ -94,7 +100,7 @@ StepReport LmClosure::solve_robustly(Vector& z, Propagators& propagators, double
     return report;
   }
   ++report.fallbacks;
-  report += directed_.finish(z, start_, propagators, h);
+  report += directed_.finish(z, start_, propagators, h, energy);
   return report;
 }
 

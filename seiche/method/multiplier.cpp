@@ -20,6 +20,7 @@ MultiplierEquation::MultiplierEquation(const Potential& potential, Index size)
 }
 
 void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
+  left_ = 0;
   const Vector& start = measured_at ? measured_at->start : line.z;
   const Vector& end = measured_at ? measured_at->end : line.z_plus;
   const Vector& direction = measured_at ? measured_at->direction : line.q;
@@ -65,7 +66,7 @@ MultiplierEquation::Value MultiplierEquation::at(double x) {
     slope = slope * x + F;
     F = F * x + coefficients_[i];
   }
-  return {F, slope, scales_[0] + std::abs(x) * (scales_[1] + std::abs(x) * scales_[2])};
+  return {F + left_, slope, scales_[0] + std::abs(x) * (scales_[1] + std::abs(x) * scales_[2])};
 }
 
 // F from the mean gradient and δ itself: end − start would carry the round-off of z, which short steps do not forgive.
@@ -80,7 +81,7 @@ MultiplierEquation::Value MultiplierEquation::at_by_quadrature(double x) {
     increment_ = *delta_ + x * *q_;
     F = (mean_ - *g_ - x * *e_).dot(increment_);
   }
-  return {F, gradient_.dot(*direction_) - (linear_ + 2 * x * eq_),
+  return {F + left_, gradient_.dot(*direction_) - (linear_ + 2 * x * eq_),
           scales_[0] + std::abs(x) * (scales_[1] + std::abs(x) * scales_[2])};
 }
 

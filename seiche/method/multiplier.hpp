@@ -31,7 +31,7 @@ class MultiplierEquation {
     const Vector& direction;  // change of `end` with x
   };
   struct Value {
-    double F;
+    double F;  // with what is to be made up for
     double slope;
     double scale;  // of the terms that F is the difference of: an upper bound, by |δ₁| + |x||q| for |δ(x)|
     bool is_resolved() const { return std::abs(F) <= 4 * epsilon * scale + std::numeric_limits<double>::min(); }
@@ -48,6 +48,8 @@ class MultiplierEquation {
   MultiplierEquation(const Potential& potential, Index size);
   // The vectors of the line must live and keep their values for as long as the equation is evaluated.
   void set(const Line& line, const MeasuredAt* measured_at = nullptr);
+  // What the steps before have left of the law, F is to make up for: F(x) + left = 0, until the next `set`.
+  void make_up_for(double left) { left_ = left; }
 
   Value at(double x);
   // |F| ≤ 4ε scale, or (lm) |Δx| ≤ 4ε max(1, |1 + x|).
@@ -56,6 +58,7 @@ class MultiplierEquation {
   double cosine() const { return cosine_; }                 // cos(ĝ, δ₁) over the support of V
   double mean_gradient_norm() const { return mean_norm_; }  // |ḡ(0)|
   double gradient_gap() const { return gap_norm_; }         // |ḡ(0) − ĝ|
+  double change(double x) { return at(x).F - left_; }       // V(z⁺) − V(z) − fᵀδ itself
 
  private:
   Value at_by_quadrature(double x);
@@ -64,6 +67,7 @@ class MultiplierEquation {
   std::vector<double> coefficients_;  // of F, for polynomial V; empty otherwise
   std::array<double, 3> scales_{};    // of 1, |x|, x²
   double cosine_ = 0, mean_norm_ = 0, gap_norm_ = 0;
+  double left_ = 0;
   double gd_ = 0, linear_ = 0, eq_ = 0;  // f(x)ᵀδ(x) = ĝᵀδ₁ + x (ĝᵀq + eᵀδ₁) + x² eᵀq
   Vector mean_;
   // For general V only:
