@@ -271,5 +271,17 @@ TEST(Rates, ThatStepsOfAMethodDoNotResolveAreSaidBeforeTheRun) {
   EXPECT_EQ(beyond_rate(Simulation(oscillator(), {.method = "egc8"}), 1, 10), "");
 }
 
+TEST(Rates, OfADampingThatIsSplitFromForcesItBalancesAreSaidBeforeTheRun) {
+  const Problem stiff = oscillator({.gamma = constant_rate(1000)});
+  EXPECT_THAT(beyond_splitting(Simulation(stiff, {.method = "seisav"}), 0.1),
+              testing::AllOf(testing::HasSubstr("wrong by the factor hγ/2: it is 50"),
+                             testing::HasSubstr("h ≤ 0.001")));
+  EXPECT_EQ(beyond_splitting(Simulation(stiff, {.method = "seisav"}), 1e-3), "");
+  EXPECT_EQ(beyond_splitting(Simulation(stiff, {.method = "egc4"}), 0.1), "") << "damping in its exponential";
+  EXPECT_EQ(beyond_splitting(Simulation(stiff, {.method = "eisav"}), 0.1), "");
+  for (const auto& [name, problem] : golden_cases())
+    EXPECT_EQ(beyond_splitting(Simulation(problem, {.method = "seisav"}), 1.0 / 16), "") << name;
+}
+
 }  // namespace
 }  // namespace seiche::test

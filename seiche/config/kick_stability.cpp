@@ -39,4 +39,23 @@ std::string beyond_rate(const Simulation& simulation, double h, double t_end) {
       rate->text(), farthest, simulation.method().name, held, 1 / std::abs(farthest - held));
 }
 
+// A force F against γ ≫ 1/h: the exact momentum is F/γ, and behind a splitting hF/2.
+std::string beyond_splitting(const Simulation& simulation, double h) {
+  if (simulation.method().composition != Composition::strang) return "";
+  const System& system = simulation.system();
+  Vector pushed(system.initial.size()), damped(pushed), damped_twice(pushed);
+  system.right_hand_side(0, system.initial, pushed);
+  system.damping->apply_frozen(system.initial, damped);
+  pushed += damped;
+  system.damping->apply_frozen(pushed, damped);
+  system.damping->apply_frozen(damped, damped_twice);
+  const double length = damped.norm();
+  const double rate = length > 0 ? damped_twice.norm() / length : 0;
+  if (!(h * rate > 2)) return "";
+  return fmt::format(
+      "{} splits the damping from the forces, and where the two balance, momenta are wrong by the factor hγ/2: it is {:.3g} with h = {:.4g} and "
+      "γ = {:.4g}; take h ≤ {:.2g}, or a method with the damping in its exponential (egc4, eisav)",
+      simulation.method().name, h * rate / 2, h, rate, 1 / rate);
+}
+
 }  // namespace seiche

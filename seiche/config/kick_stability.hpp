@@ -15,4 +15,8 @@ std::string beyond_stability(const Simulation& simulation, double h);
 // steps of h do not resolve it.
 std::string beyond_rate(const Simulation& simulation, double h, double t_end);
 
+// The same where the method splits the damping from the forces, and at the rate with which it takes what they give the solution at
+// the start, nothing is left of that after h.
+std::string beyond_splitting(const Simulation& simulation, double h);
+
 }  // namespace seiche

@@ -7,15 +7,36 @@ namespace seiche {
 
 namespace {
 
+// c with cI in the rows of a field, or nothing.
+std::optional<double> multiple_of_identity(const SparseMatrix& D, Index first, Index count) {
+  Vector diagonal = Vector::Zero(count);
+  bool is_diagonal = true;
+  for_entries(D, [&](Index i, Index j, double value) {
+    if (i < first || i >= first + count) return;
+    if (i == j)
+      diagonal[i - first] += value;
+    else
+      is_diagonal = is_diagonal && value == 0;
+  });
+  if (!is_diagonal || (diagonal.array() != diagonal[0]).any()) return std::nullopt;
+  return diagonal[0];
+}
+
 // Are all fields that V depends on damped by one rate for all of them and all points, and by nothing else?
 bool shrinks_together(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
-  if (damping.field_rate || (problem.matrices && problem.has_constant_damping())) return false;
+  if (damping.field_rate) return false;
   std::optional<std::pair<bool, double>> first;  // by γ(t), and by so much beside it
   for (Index field = 0; field < problem.field_count(); ++field) {
     if (!problem.potential_depends_on(field)) continue;
     if (problem.friction && field >= problem.field_count() / 2) return false;
     double constant = 0;
+    if (problem.matrices) {
+      const Index points = problem.grid.unknowns();
+      const std::optional<double> factor = multiple_of_identity(problem.matrices->D, field * points, points);
+      if (!factor || *factor < 0) return false;
+      constant = *factor;
+    }
     for (Index j = 0; j < problem.field_count() && !problem.matrices; ++j) {
       const Stencil& entry = damping.constant(field, j);
       const std::optional<double> factor = entry.factor_of_identity();
