@@ -1,12 +1,11 @@
 #include <seiche/config/auto_method.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/function_ref.hpp>
 #include <seiche/core/momenta.hpp>
+#include <seiche/core/spectral_radius.hpp>
 #include <seiche/method/momentum_form.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace seiche {
 namespace {
@@ -21,32 +20,6 @@ constexpr double faded = 20;          // γ · t_end: by then exact flows take s
 constexpr double rough_tolerance = 3e-5;      // collocation above it: order four
 constexpr double fine_tolerance = 3e-8;       // collocation below it: order eight
 constexpr double nystrom_tolerance = 1.5e-7;  // Nyström splittings above it: order four, below it six
-
-Vector random_state(const System& system) {
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> normal;
-  Vector values(system.space->physical_size());
-  for (double& x : values) x = normal(random);
-  Vector z(system.space->size());
-  system.space->from_physical(values, z);
-  return z;
-}
-
-// Power iteration with z ← A²z, since the eigenvalues of L come in pairs ±iω.
-double spectral_radius(const System& system, FunctionRef<void(Vector& z)> apply) {
-  constexpr int iterations = 20;
-  Vector z = random_state(system);
-  double growth = 0;
-  for (int k = 0; k < iterations; ++k) {
-    const double before = z.norm();
-    if (!(before > 0)) return 0;
-    z /= before;
-    apply(z);
-    apply(z);
-    growth = std::sqrt(z.norm());
-  }
-  return growth;
-}
 
 // Without D₀, which if it is stiff makes fast what will soon be over.
 double rate_of_solution(const System& system) {
@@ -106,19 +79,13 @@ std::string collocation_for(double tolerance) {
 }  // namespace
 
 ProblemRates rates_of(const System& system) {
-  Vector Mz(system.space->size()), Dz(system.space->size());
-  const auto apply_L = [&](Vector& z) {
-    system.damping->apply_frozen(z, Dz);
-    system.linear->apply_M(z, Mz);
-    system.linear->apply_S(Mz, z);
-    z -= Dz;
-  };
+  Vector Dz(system.space->size());
   const auto apply_D = [&](Vector& z) {
     system.damping->apply_frozen(z, Dz);
     z.swap(Dz);
   };
-  return {.linear = spectral_radius(system, apply_L),
-          .damping = spectral_radius(system, apply_D),
+  return {.linear = rate_of_linear_flow(system),
+          .damping = spectral_radius(*system.space, apply_D),
           .solution = rate_of_solution(system)};
 }
 

@@ -1,3 +1,4 @@
+#include <seiche/core/spectral_radius.hpp>
 #include <seiche/method/flow_quadrature.hpp>
 
 #include <array>
@@ -30,6 +31,12 @@ FlowQuadrature::Tables FlowQuadrature::make_tables(double h) const {
   made.integral =
       phi_.map({.rows = {{1.0, {1.0, 0.0, 0.0, h}}}, .forces = 2, .order = 2, .kind = states, .of_state = false}, h);
   return made;
+}
+
+bool FlowQuadrature::resolves(double h) {
+  constexpr double by_iteration = 1.5;  // power iteration comes from below
+  if (!rate_) rate_ = by_iteration * rate_of_linear_flow(system_);
+  return h * *rate_ <= 2;
 }
 
 FlowQuadrature::Tables& FlowQuadrature::tables(double h) {

@@ -132,7 +132,7 @@ void StepDissipation::prepare_flow(double h) {
 
 // The polynomial through the forces takes the value Σ_j C_0j n_j at θ = 0, and weights(1) begins with C_0j for each force.
 double StepDissipation::flow_missed(double h, const Vector& z, std::span<const Vector> forces) {
-  if (!flow_) return 0;
+  if (!flow_ || flow_->resolves(h)) return 0;
   const bool gradients = output_.kind == PhiRows::Forces::gradients;
   const Potential::Support of = gradients ? system_.potential->support() : Potential::Support{0, z.size()};
   Vector& sum = gradients ? gradient_ : start_;
