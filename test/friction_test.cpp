@@ -14,8 +14,10 @@
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/run/adaptive.hpp>
+#include <seiche/solve/solve.hpp>
 #include <seiche/study/certificate.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -327,6 +329,19 @@ TEST(Friction, ThatFeedsOneMemberOfAnEnsembleLeavesTheOthersTheirPromise) {
     }
     EXPECT_EQ(p.friction->fed_at(), "") << "each block of members remembers on its own";
   }
+}
+
+// 10v³ at v = 3 within h = 0.1: the step is taken in parts, and that must not be missed.
+TEST(Friction, ThatAStepDoesNotResolveIsSaid) {
+  Problem p = oscillator({.alpha = 0.0, .gamma = constant_rate(0.0)});
+  p.friction = cubic_friction(10);
+  p.initial = Vector{{1, 3}};
+  const Solution coarse = solve(p, {.method = "egc6", .h = 0.1, .t_end = 1});
+  EXPECT_EQ(coarse.report.halved, 1);
+  ASSERT_EQ(coarse.report.remarks().size(), 1U);
+  EXPECT_THAT(coarse.report.remarks()[0], testing::HasSubstr("1 of 10 steps was taken in shorter parts"));
+  EXPECT_THAT(coarse.report.message, testing::HasSubstr(coarse.report.remarks()[0]));
+  EXPECT_TRUE(solve(p, {.method = "egc6", .h = 0.001, .t_end = 1}).report.remarks().empty());
 }
 
 }  // namespace

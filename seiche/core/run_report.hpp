@@ -77,11 +77,11 @@ struct RunReport {
   std::string remark_on_replaced() const;
   // More than one step in ten was replaced, or one by next to nothing: what has come out is no solution of the equation.
   bool lacks_solution() const { return replaced.ruinous || 10 * replaced.count > steps; }
-  void judge_replaced();  // puts that remark into `message`; a run that lacks a solution has failed
-  // What h does not resolve; "" where it resolves all. No law and no status depends on it.
-  std::string remark_on_resolution() const;
-  std::string remark_on_drift() const;       // what H did that no solution does, and what helps; "" where it did not
-  std::vector<std::string> remarks() const;  // those of the two that are there: what nobody should miss
+  void judge_replaced();                  // puts that remark into `message`; a run that lacks a solution has failed
+  std::string remark_on_widened() const;  // what h does not resolve of the linear flow, which costs no accuracy; or ""
+  std::string remark_on_halved() const;   // what it does not resolve of the rest; or ""
+  std::string remark_on_drift() const;    // what H did that no solution does, and what helps; "" where it did not
+  std::vector<std::string> remarks() const;  // but for the widened: what nobody should miss
   std::string brief() const;                 // one line
   std::string full() const;                  // a paragraph for a terminal
 };

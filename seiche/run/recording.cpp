@@ -160,8 +160,8 @@ void Recording::complete_message(const std::string& remark) {
         "; C of the modified energy rose to {:.3g}, {:.1g} times the energy at the start, because V fell so far, and drowns it in "
         "round-off: take a smaller h, or a method without C (seilm, egc4); where these fail too, the solution blows up",
         state_.shift, state_.shift / state_.energy_scale);
-  if (const std::string unresolved = report_.remark_on_resolution(); !unresolved.empty())
-    report_.message += "; " + unresolved;
+  for (const std::string& unresolved : {report_.remark_on_widened(), report_.remark_on_halved()})
+    if (!unresolved.empty()) report_.message += "; " + unresolved;
   if (report_.drift) report_.message += "; " + report_.remark_on_drift();
   if (report_.unresolved > 0)
     report_.message += fmt::format("; {} scalar equations were not resolved", report_.unresolved);

@@ -1,7 +1,6 @@
 #include <seiche/core/run_report.hpp>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace seiche {
 namespace {
@@ -60,19 +59,20 @@ void RunReport::judge_replaced() {
   if (lacks_solution()) status = Status::failed;
 }
 
-std::string RunReport::remark_on_resolution() const {
-  std::vector<std::string> remarks;
-  if (widened > 0)
-    remarks.push_back(fmt::format(
-        "in {} of {} h does not resolve a layer or an oscillation of the linear flow, whose dissipation no quadrature sees; the "
-        "interval for H was widened by what it misses, and there H is only kept from rising",
-        widened, counted_steps(steps)));
-  if (halved > 0)
-    remarks.push_back(fmt::format(
-        "{} of {} were taken in shorter parts, because the whole step found no solution: h does not resolve the nonlinear part, and "
-        "errors may be large; take a smaller h",
-        halved, counted_steps(steps)));
-  return fmt::format("{}", fmt::join(remarks, "; "));
+std::string RunReport::remark_on_widened() const {
+  if (widened == 0) return "";
+  return fmt::format(
+      "in {} of {} h does not resolve a layer or an oscillation of the linear flow, whose dissipation no quadrature sees; the "
+      "interval for H was widened by what it misses, and there H is only kept from rising",
+      widened, counted_steps(steps));
+}
+
+std::string RunReport::remark_on_halved() const {
+  if (halved == 0) return "";
+  return fmt::format(
+      "{} of {} {} taken in shorter parts, because the whole step found no solution: h does not resolve the nonlinear part, and "
+      "errors may be large; take a smaller h",
+      halved, counted_steps(steps), halved == 1 ? "was" : "were");
 }
 
 std::string EnergyDrift::text() const {
@@ -100,7 +100,7 @@ std::string RunReport::remark_on_drift() const {
 }
 
 std::vector<std::string> RunReport::remarks() const {
-  std::vector<std::string> all = {remark_on_replaced(), remark_on_drift()};
+  std::vector<std::string> all = {remark_on_replaced(), remark_on_halved(), remark_on_drift()};
   std::erase(all, "");
   return all;
 }
