@@ -59,7 +59,7 @@ TEST(ModePhi, OscillatorsOfAllKindsShareAChunk) {
       for (Index j = 0; j < 2; ++j) blocks.set(k, ModeBlockArrays::L, i, j, L(i, j));
     blocks.set_size(k, scaled_norm(L));
   }
-  ASSERT_TRUE(fits_lanes(blocks, rows_of_one_force));
+  ASSERT_TRUE(fits_lanes(blocks, rows_of_one_force, 16.0));
   const std::vector<PhiColumn> columns = {{0, 0}, {0, 1}, {1, 0}, {1, 1}};
   const Vector z = Vector::Random(2 * count);
   const Vector n = Vector::Random(2 * count);

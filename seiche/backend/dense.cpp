@@ -1,5 +1,6 @@
 #include <seiche/backend/beyond_linear.hpp>
 #include <seiche/backend/dense.hpp>
+#include <seiche/backend/dense_force.hpp>
 #include <seiche/backend/dense_phi.hpp>
 #include <seiche/backend/force_map.hpp>
 #include <seiche/backend/grid_damping.hpp>
@@ -51,16 +52,24 @@ class DenseMetric {
 class DensePropagator final : public Propagator {
  public:
   // `metric` outlives the propagator.
-  DensePropagator(const ForceMaps<Matrix>& maps, const Matrix& M, const DenseMetric& metric, Potential::Support support)
-      : size_(M.rows()),
+  DensePropagator(const DenseForce& maps, const DenseMetric& metric, Potential::Support support)
+      : size_(maps.F.rows()),
         support_(support),
         metric_(metric),
         all_F_(maps.F),
         F_(maps.F.middleCols(support.begin, support.size)),
-        FM_(maps.F * M) {
+        FM_(maps.FM),
+        in_energy_(maps.T.size() > 0) {
     Matrix mid(support.size, size_ + support.size);
-    mid << (maps.Q * M).middleRows(support.begin, support.size),
-        maps.Q.block(support.begin, support.begin, support.size, support.size);
+    if (in_energy_) {
+      T_ = LaneMatrix(maps.T);
+      y_.resize(T_.padded_rows());
+      const Matrix rows = maps.T.middleRows(support.begin, support.size);
+      mid << rows * maps.QM, rows * maps.Q.middleCols(support.begin, support.size);
+    } else {
+      mid << maps.QM.middleRows(support.begin, support.size),
+          maps.Q.block(support.begin, support.begin, support.size, support.size);
+    }
     mid_ = LaneMatrix(mid);
     z_and_gradient_.resize(size_ + support.size);
     for (Vector* v : {&dz_, &q_}) v->resize(std::max(FM_.padded_rows(), mid_.padded_rows()));
@@ -76,14 +85,25 @@ class DensePropagator final : public Propagator {
   }
   void increment(const Vector& z, Vector& dz) const override {
     FM_.apply(z.data(), dz_.data());
+    to_state(dz_);
     dz = dz_.head(size_);
   }
-  void force(const Vector& f, Vector& q) const override { q.noalias() = all_F_ * f; }
+  void force(const Vector& f, Vector& q) const override {
+    if (!in_energy_) {
+      q.noalias() = all_F_ * f;
+      return;
+    }
+    q_.head(size_).noalias() = all_F_ * f;
+    to_state(q_);
+    q = q_.head(size_);
+  }
 
   void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const override {
     set(z, before);
     FM_.apply(z_and_gradient_.data(), dz_.data());
     F_.apply(f.data() + support_.begin, q_.data());
+    to_state(dz_);
+    to_state(q_);
     const auto f_support = f.segment(support_.begin, support_.size);
     const double c =
         factor({f_support.dot(dz_.segment(support_.begin, support_.size)),
@@ -103,12 +123,20 @@ class DensePropagator final : public Propagator {
     }
   }
 
+  // From the coordinates of energy, if F and FM lead there.
+  void to_state(Vector& v) const {
+    if (!in_energy_) return;
+    T_.apply(v.data(), y_.data());
+    v.head(size_) = y_.head(size_);
+  }
+
   Index size_;
   Potential::Support support_;
   const DenseMetric& metric_;
   Matrix all_F_;
-  LaneMatrix F_, FM_, mid_;  // F_: the columns of forces
-  mutable Vector z_and_gradient_, dz_, q_;
+  LaneMatrix F_, FM_, mid_, T_;  // F_: the columns of forces
+  bool in_energy_;
+  mutable Vector z_and_gradient_, dz_, q_, y_;
 };
 
 class DenseLinear final : public LinearPart {
@@ -131,7 +159,7 @@ class DenseLinear final : public LinearPart {
     return absolute_.dot(scratch_) / 2;
   }
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
-    return std::make_unique<DensePropagator>(force_maps(kind, S_, M_, h), M_, metric_, support_);
+    return std::make_unique<DensePropagator>(dense_force(kind, S_, M_, h), metric_, support_);
   }
 
  private:

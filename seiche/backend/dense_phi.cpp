@@ -1,3 +1,4 @@
+#include <seiche/backend/dense_kernel.hpp>
 #include <seiche/backend/dense_phi.hpp>
 #include <seiche/backend/lane_matrix.hpp>
 #include <seiche/backend/phi_functions.hpp>
@@ -49,10 +50,10 @@ class Stack {
 
 class DensePhiMap final : public PhiMap {
  public:
-  DensePhiMap(const PhiRows& rows, const Matrix& L, const Matrix& S, double h, Potential::Support support)
-      : stack_(rows, L.rows(), support),
-        out_(rows.outputs == PhiRows::Outputs::support ? support : Potential::Support{0, L.rows()}) {
-    PhiRowBlocks<Matrix> blocks(rows, L, S, h);
+  DensePhiMap(const PhiRows& rows, const LinearBlocks<Matrix>& linear, double h, Potential::Support support)
+      : stack_(rows, linear.S.rows(), support),
+        out_(rows.outputs == PhiRows::Outputs::support ? support : Potential::Support{0, linear.S.rows()}) {
+    PhiRowBlocks<Matrix> blocks(rows, linear, h);
     Matrix tall(static_cast<Index>(rows.rows.size()) * out_.size, stack_.size());
     for (std::size_t i = 0; i < rows.rows.size(); ++i)
       tall.middleRows(static_cast<Index>(i) * out_.size, out_.size) =
@@ -79,11 +80,11 @@ class DensePhiMap final : public PhiMap {
 
 class DensePhiForms final : public PhiForms {
  public:
-  DensePhiForms(std::span<const PhiEvaluator::Form> forms, const Matrix& L, const Matrix& S, const Matrix& Q, double h,
-                Potential::Support support)
-      : stack_(forms.front().rows, L.rows(), support) {
+  DensePhiForms(std::span<const PhiEvaluator::Form> forms, const LinearBlocks<Matrix>& linear, const Matrix& Q,
+                double h, Potential::Support support)
+      : stack_(forms.front().rows, linear.S.rows(), support) {
     for (const PhiEvaluator::Form& form : forms) {
-      PhiRowBlocks<Matrix> blocks(form.rows, L, S, h);
+      PhiRowBlocks<Matrix> blocks(form.rows, linear, h);
       Matrix gram = Matrix::Zero(stack_.size(), stack_.size());
       for (std::size_t i = 0; i < form.rows.rows.size(); ++i) {
         const Matrix row = stack_.joined(blocks.of(form.rows.rows[i]));
@@ -113,21 +114,22 @@ class DensePhi final : public PhiEvaluator {
   bool has_tables() const override { return true; }
 
   DensePhi(Matrix S, const Matrix& M, const Matrix& D0, Potential::Support support)
-      : S_(std::move(S)), L_(S_ * M - D0), Q_(dissipation_matrix<Matrix>(S_, M, D0)), support_(support) {
-    const Matrix twice_sym = S_ + S_.transpose();
+      : linear_{std::move(S), M, D0}, Q_(dissipation_matrix<Matrix>(linear_.S, M, D0)), support_(support) {
+    const Matrix twice_sym = linear_.S + linear_.S.transpose();
     dissipation_.is_quadratic = D0.middleRows(support.begin, support.size).isZero(0) &&
                                 twice_sym.middleRows(support.begin, support.size).isZero(0);
     dissipation_.is_zero = D0.isZero(0) && twice_sym.isZero(0);
     const Vector rates = Eigen::SelfAdjointEigenSolver<Matrix>(Q_, Eigen::EigenvaluesOnly).eigenvalues();
     dissipation_.is_nonnegative = rates.minCoeff() >= -1e-13 * rates.cwiseAbs().maxCoeff();
-    find_casimirs();
+    kernel_ = dense_kernel(linear_.S);
+    products_.resize(kernel_.cols());
   }
 
   std::unique_ptr<PhiMap> map(const PhiRows& rows, double h) const override {
-    return std::make_unique<DensePhiMap>(rows, L_, S_, h, support_);
+    return std::make_unique<DensePhiMap>(rows, linear_, h, support_);
   }
   std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const override {
-    return std::make_unique<DensePhiForms>(forms, L_, S_, Q_, h, support_);
+    return std::make_unique<DensePhiForms>(forms, linear_, Q_, h, support_);
   }
   Dissipation dissipation() const override { return dissipation_; }
 
@@ -140,16 +142,8 @@ class DensePhi final : public PhiEvaluator {
   }
 
  private:
-  // Singular vectors by the eigenvectors of SᵀS, each tried on S itself: the smallest eigenvalues are round-off.
-  void find_casimirs() {
-    const Eigen::SelfAdjointEigenSolver<Matrix> squares(S_.transpose() * S_);  // ascending
-    Index count = 0;
-    while (count < S_.cols() && (S_ * squares.eigenvectors().col(count)).norm() <= 1e-12 * S_.norm()) ++count;
-    kernel_ = squares.eigenvectors().leftCols(count);
-    products_.resize(count);
-  }
-
-  Matrix S_, L_, Q_;
+  LinearBlocks<Matrix> linear_;
+  Matrix Q_;
   Potential::Support support_;
   Dissipation dissipation_;
   Matrix kernel_;  // orthonormal columns

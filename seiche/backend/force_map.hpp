@@ -6,7 +6,9 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace seiche {
 
@@ -16,6 +18,12 @@ struct ForceMaps {
   Matrix F;
   Matrix Q;
 };
+
+// −(S + Sᴴ), what the flow takes from ½zᴴMz + fᴴz per time: twice wᴴ(…)w/2 with w = Mz + f. Zero where S is skew.
+template <class Matrix>
+Matrix loss_rate(const Matrix& S) {
+  return -(S + S.adjoint());
+}
 
 namespace force_map_detail {
 
@@ -37,36 +45,105 @@ Matrix taylor(const Matrix& S, const Matrix& M, double h) {
   return F;
 }
 
-// From h to 2h: E(2h) = E(h)² with E = I + FM. The contract F + Fᵀ + FᵀMF = 0 passes on.
+// One Newton–Schulz step towards F + Fᴴ + FᴴMF = −W (null: zero): squares the defect where little is lost; where much is, −W
+// leaves it room.
 template <class Matrix>
-Matrix doubled(const Matrix& F, const Matrix& M) {
-  return (2 * F + F * (M * F)).eval();
-}
-
-// One Newton–Schulz step towards EᵀME = M: squares the defect R that the doublings left, E ← E(I − ½RM).
-template <class Matrix>
-void restore_isometry(Matrix& F, const Matrix& M) {
-  const Matrix R = F + F.adjoint() + F.adjoint() * (M * F);
+void restore_contract(Matrix& F, const Matrix& M, const Matrix* W) {
+  Matrix R = F + F.adjoint() + F.adjoint() * (M * F);
+  if (W != nullptr) R += *W;
   F -= (0.5 * (R + F * (M * R))).eval();
 }
 
+// F of a step h, grown from steps so small that Taylor's series is short:
+//   F ← 2F + FMF,   which is E(2h) = E(h)² with E = I + FM.
+// Each doubling also doubles what round-off has added to the contract F + Fᴴ + FᴴMF = −W. For skew S the loss W is zero. Otherwise it
+// obeys W ← W + BᴴWB, B = I + MF, sums of what is ⪰ 0 and thus known to round-off; so the contract is restored on the way.
+template <class Matrix>
+class ForceDoubling {
+ public:
+  // At most so many doublings leave the contract at round-off by themselves, but for one restoration of skew S at the end.
+  static constexpr int harmless = 8;
+
+  // `rate`: −(S + Sᴴ).
+  ForceDoubling(const Matrix& S, const Matrix& M, const Matrix& rate, double h, int doublings)
+      : M_(M), rate_(rate), loses_(!rate.isZero(0)) {
+    if (loses_ && doublings > harmless) {
+      start_with_loss(S, std::ldexp(h, -doublings));
+    } else {
+      F_ = taylor<Matrix>(S, M, std::ldexp(h, -doublings));
+    }
+    for (int i = 1; i <= doublings; ++i) {
+      if (loses_ && doublings > harmless) double_loss();
+      F_ = (2 * F_ + F_ * (M_ * F_)).eval();
+      if (i % harmless == 0 && i < doublings) restore();
+    }
+    if (doublings > harmless) restore();
+    if (doublings > 0 && (!loses_ || doublings > harmless)) restore();
+  }
+
+  Matrix force() && { return std::move(F_); }
+
+ private:
+  // F + Fᴴ + FᴴMF is the integral of −BᴴPB over the step, with P = −(S + Sᴴ). By Gauss's rule with four nodes, exact to
+  // round-off where ‖hSM‖ is about 1/16: eighths of what Taylor's series takes.
+  void start_with_loss(const Matrix& S, double h) {
+    constexpr int parts = 3;
+    constexpr std::array<double, 2> place = {0.33998104358485626, 0.86113631159405258};
+    constexpr std::array<double, 2> weight = {0.65214515486254614, 0.34785484513745386};
+    const Matrix I = Matrix::Identity(S.rows(), S.cols());
+    h = std::ldexp(h, -parts);
+    W_ = Matrix::Zero(S.rows(), S.cols());
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      for (const double side : {-1.0, 1.0}) {
+        const Matrix B = I + M_ * taylor<Matrix>(S, M_, h * (1 + side * place[i]) / 2);
+        W_ += (h * weight[i] / 2) * (B.adjoint() * (rate_ * B));
+      }
+    }
+    F_ = taylor<Matrix>(S, M_, h);
+    for (int i = 0; i < parts; ++i) {
+      double_loss();
+      F_ = (2 * F_ + F_ * (M_ * F_)).eval();
+    }
+  }
+
+  void double_loss() {
+    const Matrix MF = M_ * F_;
+    const Matrix WB = W_ + W_ * MF;
+    W_ += (WB + MF.adjoint() * WB).eval();
+  }
+
+  void restore() { restore_contract<Matrix>(F_, M_, loses_ ? &W_ : nullptr); }
+
+  const Matrix &M_, &rate_;
+  bool loses_;
+  Matrix F_, W_;
+};
+
 }  // namespace force_map_detail
 
+// ‖Aᵏ‖^{1/k} instead of ‖A‖: wave systems have entries 1 and 1/Δx² but frequencies 1/Δx.
+template <class Matrix>
+double scaled_norm(const Matrix& A) {
+  const Matrix A2 = A * A;
+  return std::max(std::sqrt(force_map_detail::norm_1(A2)),
+                  std::cbrt(force_map_detail::norm_1<Matrix>((A2 * A).eval())));
+}
+
+// How often a matrix of this size is halved for Taylor's series; not at all where it is not finite.
+inline int doublings_for(double size) {
+  return size > 0.5 && std::isfinite(size) ? static_cast<int>(std::ceil(std::log2(size / 0.5))) : 0;
+}
+
 // h φ₁(hSM) S by scaling and doubling; SM may be singular. F is built first and E = I + FM follows from it, so that
-// no inverse of SM is ever needed and the two stay consistent.
+// no inverse of SM is ever needed and the two stay consistent. `rate`: −(S + Sᴴ).
+template <class Matrix>
+Matrix exponential_force(const Matrix& S, const Matrix& M, const Matrix& rate, double h) {
+  const int doublings = doublings_for(scaled_norm<Matrix>(h * (S * M)));
+  return force_map_detail::ForceDoubling<Matrix>(S, M, rate, h, doublings).force();
+}
 template <class Matrix>
 Matrix exponential_force(const Matrix& S, const Matrix& M, double h) {
-  using namespace force_map_detail;
-  const Matrix A = h * (S * M);
-  const Matrix A2 = A * A;
-  // ‖Aᵏ‖^{1/k} instead of ‖A‖: wave systems have entries 1 and 1/Δx² but frequencies 1/Δx.
-  const double size = std::max(std::sqrt(norm_1(A2)), std::cbrt(norm_1<Matrix>(A2 * A)));
-  const int doublings = size > 0.5 ? static_cast<int>(std::ceil(std::log2(size / 0.5))) : 0;
-  Matrix F = taylor<Matrix>(S, M, std::ldexp(h, -doublings));
-  for (int i = 0; i < doublings; ++i) F = doubled(F, M);
-  const bool skew = (S + S.adjoint()).cwiseAbs().maxCoeff() == 0;
-  if (skew && doublings > 0) restore_isometry(F, M);
-  return F;
+  return exponential_force<Matrix>(S, M, loss_rate(S), h);
 }
 
 // h (I − A/2)⁻¹ S
@@ -75,6 +152,21 @@ Matrix cayley_force(const Matrix& S, const Matrix& M, double h) {
   const Matrix A = h * (S * M);
   const Matrix I = Matrix::Identity(S.rows(), S.cols());
   return (I - 0.5 * A).partialPivLu().solve(h * S);
+}
+
+// The same where hSM is so large that the solution leaves the contract; R = hBᴴ(S + Sᴴ)B with B = I + MF/2 for every h. `kernel`:
+// orthonormal columns that S takes to zero, and so does F.
+template <class Matrix>
+Matrix contracting_cayley_force(const Matrix& S, const Matrix& M, const Matrix& rate, const Matrix& kernel, double h) {
+  Matrix F = cayley_force(S, M, h);
+  F -= (kernel * (kernel.adjoint() * F)).eval();
+  F -= ((F * kernel) * kernel.adjoint()).eval();
+  for (int i = 0; i < 2; ++i) {
+    const Matrix B = Matrix::Identity(S.rows(), S.cols()) + M * F / 2;
+    const Matrix W = h * (B.adjoint() * (rate * B));
+    force_map_detail::restore_contract(F, M, &W);
+  }
+  return F;
 }
 
 template <class Matrix>
@@ -87,11 +179,15 @@ ForceMaps<Matrix> force_maps(PropagatorKind kind, const Matrix& S, const Matrix&
   return {exponential_force(S, M, h), exponential_force(S, M, h / 2)};
 }
 
-// e^{−hD} = I + F D with F = hφ₁(−hD)(−I).
+// e^{−hD} = I + F D with F = hφ₁(−hD)(−I): no contract, and D need not be symmetric.
 template <class Matrix>
 Matrix damping_exponential(const Matrix& D, double h) {
+  using namespace force_map_detail;
   const Matrix I = Matrix::Identity(D.rows(), D.cols());
-  return I + exponential_force<Matrix>(-I, D, h) * D;
+  const int doublings = doublings_for(scaled_norm<Matrix>(-h * D));
+  Matrix F = taylor<Matrix>(-I, D, std::ldexp(h, -doublings));
+  for (int i = 0; i < doublings; ++i) F = (2 * F + F * (D * F)).eval();
+  return I + F * D;
 }
 
 }  // namespace seiche

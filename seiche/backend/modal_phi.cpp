@@ -16,12 +16,6 @@ namespace {
 
 using Block = Eigen::MatrixXcd;
 
-// S, L = SM − D₀ and Q of one mode, real where they can be.
-template <class Matrix>
-struct ModeBlocks {
-  Matrix S, L, Q;
-};
-
 struct Symbols {
   Modes modes;
   BlockStencil S, M, D0;
@@ -44,12 +38,9 @@ struct Symbols {
   }
 
   template <class Matrix>
-  ModeBlocks<Matrix> blocks(Index k) const {
+  LinearBlocks<Matrix> blocks(Index k) const {  // real where they can be
     const Mode mode = modes[k];
-    const Matrix s = block_of<Matrix>(S, mode);
-    const Matrix m = block_of<Matrix>(M, mode);
-    const Matrix d = block_of<Matrix>(D0, mode);
-    return {s, s * m - d, dissipation_matrix<Matrix>(s, m, d)};
+    return {block_of<Matrix>(S, mode), block_of<Matrix>(M, mode), block_of<Matrix>(D0, mode)};
   }
 
   bool are_real() const { return S.has_real_symbol() && M.has_real_symbol() && D0.has_real_symbol(); }
@@ -106,8 +97,8 @@ class ModalPhiMap final : public PhiMap {
   template <class Matrix>
   void fill(const PhiRows& rows, const Symbols& symbols, double h) {
     for (Index k = 0; k < symbols.modes.count(); ++k) {
-      const ModeBlocks<Matrix> mode = symbols.blocks<Matrix>(k);
-      PhiRowBlocks<Matrix> blocks(rows, mode.L, mode.S, h);
+      const LinearBlocks<Matrix> mode = symbols.blocks<Matrix>(k);
+      PhiRowBlocks<Matrix> blocks(rows, mode, h);
       for (std::size_t i = 0; i < rows.rows.size(); ++i) {
         const std::vector<Matrix>& row = blocks.of(rows.rows[i]);
         for (Index f = 0; f < count_; ++f)
@@ -148,15 +139,16 @@ class ModalPhiForms final : public PhiForms {
   void fill(std::span<const PhiEvaluator::Form> forms, const Symbols& symbols, double h) {
     Matrix row(symbols.S.fields(), columns_.size());
     for (Index k = 0; k < symbols.modes.count(); ++k) {
-      const ModeBlocks<Matrix> mode = symbols.blocks<Matrix>(k);
+      const LinearBlocks<Matrix> mode = symbols.blocks<Matrix>(k);
+      const Matrix Q = dissipation_matrix<Matrix>(mode.S, mode.M, mode.D0);
       for (std::size_t l = 0; l < forms.size(); ++l) {
-        PhiRowBlocks<Matrix> blocks(forms[l].rows, mode.L, mode.S, h);
+        PhiRowBlocks<Matrix> blocks(forms[l].rows, mode, h);
         Matrix gram = Matrix::Zero(columns_.size(), columns_.size());
         for (std::size_t i = 0; i < forms[l].rows.rows.size(); ++i) {
           const std::vector<Matrix>& of_row = blocks.of(forms[l].rows.rows[i]);
           for (Index j = 0; j < columns_.size(); ++j)
             row.col(j) = of_row[static_cast<std::size_t>(columns_[j].block)].col(columns_[j].field);
-          gram += forms[l].coefficients[i] * (row.adjoint() * (mode.Q * row));
+          gram += forms[l].coefficients[i] * (row.adjoint() * (Q * row));
         }
         for (Index i = 0; i < columns_.size(); ++i)
           for (Index j = i; j < columns_.size(); ++j) forms_.set(k, static_cast<Index>(l), i, j, gram(i, j));
@@ -199,7 +191,7 @@ class ModalPhi final : public PhiEvaluator {
   }
 
   std::unique_ptr<PhiMap> map(const PhiRows& rows, double h) const override {
-    if (fits_lanes(blocks_, rows)) {
+    if (fits_lanes(blocks_, rows, h)) {
       auto map = std::make_unique<ModalPhiMap>(rows, extent_);
       map->fill(rows, blocks_, h);
       return map;
@@ -212,7 +204,7 @@ class ModalPhi final : public PhiEvaluator {
   }
 
   std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const override {
-    if (fits_lanes(blocks_, forms.front().rows)) {
+    if (fits_lanes(blocks_, forms.front().rows, h)) {
       auto made = std::make_unique<ModalPhiForms>(forms, extent_);
       made->fill(forms, blocks_, h);
       return made;
@@ -255,15 +247,17 @@ class ModalPhi final : public PhiEvaluator {
   template <class Matrix>
   void fill_blocks() {
     for (Index k = 0; k < extent_.modes; ++k) {
-      const ModeBlocks<Matrix> mode = symbols_.blocks<Matrix>(k);
+      const LinearBlocks<Matrix> mode = symbols_.blocks<Matrix>(k);
+      const Matrix L = mode.L();
+      const Matrix Q = dissipation_matrix<Matrix>(mode.S, mode.M, mode.D0);
       for (Index i = 0; i < extent_.fields; ++i) {
         for (Index j = 0; j < extent_.fields; ++j) {
           blocks_.set(k, ModeBlockArrays::S, i, j, mode.S(i, j));
-          blocks_.set(k, ModeBlockArrays::L, i, j, mode.L(i, j));
-          blocks_.set(k, ModeBlockArrays::Q, i, j, mode.Q(i, j));
+          blocks_.set(k, ModeBlockArrays::L, i, j, L(i, j));
+          blocks_.set(k, ModeBlockArrays::Q, i, j, Q(i, j));
         }
       }
-      blocks_.set_size(k, scaled_norm(mode.L));
+      blocks_.set_size(k, scaled_norm(L));
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace seiche {
 namespace {
@@ -130,7 +131,9 @@ void ModeBlockArrays::set(Index mode, Which which, Index i, Index j, std::comple
   if (parts_ == 2) entry[padded_] = value.imag();
 }
 
-bool fits_lanes(const ModeBlockArrays& blocks, const PhiRows& rows) {
+bool fits_lanes(const ModeBlockArrays& blocks, const PhiRows& rows, double h) {
+  constexpr double largest = 128;
+  if (blocks.fields() == 2 && !blocks.are_real() && std::abs(h) * blocks.largest_size() > largest) return false;
   return blocks.fields() <= 2 && rows.order <= max_lane_phi_order && rows.forces < max_blocks;
 }
 

@@ -4,6 +4,7 @@
 #include <seiche/backend/mode_table.hpp>
 #include <seiche/core/phi.hpp>
 
+#include <algorithm>
 #include <complex>
 #include <span>
 #include <vector>
@@ -27,6 +28,7 @@ class ModeBlockArrays {
     return entries_.data() + (((which * fields_ + i) * fields_ + j) * parts_ + part) * padded_;
   }
   const double* sizes() const { return sizes_.data(); }
+  double largest_size() const { return *std::max_element(sizes_.begin(), sizes_.end()); }
 
  private:
   Index fields_, parts_, padded_;  // parts: real, or real and imaginary
@@ -38,8 +40,9 @@ struct PhiColumn {
   Index field;
 };
 
-// Can the sums be filled in this way? Blocks of up to 2 × 2, and φ-functions of orders that are in use.
-bool fits_lanes(const ModeBlockArrays& blocks, const PhiRows& rows);
+// Can the sums be filled in this way? Blocks of up to 2 × 2, and φ-functions of orders that are in use; complex 2 × 2 blocks where hL is
+// not large, since the moduli of two eigenvalues are not known from the determinant.
+bool fits_lanes(const ModeBlockArrays& blocks, const PhiRows& rows, double h);
 
 // Row i · count + f of the table: component first + f of rows.rows[i].
 void fill_sums(const ModeBlockArrays& blocks, const PhiRows& rows, double h, std::span<const PhiColumn> columns,
