@@ -10,6 +10,7 @@
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/kick_stability.hpp>
 #include <seiche/config/simulation.hpp>
+#include <seiche/config/sparse_work.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/figure/run_report.hpp>
@@ -126,7 +127,8 @@ ExitCode run(const RunArguments& arguments) {
   // Cheap beside a run: what structure leaves open is not looked at here.
   if (!spec.tolerance)
     for (const std::string& beyond : {beyond_stability(simulation, spec.h), beyond_rate(simulation, spec.h, spec.t_end),
-                                      beyond_splitting(simulation, spec.h)})
+                                      beyond_splitting(simulation, spec.h),
+                                      work_of_exponentials(simulation, spec.sparse, spec.h, spec.t_end)})
       if (!beyond.empty()) spec.notes.push_back(beyond);
   Certificate certificate = certify(problem, {.method = spec.method,
                                               .method_options = spec.method_options,

@@ -3,6 +3,7 @@
 #include <seiche/backend/grid_kicks.hpp>
 #include <seiche/backend/grid_potential.hpp>
 #include <seiche/backend/grid_space.hpp>
+#include <seiche/backend/pade.hpp>
 #include <seiche/backend/sparse.hpp>
 #include <seiche/backend/sparse_damping.hpp>
 #include <seiche/backend/sparse_linear.hpp>
@@ -29,6 +30,14 @@ bool has_grid_kicks(const Problem& problem) {
   if (problem.matrices || !problem.M.is_sparse()) return false;
   const std::optional<Momenta> p = momenta(problem);
   return p && p->inverse_mass == 1 && (!problem.potential || problem.potential->fields() == p->count);
+}
+
+double sparse_rate(const Problem& problem) {
+  if (problem.matrices)
+    return spectral_radius_bound(SparseMatrix(problem.matrices->S * problem.matrices->M) -
+                                 frozen_damping_matrix(problem));
+  return spectral_radius_bound(SparseMatrix(matrix_of(problem, problem.S) * matrix_of(problem, problem.M)) -
+                               matrix_of(problem, frozen_damping(problem)));
 }
 
 System sparse_system(const Problem& problem, const BackendOptions& options) {

@@ -1,10 +1,13 @@
 #include <seiche/backend/krylov_trajectory.hpp>
+#include <seiche/backend/pade.hpp>
 #include <seiche/backend/phi_trajectories.hpp>
 #include <seiche/backend/sparse_kernel.hpp>
 #include <seiche/backend/sparse_phi.hpp>
 #include <seiche/core/definiteness.hpp>
+#include <seiche/core/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace seiche {
@@ -16,6 +19,7 @@ using Support = Potential::Support;
 struct Common {
   Common(const SparseMatrix& S, const SparseMatrix& M, const SparseMatrix& D0, Support support_of_V)
       : trajectory(SparseMatrix(S * M) - D0),
+        rate(spectral_radius_bound(SparseMatrix(S * M) - D0)),
         scaled_S(S.middleCols(support_of_V.begin, support_of_V.size)),
         support(support_of_V) {
     for (Index i = 0; i < size(); ++i) scaled_S.row(i) /= trajectory.scales()[i];
@@ -23,7 +27,18 @@ struct Common {
 
   Index size() const { return trajectory.scales().size(); }
 
+  void require_reach(double h) const {
+    const double substeps = krylov_substeps(std::abs(h) * rate);
+    if (substeps <= most_krylov_substeps) return;
+    throw Error(
+        "a step h = {:.6g} of the sparse backend would take {:.2g} Krylov substeps for each exponential, since rates go up to {:.3g}; at "
+        "most {:.0e} are taken: h ≤ {:.2g} would do (h_max beside a tolerance), or seisav with [backend] pade_degree = 6, whose work does not depend on h, or "
+        "backend \"dense\" for up to some thousand unknowns",
+        h, substeps, rate, most_krylov_substeps, 10 * most_krylov_substeps / rate);
+  }
+
   KrylovTrajectory trajectory;
+  double rate;                                            // at most, of L
   Eigen::SparseMatrix<double, Eigen::RowMajor> scaled_S;  // of gradients, into balanced coordinates
   Support support;
 };
@@ -141,6 +156,7 @@ class SparsePhi final : public PhiEvaluator {
         common_(std::make_shared<Common>(operators_->S, operators_->M, *D0_, support)) {}
 
   std::unique_ptr<PhiMap> map(const PhiRows& rows, double h) const override {
+    common_->require_reach(h);
     return std::make_unique<SparsePhiMap>(rows, common_, h);
   }
   std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const override {

@@ -5,9 +5,14 @@
 #include <seiche/core/potential.hpp>
 #include <seiche/core/sparse_operators.hpp>
 
+#include <algorithm>
 #include <memory>
 
 namespace seiche {
+
+// Krylov substeps of one exponential of hL, for the spectral radius ρ of L: each reaches about as far as its dimension lets it.
+inline double krylov_substeps(double h_rho) { return std::max(1.0, h_rho / 10); }
+inline constexpr double most_krylov_substeps = 1e6;
 
 // S and M are those of `operators`. `support`: the components that V depends on. Rows that lie on one trajectory cost
 // one Krylov pass together, to about round-off. The kernel of S is that which sparse_kernel finds; where it gives up,
