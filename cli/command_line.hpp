@@ -21,6 +21,7 @@ void add_paper(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_spectrum(CLI::App& app, Action& action);
 void add_audit(CLI::App& app, Action& action);
+void add_recover(CLI::App& app, Action& action);
 void add_plot(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
@@ -30,8 +31,8 @@ void print_note(std::string_view text);  // one line to stderr, after "seiche: "
 void print_notes(const std::vector<std::string>& notes);  // each on a line of its own
 void print_lines(std::string_view text);                  // to stderr as it is; never throws
 
-// Before anything is opened: no file of a run takes the number of a closed standard stream, and limits of the size of files
-// are errors.
+// Before anything is opened: no file of a run takes the number of a closed standard stream, and limits of the size of
+// files are errors.
 void prepare_process();
 
 // Every argument after --set that looks like key=value gets a --set of its own, so that one --set may take several

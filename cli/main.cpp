@@ -46,6 +46,7 @@ ExitCode run_program(const std::vector<std::string>& arguments) {
   add_check(app, action);
   add_spectrum(app, action);
   add_audit(app, action);
+  add_recover(app, action);
   add_plot(app, action);
   add_list(app, action);
   add_new(app, action);

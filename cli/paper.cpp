@@ -70,6 +70,14 @@ std::string draw(const PaperResults& results, const std::string& directory) {
 // A quick run must not take the place of a full one.
 std::string default_directory(bool quick) { return quick ? "out/paper-quick" : "out/paper"; }
 
+// A study takes long enough for another folder to have come to its path.
+void require_same(const Folder& folder) {
+  folder.require_lock();
+  if (!folder.is_at_its_path())
+    throw Error("{} leads to another folder than it did when the study began, and nothing is written into it",
+                folder.path().string());
+}
+
 ExitCode paper(const PaperArguments& arguments) {
   const std::string directory = arguments.directory_given ? arguments.directory : default_directory(arguments.quick);
   if (directory.empty()) throw Error("--out must not be empty");
@@ -77,8 +85,10 @@ ExitCode paper(const PaperArguments& arguments) {
   options.quick = arguments.quick;
   options.reference = find_reference(arguments.reference);
   make_directory(directory);
-  const FolderLock lock(directory);
+  const Folder folder(directory);
+  const FolderLock lock(folder);
   require_own_report(directory);
+  require_finished(directory);
   StudyProgress progress(arguments.quiet);
   options.threads = arguments.threads;
   options.progress = [&](double done, std::string_view what) { progress(done, what); };
@@ -87,6 +97,7 @@ ExitCode paper(const PaperArguments& arguments) {
   try {
     const PaperResults results = run_paper(options);
     progress.wipe();
+    require_same(folder);
     write_results(results, directory);
     const std::string no_figures_because = stop ? "the study was interrupted" : draw(results, directory);
     write_report(results, directory, versions(), no_figures_because);

@@ -51,13 +51,14 @@ std::vector<std::string> parsed_fields(const std::string& text, const SolutionRe
 
 ExitCode plot(const PlotArguments& arguments) {
   PictureOptions options{.formats = parsed_formats(arguments.formats), .film = !arguments.no_film};
+  require_recovered(arguments.directory);
   const RunFiles run = read_run(arguments.directory);
   const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
   if (!std::filesystem::exists(run.directory / "solution.h5"))
     throw Error("{} is no directory of a finished run: it has no solution.h5", run.directory.string());
   if (!arguments.film_fields.empty())
     options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.directory / "solution.h5"));
-  const FolderLock lock(run.directory);
+  const FolderLock lock{Folder(run.directory)};
   require_own_report(run.directory);
   try {
     const RunPictures pictures = draw_run(run, history, options);

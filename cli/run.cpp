@@ -1,5 +1,6 @@
 // seiche run: one case, one method, and the files that a run leaves.
 #include "command_line.hpp"
+#include "last_words.hpp"
 #include "load_case.hpp"
 #include "run_ensemble.hpp"
 #include "stop_signal.hpp"
@@ -14,8 +15,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/figure/run_report.hpp>
+#include <seiche/output/atomic_file.hpp>
 #include <seiche/output/energy_trace.hpp>
-#include <seiche/output/final_state.hpp>
 #include <seiche/output/folder_lock.hpp>
 #include <seiche/output/progress.hpp>
 #include <seiche/output/run_folder.hpp>
@@ -33,6 +34,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 
 namespace seiche::cli {
 namespace {
@@ -42,6 +44,7 @@ struct RunArguments {
   std::string directory;
   bool directory_given = false;
   int threads = 1;
+  bool restart = false;
   bool json = false;
   bool quiet = false;
 };
@@ -98,14 +101,40 @@ void write_page(const std::filesystem::path& directory, bool ledger) {
   write_run_report(read_run(directory), history, {});
 }
 
-// A summary that does not tell of the failure must not stay: where there is no room for another one, there is none.
-void write_failure(const std::filesystem::path& path, const RunIdentity& identity, const RunReport& report) {
+// What no sample showed, the run has met.
+Certificate as_met(Certificate certificate, const RunReport& report) {
+  if (!certificate.law.promised || report.law != LawVerdict::not_promised) return certificate;
+  certificate.law = {.promised = false, .reason = report.law_reason};
+  certificate.theorem.clear();
+  return certificate;
+}
+
+// For ParaView and for people, unless a signal says that nobody waits for it. Returns why the page could not be
+// written, or "".
+std::string write_for_readers(const Folder& folder, const RunSpec& spec, const SolutionFile& solution,
+                              const std::atomic<bool>& leave) {
+  if (!folder.has_lock()) return "";  // the run has said so
   try {
-    write_summary(path, identity, report);
-  } catch (const Error&) {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
+    solution.describe(&leave);
+  } catch (const Error& error) {
+    print_note(fmt::format("there is no solution.xdmf, and ParaView cannot open the solution: {}", error.what()));
   }
+  if (!folder.is_at_its_path()) {
+    print_note(fmt::format(
+        "there is no report.html, since {} leads to another folder by now; the files are where it led to at the start",
+        folder.path().string()));
+    return "";
+  }
+  if (leave) {
+    print_note("stopped before solution.xdmf and report.html were complete; everything else is there");
+    return "";
+  }
+  try {
+    if (spec.report) write_page(folder.path(), spec.ledger);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
 }
 
 ExitCode run(const RunArguments& arguments) {
@@ -114,7 +143,10 @@ ExitCode run(const RunArguments& arguments) {
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
   if (arguments.directory_given) spec.output_directory = arguments.directory;
   if (spec.ensemble) {
-    return run_ensemble_case(spec, {.threads = arguments.threads, .json = arguments.json, .quiet = arguments.quiet});
+    return run_ensemble_case(spec, {.threads = arguments.threads,
+                                    .restart = arguments.restart,
+                                    .json = arguments.json,
+                                    .quiet = arguments.quiet});
   }
   const std::filesystem::path directory = spec.output_directory;
   const std::filesystem::path wisdom = directory / "fftw_wisdom";
@@ -135,56 +167,63 @@ ExitCode run(const RunArguments& arguments) {
                                               .t_end = spec.t_end,
                                               .sample_solution = false,
                                               .at_start = &simulation});
-  const LawPromise& law = certificate.law;
+  const LawPromise law = certificate.law;
   const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
   const std::vector<std::string> said_before = notes(spec, problem);
   if (!arguments.quiet) print_notes(said_before);
 
   make_directory(directory);
-  const FolderLock lock(directory);
+  const Folder folder(directory);
+  const FolderLock lock(folder);
   require_own_files(directory, RunKind::run, spec.report);
+  if (!arguments.restart) require_finished(directory);
   remove_earlier_results(directory);
   remove_own_report(directory);
   remove_pictures(directory);
-  write_file(directory / "case.toml", write_case(spec));
-  if (spec.measure_plans) write_file(wisdom, planning_wisdom());
+  write_file(folder, "case.toml", write_case(spec));
+  if (spec.measure_plans) write_file(folder, wisdom.filename().string(), planning_wisdom());
   const bool modified = simulation.stepper().has_modified_energy();
-  EnergyTrace trace(directory / "energy.csv", modified, {.every_steps = spec.energy_every}, spec.ledger);
-  if (spec.ledger) simulation.stepper().keep_ledger();
-  SolutionFile solution(directory, simulation.problem(), *simulation.system().space,
-                        {.schedule = {.every_steps = spec.snapshot_every}, .interval = spec.snapshot_interval},
-                        modified, description(spec, simulation));
-  Progress progress(stderr, spec.t_end);
-  std::vector<Observer*> observers = {&trace, &solution};
-  if (ProgressBar::is_wanted(arguments.quiet)) observers.push_back(&progress);
-
-  RunReport report = integrate(simulation, spec, law, stop, observers);
-  if (law.promised && report.law == LawVerdict::not_promised) {  // what no sample showed, the run has met
-    certificate.law = {.promised = false, .reason = report.law_reason};
-    certificate.theorem.clear();
-  }
-  const RunIdentity identity{.problem = problem.name,
-                             .method = spec.method,
-                             .backend = simulation.backend(),
-                             .h = spec.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec.h,
-                             .tolerance = spec.tolerance,
-                             .certificate = certificate_json(certificate),
-                             .versions = versions()};
-  const auto with_notes = [&] {
+  const RunIdentity about{.problem = problem.name,
+                          .method = spec.method,
+                          .backend = simulation.backend(),
+                          .h = spec.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec.h,
+                          .tolerance = spec.tolerance,
+                          .versions = versions()};
+  const auto with_notes = [&](const RunReport& report) {
     RunReport all = report;
     for (const std::string& note : said_before) all.message += "; " + note;
     return all;
   };
-  try {
-    write_final_state(directory / "final.txt", simulation.physical());
-    write_summary(directory / "summary.json", identity, with_notes());
-    if (spec.report) write_page(directory, spec.ledger);
-  } catch (const Error& error) {  // not the user's mistake any more: the directory was writable at the start
+  const auto summary = [&](const RunReport& report) {
+    RunIdentity identity = about;
+    identity.certificate = certificate_json(as_met(certificate, report));
+    return summary_json(identity, with_notes(report));
+  };
+  LastWords last_words(folder, simulation, summary);
+  EnergyTrace trace(folder, modified, {.every_steps = spec.energy_every}, spec.ledger);
+  if (spec.ledger) simulation.stepper().keep_ledger();
+  SolutionFile solution(folder, simulation.problem(), *simulation.system().space,
+                        {.schedule = {.every_steps = spec.snapshot_every}, .interval = spec.snapshot_interval},
+                        modified, description(spec, simulation));
+  solution.before_writing([&] { trace.flush(); });
+  Progress progress(stderr, spec.t_end);
+  const std::atomic<bool>* leave = nullptr;
+  AtTheEnd hold([&](const RunReport&) { leave = &hold_signals(); });
+  AtTheEnd words([&](const RunReport& report) { last_words.write(report); });
+  std::vector<Observer*> observers = {&hold, &trace, &words, &solution};
+  if (ProgressBar::is_wanted(arguments.quiet)) observers.push_back(&progress);
+
+  RunReport report = integrate(simulation, spec, law, stop, observers);
+  certificate = as_met(std::move(certificate), report);
+  last_words.correct(report);
+  // From here on nothing is lost: it can all be had again from the files that are there.
+  const std::string page_failure = write_for_readers(folder, spec, solution, *leave);
+  if (!page_failure.empty()) {
     report.status = RunReport::Status::failed;
-    report.message += fmt::format("; {}", error.what());
-    write_failure(directory / "summary.json", identity, with_notes());
+    report.message += "; " + page_failure;
+    last_words.correct(report);
   }
-  if (arguments.json) print_data(summary_json(identity, with_notes()));
+  if (arguments.json) print_data(summary(report));
   if (!arguments.quiet) {
     print_lines(report.full());  // the notes stand above it already
     if (law.promised && report.law != LawVerdict::not_promised)
@@ -197,7 +236,7 @@ ExitCode run(const RunArguments& arguments) {
                              report.steps, report.replaced.count == 1 ? "was" : "were"));
   } else if (report.status == RunReport::Status::failed || report.law == LawVerdict::violated ||
              !report.remarks().empty()) {
-    print_note(with_notes().message);
+    print_note(with_notes(report).message);
   } else if (const std::string negative = negative_rate(simulation.problem()); !negative.empty() && !problem.friction) {
     // mostly a sign typed wrong; of friction it may be the point
     print_note(fmt::format("{}: it feeds energy, and no energy law is promised", negative));
@@ -220,6 +259,8 @@ void add_run(CLI::App& app, Action& action) {
                    "Threads, over a large grid or the members of an ensemble; results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 65536));
+  command->add_flag("--restart", arguments->restart,
+                    "Begin anew where the folder holds a run that did not finish, which is removed");
   command->add_flag("--json", arguments->json, "Print summary.json on stdout");
   command->add_flag("--quiet", arguments->quiet, "No progress bar, and a word only when something went wrong");
   command->callback([arguments, out, &action] {

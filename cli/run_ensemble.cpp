@@ -15,6 +15,7 @@
 #include <seiche/output/csv_row.hpp>
 #include <seiche/output/csv_text.hpp>
 #include <seiche/output/folder_lock.hpp>
+#include <seiche/output/reserve_file.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/study/certificate.hpp>
 
@@ -33,7 +34,7 @@ namespace fs = std::filesystem;
 // energy.csv, row by row as the run goes on.
 class StatisticsFile {
  public:
-  StatisticsFile(const fs::path& path, bool has_modified) : file_(path), has_modified_(has_modified) {
+  StatisticsFile(const Folder& folder, bool has_modified) : file_(folder, "energy.csv"), has_modified_(has_modified) {
     std::string header = "t,members";
     for (const char* of : {"H", "H_modified"}) {
       if (std::string_view(of) == "H_modified" && !has_modified) continue;
@@ -52,8 +53,10 @@ class StatisticsFile {
     add(record.H);
     if (has_modified_) add(record.modified);
     file_.write(row_.line());
+    file_.flush();  // records are far apart
+    file_.keep_lines();
   }
-  void commit() { file_.commit(); }
+  void commit() { file_.commit_lines(); }
 
   // Of members whose energy was a number; without any, statistics of nothing.
   const EnsembleRecord& first() const { return first_; }
@@ -74,8 +77,8 @@ std::string energy_columns(const EnergySummary& e) {
   return fmt::format(",{:.17g},{:.17g},{:.17g}", e.initial, e.final, e.max_increase);
 }
 
-void write_members(const fs::path& path, const Members& members, const EnsembleResult& result, bool has_modified) {
-  AtomicFile file(path);
+void write_members(const Folder& folder, const Members& members, const EnsembleResult& result, bool has_modified) {
+  AtomicFile file(folder, "members.csv");
   std::string header = "member";
   for (const std::string& name : members.parameters) header += "," + name;
   header += ",status,steps,t,H_initial,H_final,max_increase";
@@ -97,8 +100,8 @@ void write_members(const fs::path& path, const Members& members, const EnsembleR
 }
 
 // One row for each member that started: its last good state.
-void write_finals(const fs::path& path, const Problem& problem, const EnsembleResult& result) {
-  AtomicFile file(path);
+void write_finals(const Folder& folder, const Problem& problem, const EnsembleResult& result) {
+  AtomicFile file(folder, "finals.csv");
   std::string header = "member";
   for (const std::string& field : problem.fields)
     for (Index j = 1; j <= problem.grid.unknowns(); ++j) header += fmt::format(",{}_{}", field, j);
@@ -288,13 +291,16 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
   const fs::path directory = spec.output_directory;
   const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
   make_directory(directory);
-  const FolderLock lock(directory);
+  const Folder folder(directory);
+  const FolderLock lock(folder);
   require_own_files(directory, RunKind::ensemble, false);
+  if (!options.restart) require_finished(directory);
   remove_earlier_results(directory);
   remove_own_report(directory);
   remove_pictures(directory);
-  write_file(directory / "case.toml", write_case(spec));
-  StatisticsFile energies(directory / "energy.csv", has_modified);
+  write_file(folder, "case.toml", write_case(spec));
+  ReserveFile reserve(folder, 2 * ReserveFile::of_a_summary);
+  StatisticsFile energies(folder, has_modified);
   EnsembleResult result;
   try {
     result = run_ensemble(members.list,
@@ -322,13 +328,15 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
       outcome.fail_to_write(error.what());
     }
   };
+  hold_signals();
   attempt([&] { energies.commit(); });
-  attempt([&] { write_members(directory / "members.csv", members, result, has_modified); });
-  attempt([&] { write_finals(directory / "finals.csv", problem, result); });
+  attempt([&] { write_members(folder, members, result, has_modified); });
+  attempt([&] { write_finals(folder, problem, result); });
   const std::string backend =
       spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
   const auto summarised = [&] { return summary(spec, backend, result, outcome, energies, has_modified, certificate); };
-  attempt([&] { write_file(directory / "summary.json", summarised()); });
+  reserve.release();
+  attempt([&] { write_file(folder, "summary.json", summarised()); });
   const std::string json = summarised();
 
   if (options.json) print_data(json);

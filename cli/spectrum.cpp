@@ -6,6 +6,7 @@
 #include <seiche/figure/spectrum_pictures.hpp>
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/output/folder_lock.hpp>
+#include <seiche/output/run_folder.hpp>
 #include <seiche/study/spectrum.hpp>
 
 #include <memory>
@@ -38,7 +39,8 @@ ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
   std::optional<FolderLock> lock;
   if (arguments.directory_given) {
     make_directory(directory);
-    lock.emplace(directory);
+    lock.emplace(Folder(directory));
+    require_finished(directory);
   }
   const Spectrum result = spectrum(problem, options, spec.h);
   print_data(arguments.json ? spectrum_json(result) : spectrum_table(result));

@@ -5,12 +5,17 @@
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
+#include <seiche/output/folder_lock.hpp>
 #include <seiche/output/progress.hpp>
+#include <seiche/output/reserve_file.hpp>
 #include <seiche/output/summary.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
+#include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -79,15 +84,106 @@ TEST_F(Output, AnUnwritablePlaceIsNamedWithTheReason) {
   EXPECT_THAT(error_of([&] { AtomicFile file(directory / "none" / "x"); }), HasSubstr(std::strerror(ENOENT)));
 }
 
+// As the largest size that files may have.
+class SmallDisk {
+ public:
+  explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit now{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &now);
+  }
+  ~SmallDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
 TEST_F(Output, AFullDiskIsAnErrorAndNotSilence) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
-  fs::create_symlink("/dev/full", directory / "x.partial");
+  const SmallDisk disk(2);
   const std::string message = error_of([&] {
     AtomicFile file(directory / "x");
     file.write("text");
     file.commit();
   });
-  EXPECT_THAT(message, HasSubstr(std::strerror(ENOSPC)));
+  EXPECT_THAT(message, HasSubstr(std::strerror(EFBIG)));
+  EXPECT_TRUE(fs::is_empty(directory));
+}
+
+TEST_F(Output, OfATableTheLinesThatHadRoomStay) {
+  const SmallDisk disk(8);
+  AtomicFile file(directory / "x");
+  file.write("one\ntwo\nthree\n");
+  EXPECT_THAT(error_of([&] { file.commit_lines(); }), HasSubstr(std::strerror(EFBIG)));
+  EXPECT_EQ(text("x"), "one\ntwo\n");
+}
+
+TEST_F(Output, LinksThatWaitUnderTemporaryNamesAreNotFollowed) {
+  write_file(directory / "victim", "precious");
+  fs::create_symlink(directory / "victim", directory / "x.partial");
+  write_file(directory / "x", "new");
+  EXPECT_EQ(text("victim"), "precious");
+  EXPECT_EQ(text("x"), "new");
+  EXPECT_FALSE(fs::is_symlink(directory / "x"));
+}
+
+TEST_F(Output, AFileThatWasReplacedMeanwhileIsNotTakenForOurs) {
+  AtomicFile file(directory / "x");
+  file.write("ours");
+  fs::remove(directory / "x.partial");
+  std::ofstream(directory / "x.partial") << "theirs";
+  EXPECT_THAT(error_of([&] { file.commit(); }), HasSubstr("removed or replaced"));
+  EXPECT_FALSE(fs::exists(directory / "x"));
+  EXPECT_EQ(text("x.partial"), "theirs");
+}
+
+TEST_F(Output, AFolderThatIsReplacedIsLeftAlone) {
+  const fs::path run = directory / "run", other = directory / "other";
+  for (const fs::path& made : {run, other}) fs::create_directory(made);
+  const Folder folder(run);
+  const FolderLock lock(folder);
+  AtomicFile begun(folder, "table");
+  begun.write("ours");
+  EXPECT_TRUE(folder.is_at_its_path());
+  fs::rename(run, directory / "moved");
+  fs::create_directory_symlink(other, run);
+  EXPECT_FALSE(folder.is_at_its_path());
+  begun.commit();
+  write_file(folder, "last", "words");
+  EXPECT_TRUE(fs::is_empty(other));
+  EXPECT_EQ(text("moved/table"), "ours");
+  EXPECT_EQ(text("moved/last"), "words");
+}
+
+TEST_F(Output, WhereTheLockIsGoneNothingGetsAName) {
+  const Folder folder(directory);
+  const FolderLock lock(folder);
+  AtomicFile begun(folder, "table");
+  fs::remove(directory / ".seiche.lock");
+  const FolderLock of_another_run{Folder(directory)};
+  write_file(directory / "last", "of the other");
+  EXPECT_THAT(error_of([&] { begun.commit(); }), HasSubstr("its names may be those of another run"));
+  EXPECT_THAT(error_of([&] { write_file(folder, "last", "of the first"); }), HasSubstr(directory.string()));
+  EXPECT_EQ(text("last"), "of the other");
+  EXPECT_TRUE(fs::exists(directory / ".seiche.lock"));
+}
+
+TEST_F(Output, TheReserveIsRoomOnTheDiskUntilItIsGivenBack) {
+  const auto used = [&] {
+    struct stat status = {};
+    return ::stat((directory / ".seiche.reserve").c_str(), &status) == 0 ? status.st_blocks * 512 : 0;
+  };
+  {
+    ReserveFile reserve(Folder(directory), 1 << 20);
+    if (used() < 1 << 20) GTEST_SKIP() << "this file system sets no room aside";
+    reserve.release_most();
+    EXPECT_LE(used(), 1 << 16);
+    EXPECT_GE(used(), 1 << 15);
+  }
+  EXPECT_TRUE(fs::is_empty(directory));
 }
 
 // As on a file system that tells only then that there was no room.
@@ -105,7 +201,7 @@ TEST_F(Output, AFileThatCannotBeClosedIsNotThere) {
 
 TEST_F(Output, TheFinalStateReadsBackToTheLastBit) {
   const Vector values = Eigen::Map<const Vector>(awkward.data(), static_cast<Index>(awkward.size()));
-  write_final_state(directory / "final.txt", values);
+  write_final_state(Folder(directory), values);
   const std::vector<std::string> read = lines("final.txt");
   ASSERT_EQ(read.size(), awkward.size());
   for (std::size_t i = 0; i < awkward.size(); ++i) {
@@ -116,7 +212,7 @@ TEST_F(Output, TheFinalStateReadsBackToTheLastBit) {
 
 TEST_F(Output, TheEnergyTraceHasAColumnForTheModifiedEnergyOnlyWhereThereIsOne) {
   for (const bool modified : {false, true}) {
-    EnergyTrace trace(directory / "energy.csv", modified);
+    EnergyTrace trace(Folder(directory), modified);
     const State state{.z = {}, .t = 0.25, .n = 1};
     trace.observe(state, {.H = 0.1, .modified = 1.0 / 3});
     trace.finish({});

@@ -15,6 +15,8 @@
 #include <seiche/problem/truss.hpp>
 #include <seiche/study/audit.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
@@ -46,9 +48,11 @@ class Solution : public test::InTemporaryDirectory {
   // Value i of time k is 1000 k + i.
   void write(const Problem& problem, Index times, double interval = 0) const {
     const HalvingSpace space(problem.size());
-    SolutionFile solution(directory, problem, space, {.interval = interval}, true, {.meanings = {"displacement"}});
+    SolutionFile solution(Folder(directory), problem, space, {.interval = interval}, true,
+                          {.meanings = {"displacement"}});
     for (Index k = 0; k < times; ++k) observe(solution, problem, k);
     solution.finish({});
+    solution.describe();
   }
   static void observe(SolutionFile& solution, const Problem& problem, Index k) {
     const Vector values = Vector::LinSpaced(problem.size(), 0, static_cast<double>(problem.size() - 1));
@@ -153,7 +157,7 @@ TEST_F(Solution, MemoryDoesNotGrowWithTheRun) {
   if (!fs::exists("/proc/self/statm")) GTEST_SKIP() << "this system does not tell how much memory a program uses";
   const Problem problem = klein_gordon({.grid = {.points = {2048}, .length = {2.0}}});
   const HalvingSpace space(problem.size());
-  SolutionFile solution(directory, problem, space, {}, false);
+  SolutionFile solution(Folder(directory), problem, space, {}, false);
   for (Index k = 0; k < 200; ++k) observe(solution, problem, k);
   const long before = resident_pages();
   for (Index k = 200; k < 4200; ++k) observe(solution, problem, k);  // 131 MB of doubles
@@ -167,20 +171,23 @@ TEST_F(Solution, MemoryDoesNotGrowWithTheRun) {
 TEST_F(Solution, IsThereWholeOrNotAtAll) {
   const Problem problem = oscillator({});
   const HalvingSpace space(problem.size());
+  { const SolutionFile solution(Folder(directory), problem, space, {}, false); }
+  EXPECT_TRUE(fs::is_empty(directory)) << "nothing is left of a run without a row";
   {
-    SolutionFile solution(directory, problem, space, {}, false);
+    SolutionFile solution(Folder(directory), problem, space, {}, false);
     observe(solution, problem, 0);
     EXPECT_FALSE(fs::exists(file()));
-    EXPECT_TRUE(fs::exists(file().string() + ".partial"));
   }
-  EXPECT_TRUE(fs::is_empty(directory)) << "nothing is left of a run that never finished";
+  EXPECT_FALSE(fs::exists(file()));
+  EXPECT_EQ(SolutionReader(file().string() + ".partial").count(), 1) << "of one with a row everything";
   {
-    SolutionFile solution(directory, problem, space, {}, false);
+    SolutionFile solution(Folder(directory), problem, space, {}, false);
     observe(solution, problem, 0);
     RunReport report;
     report.status = RunReport::Status::interrupted;
     report.message = "stopped";
     solution.finish(report);
+    solution.describe();
   }
   EXPECT_EQ(SolutionReader(file()).text("status"), "interrupted");
   EXPECT_EQ(SolutionReader(file()).text("message"), "stopped");
@@ -190,7 +197,7 @@ TEST_F(Solution, IsThereWholeOrNotAtAll) {
 TEST_F(Solution, WhatWasComputedIsReadableBeforeTheEnd) {
   const Problem problem = klein_gordon({.grid = {.points = {2048}, .length = {2.0}}});
   const HalvingSpace space(problem.size());
-  SolutionFile solution(directory, problem, space, {}, false);
+  SolutionFile solution(Folder(directory), problem, space, {}, false);
   for (Index k = 0; k < 100; ++k) observe(solution, problem, k);
   fs::copy(file().string() + ".partial", directory / "killed.h5");  // as a program leaves it that is killed now
   const SolutionReader left(directory / "killed.h5");
@@ -198,10 +205,71 @@ TEST_F(Solution, WhatWasComputedIsReadableBeforeTheEnd) {
   EXPECT_EQ(left.text("status"), "unfinished");
 }
 
+// Half a chunk, more of it, all of it, and one that is full at once.
+TEST_F(Solution, AChunkThatIsWrittenBeforeItIsFullStaysWhereItIs) {
+  constexpr std::uint64_t rows = 512, values = 64;
+  std::vector<double> all(2 * rows * values);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::sin(static_cast<double>(i));
+  const Folder folder(directory);
+  PartialPath path(folder, "x.h5");
+  Hdf5File h5 = Hdf5File::create(path.open(), path.temporary());
+  {
+    Hdf5Dataset u = h5.make_dataset("u", {.row = {values}, .chunk = {rows, values}});
+    h5.flush();
+    std::vector<std::uintmax_t> sizes;
+    for (const std::uint64_t count : {std::uint64_t{7}, rows / 2, rows}) {
+      u.write_in_place(0, {all.data(), count * values});
+      h5.flush();
+      sizes.push_back(fs::file_size(path.temporary()));
+      const Hdf5File read = Hdf5File::open(path.temporary());
+      std::vector<double> back(count * values);
+      read.dataset("u").read(0, back);
+      EXPECT_TRUE(std::equal(back.begin(), back.end(), all.begin())) << count;
+    }
+    EXPECT_EQ(sizes.front(), sizes.back());
+    u.append(std::span(all).subspan(rows * values));
+  }
+  h5.close();
+  std::vector<double> back(all.size());
+  Hdf5File::open(path.temporary()).dataset("u").read(0, back);
+  EXPECT_EQ(back, all);
+}
+
+// As a program leaves it that is killed between two of them.
+TEST_F(Solution, AReaderCountsTheTimesForWhichAllIsThere) {
+  write(klein_gordon({.grid = {.points = {8}, .length = {2.0}}}), 6);
+  const Folder folder(directory);
+  {
+    Hdf5File h5 = Hdf5File::open_to_write(folder, "solution.h5");
+    h5.dataset("t").cut(5);
+    h5.dataset("v").cut(4);
+    set_attribute(h5.id(), "status", "unfinished");
+  }
+  {
+    const SolutionReader left(file());
+    EXPECT_EQ(left.times(), (std::vector<double>{0, 0.5, 1, 1.5}));
+    EXPECT_EQ(left.energies().size(), 4U);
+    EXPECT_EQ(left.surplus(), 1 + 2 + 2 + 2 * 8U);
+  }
+  cut_solution(folder, "solution.h5");
+  {
+    const SolutionReader cut(file());
+    EXPECT_EQ(cut.surplus(), 0U);
+    Vector values;
+    cut.state(3, values);
+    EXPECT_EQ(values, Vector::LinSpaced(16, 3000, 3015));
+  }
+  Hdf5File h5 = Hdf5File::open_to_write(folder, "solution.h5");
+  h5.dataset("v").cut(2);
+  set_attribute(h5.id(), "status", "success");
+  h5.close();
+  EXPECT_THAT(error_of([&] { SolutionReader damaged(file()); }), HasSubstr("is damaged"));
+}
+
 TEST_F(Solution, AsksForItsTimesWithAnInterval) {
   const Problem problem = oscillator({});
   const HalvingSpace space(problem.size());
-  SolutionFile solution(directory, problem, space, {.schedule = {.every_steps = 1}, .interval = 0.25}, false);
+  SolutionFile solution(Folder(directory), problem, space, {.schedule = {.every_steps = 1}, .interval = 0.25}, false);
   EXPECT_TRUE(solution.is_due({.z = {}, .t = 0, .n = 0}, false));
   EXPECT_EQ(solution.next_time(), 0.25);
   observe(solution, problem, 1);  // t = ½
@@ -220,8 +288,8 @@ TEST_F(Solution, TheSameRunLeavesTheSameBytes) {
 TEST_F(Solution, WhatCannotBeWrittenOrReadIsSaidInOneSentence) {
   const Problem problem = oscillator({});
   const HalvingSpace space(problem.size());
-  EXPECT_THAT(error_of([&] { SolutionFile solution(directory / "none", problem, space, {}, false); }),
-              HasSubstr("none/solution.h5.partial: No such file or directory"));
+  EXPECT_THAT(error_of([&] { SolutionFile solution(Folder(directory / "none"), problem, space, {}, false); }),
+              HasSubstr("none: No such file or directory"));
   EXPECT_THAT(error_of([&] { SolutionReader solution(file()); }), HasSubstr("cannot read " + file().string()));
   std::ofstream(file()) << "no HDF5";
   EXPECT_THAT(error_of([&] { SolutionReader solution(file()); }), HasSubstr("cannot read " + file().string()));
@@ -277,6 +345,11 @@ TEST_F(Solution, AFullDiskEndsTheRunWithASentence) {
   EXPECT_THAT(text("stderr.txt"), HasSubstr("File too large"));
   EXPECT_THAT(text("stderr.txt"), Not(HasSubstr("HDF5"))) << "which says the same in a hundred lines";
   EXPECT_FALSE(fs::exists(directory / "out/solution.h5.partial"));
+  const SolutionReader left(directory / "out/solution.h5");
+  EXPECT_GT(left.count(), 60) << "of about a hundred rows that fit";
+  EXPECT_EQ(left.text("status"), "unfinished");
+  EXPECT_THAT(text("out/summary.json"), HasSubstr("\"status\": \"failed\""));
+  EXPECT_TRUE(fs::exists(directory / "out/final.txt"));
 }
 
 }  // namespace

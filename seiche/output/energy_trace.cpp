@@ -3,9 +3,14 @@
 #include <fmt/format.h>
 
 namespace seiche {
+namespace {
 
-EnergyTrace::EnergyTrace(const std::filesystem::path& path, bool has_modified_energy, Schedule schedule, bool ledger)
-    : file_(path), has_modified_energy_(has_modified_energy), has_ledger_(ledger), schedule_(schedule) {
+constexpr auto flush_at_least_every = std::chrono::seconds(5);
+
+}  // namespace
+
+EnergyTrace::EnergyTrace(const Folder& folder, bool has_modified_energy, Schedule schedule, bool ledger)
+    : file_(folder, "energy.csv"), has_modified_energy_(has_modified_energy), has_ledger_(ledger), schedule_(schedule) {
   std::string header = has_modified_energy ? "t,H,H_modified" : "t,H";
   if (ledger) {
     for (const LedgerPart& part : ledger_parts()) header += fmt::format(",{}", part.name);
@@ -21,6 +26,13 @@ void EnergyTrace::observe(const State& state, const EnergyReading& energy) {
   if (has_modified_energy_) row_.add(energy.modified);
   if (has_ledger_) add_ledger(energy);
   file_.write(row_.line());
+  file_.keep_lines();
+  if (std::chrono::steady_clock::now() - last_flush_ > flush_at_least_every) flush();
+}
+
+void EnergyTrace::flush() {
+  file_.flush();
+  last_flush_ = std::chrono::steady_clock::now();
 }
 
 void EnergyTrace::add_ledger(const EnergyReading& energy) {

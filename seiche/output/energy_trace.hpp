@@ -1,21 +1,24 @@
-// energy.csv: t, H and, for methods that have one, the modified energy at every due step; with a ledger also where the change
-// of H since the row before comes from (StepLedger), its last column what is left, round-off. Streamed, so that a long
-// run costs no memory.
+// energy.csv: t, H and, for methods that have one, the modified energy at every due step; with a ledger also where
+// the change of H since the row before comes from (StepLedger), its last column what is left, round-off. Streamed, so
+// that a long run costs no memory; on the disk after seconds, so that little is lost where a program is killed.
 #pragma once
 
 #include <seiche/core/observer.hpp>
 #include <seiche/output/atomic_file.hpp>
 #include <seiche/output/csv_row.hpp>
 
+#include <chrono>
+
 namespace seiche {
 
 class EnergyTrace : public Observer {
  public:
-  EnergyTrace(const std::filesystem::path& path, bool has_modified_energy, Schedule schedule = {}, bool ledger = false);
+  EnergyTrace(const Folder& folder, bool has_modified_energy, Schedule schedule = {}, bool ledger = false);
 
   bool is_due(const State& state, bool last) const override { return schedule_.is_due(state.n, last); }
   void observe(const State& state, const EnergyReading& energy) override;
   void finish(const RunReport& report) override;
+  void flush();
 
  private:
   void add_ledger(const EnergyReading& energy);
@@ -26,6 +29,7 @@ class EnergyTrace : public Observer {
   EnergyReading last_;  // shown
   bool is_first_ = true;
   CsvRow row_;
+  std::chrono::steady_clock::time_point last_flush_{};
 };
 
 }  // namespace seiche

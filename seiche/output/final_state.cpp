@@ -4,8 +4,8 @@
 
 namespace seiche {
 
-void write_final_state(const std::filesystem::path& path, const Vector& physical_values) {
-  AtomicFile file(path);
+void write_final_state(const Folder& folder, const Vector& physical_values) {
+  AtomicFile file(folder, "final.txt");
   CsvRow row;
   for (const double value : physical_values) {
     row.clear();

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <seiche/core/vector.hpp>
-
-#include <filesystem>
+#include <seiche/output/folder.hpp>
 
 namespace seiche {
 
-void write_final_state(const std::filesystem::path& path, const Vector& physical_values);
+void write_final_state(const Folder& folder, const Vector& physical_values);
 
 }  // namespace seiche

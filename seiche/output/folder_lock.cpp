@@ -1,9 +1,9 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/folder_lock.hpp>
+#include <seiche/output/folder_open.hpp>
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,35 +13,38 @@ namespace seiche {
 namespace {
 
 // Whoever held the lock before may have removed the file between our opening and locking it.
-bool is_still_there(int file, const std::filesystem::path& path) {
-  struct stat opened = {}, named = {};
-  return ::fstat(file, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
-         opened.st_ino == named.st_ino;
+bool is_still_there(int file, const Folder& folder) {
+  return FileIdentity(file) == FileIdentity(folder.descriptor(), lock_name);
 }
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& directory) : path_(directory / ".seiche.lock") {
+FolderLock::FolderLock(const Folder& folder) : folder_(folder) {
   for (;;) {
     // Not for the programs that draw: they would hold the lock as long as they live.
-    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) throw Error("cannot write {}: {}", path_.string(), std::strerror(errno));
-    if (::flock(file_, LOCK_EX | LOCK_NB) == 0) {
-      if (is_still_there(file_, path_)) return;
+    const int file = ::openat(folder.descriptor(), lock_name, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (file < 0) throw Error("cannot write {}: {}", (folder.path() / lock_name).string(), std::strerror(errno));
+    folder_.open_->lock = file;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) {
+      if (is_still_there(file, folder)) return;
     } else if (errno == EWOULDBLOCK) {
-      ::close(file_);
+      folder_.open_->lock = -1;
+      ::close(file);
       throw Error("another run is writing into {}: wait until it has ended, or give another folder",
-                  directory.string());
+                  folder.path().string());
     } else if (errno != EINTR) {
       return;
     }
-    ::close(file_);
+    ::close(file);
   }
 }
 
 FolderLock::~FolderLock() {
-  ::unlink(path_.c_str());  // while it is locked, so that no other one's file goes
-  ::close(file_);
+  const int file = folder_.open_->lock;
+  // While it is locked, so that no other one's file goes.
+  if (is_still_there(file, folder_)) ::unlinkat(folder_.descriptor(), lock_name, 0);
+  folder_.open_->lock = -1;
+  ::close(file);
 }
 
 }  // namespace seiche

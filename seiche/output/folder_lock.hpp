@@ -1,22 +1,21 @@
 // One writer at a time in a folder: a second run would mix its files with those of the first.
 #pragma once
 
-#include <filesystem>
+#include <seiche/output/folder.hpp>
 
 namespace seiche {
 
-// Held as long as the object lives, by flock on the file .seiche.lock, which goes with it. The system lets go of the lock of a
-// program that was killed. File systems without locks are not locked.
+// Held as long as the object lives, by flock on the file .seiche.lock, which goes with it. The system lets go of the
+// lock of a program that was killed. File systems without locks are not locked.
 class FolderLock {
  public:
-  explicit FolderLock(const std::filesystem::path& directory);  // throws Error where another one holds it
+  explicit FolderLock(const Folder& folder);  // throws Error where another one holds it
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  std::filesystem::path path_;
-  int file_ = -1;
+  Folder folder_;
 };
 
 }  // namespace seiche

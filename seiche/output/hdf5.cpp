@@ -1,10 +1,15 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/hdf5.hpp>
 #include <seiche/output/hdf5_calls.hpp>
+#include <seiche/output/hdf5_driver.hpp>
 
+#include <fcntl.h>
 #include <hdf5.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <functional>
 #include <numeric>
 #include <type_traits>
@@ -82,6 +87,31 @@ void Hdf5Dataset::append(std::span<const double> rows) {
   hdf5_check(H5Dwrite(id(), H5T_NATIVE_DOUBLE, memory.id(), place.id(), H5P_DEFAULT, rows.data()), what);
 }
 
+void Hdf5Dataset::write_in_place(std::uint64_t first, std::span<const double> rows) {
+  const Hdf5Quiet quiet;
+  const std::string what =
+      fmt::format("cannot write rows {} to {} of {}", first, first + rows.size() / row_size(), name_);
+  const Hdf5Handle options = hdf5_handle(H5Dget_create_plist(id()), H5Pclose, what);
+  std::vector<hsize_t> chunk(shape_.size());
+  hdf5_check(H5Pget_chunk(options.id(), static_cast<int>(chunk.size()), chunk.data()), what);
+  std::vector<double> whole(chunk[0] * row_size(), 0.0);
+  std::copy(rows.begin(), rows.end(), whole.begin());
+  shape_[0] = first + rows.size() / row_size();
+  hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), what);
+  std::vector<hsize_t> corner(shape_.size(), 0);
+  corner[0] = first;
+  constexpr std::uint32_t no_filter = 0xffffffff;
+  hdf5_check(H5Dwrite_chunk(id(), H5P_DEFAULT, no_filter, corner.data(), whole.size() * sizeof(double), whole.data()),
+             what);
+}
+
+void Hdf5Dataset::cut(std::uint64_t rows) {
+  const Hdf5Quiet quiet;
+  if (rows >= shape_[0]) return;
+  shape_[0] = rows;
+  hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), fmt::format("cannot cut {}", name_));
+}
+
 void Hdf5Dataset::read(std::uint64_t first, std::span<double> values) const {
   const Hdf5Quiet quiet;
   const std::uint64_t count = values.size() / std::max<std::uint64_t>(row_size(), 1);
@@ -97,13 +127,33 @@ void Hdf5Dataset::read(std::uint64_t first, std::span<double> values) const {
 Hdf5File::Hdf5File(std::filesystem::path path, Hdf5Handle handle)
     : path_(std::move(path)), handle_(std::move(handle)) {}
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path) {
-  const Hdf5Quiet quiet;
-  const Hdf5Handle options = hdf5_handle(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "HDF5 does not work");
+namespace {
+
+// What is the same for every new file.
+Hdf5Handle creation() {
+  Hdf5Handle options = hdf5_handle(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "HDF5 does not work");
+  H5Pset_obj_track_times(options.id(), false);  // the same run leaves the same bytes
   // NetCDF-4 lists what is in a file in this order.
   H5Pset_link_creation_order(options.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   H5Pset_attr_creation_order(options.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-  return Hdf5File(path, hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, options.id(), H5P_DEFAULT), H5Fclose,
+  // Attributes stay in the header, where one of them is changed by one write.
+  constexpr unsigned many = 64;
+  H5Pset_attr_phase_change(options.id(), many, many);
+  return options;
+}
+
+}  // namespace
+
+Hdf5File Hdf5File::create(const std::filesystem::path& path) {
+  const Hdf5Quiet quiet;
+  return Hdf5File(path, hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation().id(), H5P_DEFAULT), H5Fclose,
+                                    fmt::format("cannot write {}", path.string())));
+}
+
+Hdf5File Hdf5File::create(int file, const std::filesystem::path& path) {
+  const Hdf5Quiet quiet;
+  const Hdf5Handle access = ordered_file_access(file);
+  return Hdf5File(path, hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation().id(), access.id()), H5Fclose,
                                     fmt::format("cannot write {}", path.string())));
 }
 
@@ -113,10 +163,28 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
                                     fmt::format("cannot read {}", path.string())));
 }
 
+Hdf5File Hdf5File::open(const Folder& folder, const std::string& name, bool to_write) {
+  const Hdf5Quiet quiet;
+  const std::filesystem::path path = folder.path() / name;
+  const std::string what = fmt::format("cannot {} {}", to_write ? "write" : "read", path.string());
+  const int flags = (to_write ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW;
+  const int file = ::openat(folder.descriptor(), name.c_str(), flags);
+  if (file < 0) throw Error("{}: {}", what, std::strerror(errno));
+  const Hdf5Handle access = ordered_file_access(file);
+  const Hdf5Handle::Id opened = H5Fopen(path.c_str(), to_write ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id());
+  ::close(file);  // the driver has its own
+  return Hdf5File(path, hdf5_handle(opened, H5Fclose, what));
+}
+
+Hdf5File Hdf5File::open(const Folder& folder, const std::string& name) { return open(folder, name, false); }
+Hdf5File Hdf5File::open_to_write(const Folder& folder, const std::string& name) { return open(folder, name, true); }
+
 void Hdf5File::make_group(const std::string& name) {
   const Hdf5Quiet quiet;
-  hdf5_handle(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-              fmt::format("cannot make the group {} in {}", name, path_.string()));
+  const std::string what = fmt::format("cannot make the group {} in {}", name, path_.string());
+  const Hdf5Handle options = hdf5_handle(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, what);
+  H5Pset_obj_track_times(options.id(), false);
+  hdf5_handle(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, options.id(), H5P_DEFAULT), H5Gclose, what);
 }
 
 Hdf5Dataset Hdf5File::make_dataset(const std::string& name, const Hdf5Layout& layout) {
@@ -131,12 +199,14 @@ Hdf5Dataset Hdf5File::make_dataset(const std::string& name, const Hdf5Layout& la
       hdf5_handle(H5Screate_simple(static_cast<int>(size.size()), size.data(), most.data()), H5Sclose, what);
   const Hdf5Handle options = hdf5_handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
   hdf5_check(H5Pset_chunk(options.id(), static_cast<int>(layout.chunk.size()), sizes(layout.chunk).data()), what);
-  hdf5_check(H5Pset_shuffle(options.id()), what);
-  hdf5_check(H5Pset_deflate(options.id(), compression), what);
+  if (layout.compressed) {
+    hdf5_check(H5Pset_shuffle(options.id()), what);
+    hdf5_check(H5Pset_deflate(options.id(), compression), what);
+  }
   H5Pset_obj_track_times(options.id(), false);  // the same run leaves the same bytes
   H5Pset_attr_creation_order(options.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-  return {hdf5_handle(H5Dcreate2(id(), name.c_str(), layout.whole_numbers ? H5T_STD_I64LE : H5T_IEEE_F64LE, space.id(),
-                                 H5P_DEFAULT, options.id(), H5P_DEFAULT),
+  return {hdf5_handle(H5Dcreate2(id(), name.c_str(), layout.whole_numbers ? H5T_STD_I64LE : H5T_NATIVE_DOUBLE,
+                                 space.id(), H5P_DEFAULT, options.id(), H5P_DEFAULT),
                       H5Dclose, what),
           name};
 }
@@ -159,6 +229,7 @@ void Hdf5File::flush() {
 }
 
 void Hdf5File::close() {
+  flush();  // tells what a data set that was closed did not
   const Hdf5Quiet quiet;
   hdf5_check(handle_.close() ? 0 : -1, fmt::format("cannot write {}", path_.string()));
 }

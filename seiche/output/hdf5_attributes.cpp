@@ -1,6 +1,6 @@
-// Attributes, and the three of them by which a data set says what its axes are: CLASS and NAME of a scale, DIMENSION_LIST
-// of its users, REFERENCE_LIST back from the scale (HDF5 Dimension Scale Specification). They are written as the high-level
-// library of HDF5 does, which would be one more library for them alone.
+// Attributes, and the three of them by which a data set says what its axes are: CLASS and NAME of a scale,
+// DIMENSION_LIST of its users, REFERENCE_LIST back from the scale (HDF5 Dimension Scale Specification). They are
+// written as the high-level library of HDF5 does, which would be one more library for them alone.
 #include <seiche/output/hdf5.hpp>
 #include <seiche/output/hdf5_calls.hpp>
 
@@ -76,10 +76,14 @@ void set_users_of(const Hdf5Dataset& scale, const std::vector<Use>& uses) {
 
 void set_attribute(Hdf5Handle::Id object, const std::string& name, std::string_view text) {
   const Hdf5Quiet quiet;
-  if (H5Aexists(object, name.c_str()) > 0) H5Adelete(object, name.c_str());
   const std::string ended(text);
   const char* const value = ended.c_str();
-  write(object, name, text_type().id(), scalar(), static_cast<const void*>(&value));
+  const Hdf5Handle type = text_type();
+  if (H5Aexists(object, name.c_str()) <= 0)
+    return write(object, name, type.id(), scalar(), static_cast<const void*>(&value));
+  const std::string what = fmt::format("cannot write the attribute {}", name);
+  const Hdf5Handle attribute = hdf5_handle(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, what);
+  hdf5_check(H5Awrite(attribute.id(), type.id(), static_cast<const void*>(&value)), what);
 }
 
 std::string text_attribute(Hdf5Handle::Id object, const std::string& name) {

@@ -1,10 +1,16 @@
 #include <seiche/core/error.hpp>
+#include <seiche/output/reserve_file.hpp>
 #include <seiche/output/run_folder.hpp>
+#include <seiche/output/solution_reader.hpp>
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace seiche {
 namespace {
@@ -71,7 +77,65 @@ void require_own(const fs::path& path, bool (*is_ours)(const std::string&)) {
                 path.string());
 }
 
+std::string in_bytes(std::uintmax_t size) {
+  constexpr double kilo = 1e3, mega = 1e6;
+  const auto bytes = static_cast<double>(size);
+  if (bytes < kilo) return fmt::format("{} bytes", size);
+  return bytes < mega ? fmt::format("{:.1f} kB", bytes / kilo) : fmt::format("{:.1f} MB", bytes / mega);
+}
+
+bool holds_rows_of_text(const fs::path& path) {
+  const std::string text = beginning_of(path);
+  return std::count(text.begin(), text.end(), '\n') > 1;  // one is the header
+}
+
+// What cannot be read may hold something all the same; but without its first bytes a file has never had a row.
+bool holds_rows_of_solution(const fs::path& path) {
+  if (!is_hdf5(beginning_of(path))) return false;
+  try {
+    return SolutionReader(path).count() > 0;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
 }  // namespace
+
+std::string unfinished_files(const fs::path& directory) {
+  const auto holds_rows = [](const fs::path& path) {
+    std::error_code none;
+    if (!fs::is_regular_file(fs::symlink_status(path, none)) || fs::file_size(path, none) == 0) return false;
+    return path.stem() == "energy.csv" ? holds_rows_of_text(path) : holds_rows_of_solution(path);
+  };
+  std::vector<std::string> found;
+  for (const char* name : {"energy.csv.partial", "solution.h5.partial"})
+    if (const fs::path path = directory / name; holds_rows(path))
+      found.push_back(fmt::format("{} ({})", name, in_bytes(fs::file_size(path))));
+  return fmt::format("{}", fmt::join(found, " and "));
+}
+
+void require_finished(const fs::path& directory) {
+  const std::string files = unfinished_files(directory);
+  if (!files.empty())
+    throw Error(
+        "{0} holds a run that did not finish, {1}: `seiche recover {0}` makes it readable, `seiche run` with "
+        "--restart removes it and begins anew, and another folder keeps both",
+        directory.string(), files);
+  if (beginning_of(directory / "summary.json").starts_with("{\n  \"status\": \"unfinished\""))
+    throw Error(
+        "{} holds what `seiche recover` saved of a run that did not finish: take another folder, or "
+        "`seiche run` with --restart, which removes it and begins anew",
+        directory.string());
+}
+
+void require_recovered(const fs::path& directory) {
+  const std::string files = unfinished_files(directory);
+  if (!files.empty())
+    throw Error(
+        "{0} holds a run that is going on, or did not finish, {1}: in the latter case `seiche recover "
+        "{0}` makes it readable",
+        directory.string(), files);
+}
 
 void require_own_report(const fs::path& directory) { require_own(directory / "report.html", is_report); }
 
@@ -96,6 +160,7 @@ void remove_earlier_results(const fs::path& directory) {
     if (!is_foreign(path, file.is_ours)) fs::remove(path, ignored);
     fs::remove(path.string() + ".partial", ignored);  // of a run that was killed
   }
+  fs::remove(directory / reserve_name, ignored);
 }
 
 }  // namespace seiche

@@ -1,7 +1,10 @@
+#include <seiche/core/error.hpp>
 #include <seiche/output/solution_file.hpp>
 #include <seiche/output/xdmf.hpp>
 
 #include <fmt/ranges.h>
+
+#include <utility>
 
 namespace seiche {
 namespace {
@@ -14,12 +17,11 @@ std::string meaning_of(const SolutionDescription& description, std::size_t field
 
 }  // namespace
 
-SolutionFile::SolutionFile(const std::filesystem::path& directory, const Problem& problem, const Space& space,
-                           const SnapshotTimes& times, bool has_modified_energy, const SolutionDescription& description)
-    : path_(directory / "solution.h5"),
-      xdmf_(directory / "solution.xdmf"),
+SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
+                           bool has_modified_energy, const SolutionDescription& description)
+    : path_(folder, "solution.h5"),
       layout_(solution_layout(problem)),
-      file_(Hdf5File::create(path_.temporary())),
+      file_(Hdf5File::create(path_.open(), path_.temporary())),
       space_(space),
       times_(times),
       has_modified_(has_modified_energy),
@@ -29,9 +31,12 @@ SolutionFile::SolutionFile(const std::filesystem::path& directory, const Problem
   set_attribute(file_.id(), "Conventions", "CF-1.10");
   for (const auto& [name, text] : description.texts) set_attribute(file_.id(), name, text);
   set_attribute(file_.id(), "fields", fmt::format("{}", fmt::join(layout_.fields, " ")));
-  set_attribute(file_.id(), "status", "unfinished");
+  for (const auto& [name, value] : {std::pair("status", "unfinished"), {"message", ""}, {"energy_law", ""}})
+    set_attribute(file_.id(), name, value);
 
-  const Hdf5Layout per_time{.chunk = {1024}};
+  // Written again with more rows, these chunks keep their size and place, and whatever tells where they are stays as
+  // it is.
+  const Hdf5Layout per_time{.chunk = {1024}, .compressed = false};
   Hdf5Dataset t = make("t", "time", per_time);
   const std::vector<Hdf5Dataset> axes = make_axes();
   const Hdf5Layout per_field{.row = layout_.shape(), .chunk = layout_.chunk()};
@@ -135,7 +140,8 @@ void SolutionFile::observe(const State& state, const EnergyReading& energy) {
   if (has_modified_) add(columns_[fields + 1], {&energy.modified, 1});
   add(columns_.back(), {&state.t, 1});
   ++waiting_;
-  if (waiting_ >= most_waiting_ || std::chrono::steady_clock::now() - last_write_ > write_at_least_every) write_rows();
+  const bool is_time = std::chrono::steady_clock::now() - last_write_ > write_at_least_every;
+  if (waiting_ >= most_waiting_ || is_time) write_rows(false);
   broken_ = false;
 }
 
@@ -144,26 +150,62 @@ void SolutionFile::add(Column& column, std::span<const double> row) const {
   column.rows.insert(column.rows.end(), row.begin(), row.end());
 }
 
-void SolutionFile::write_rows() {
-  for (Column& column : columns_) {
-    column.data.append(column.rows);
-    column.rows.clear();
+// A chunk that is full at once is compressed. One that has to be written before it is full stays as it is, since HDF5
+// would let a longer one overwrite it before anything knows of that.
+void SolutionFile::write_rows(bool last) {
+  if (before_writing_) before_writing_();
+  const bool is_full = waiting_ == most_waiting_;
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    auto& [data, rows] = columns_[i];
+    const bool is_field = i < layout_.fields.size();
+    if (!is_field || (written_ == 0 && (is_full || last))) {
+      data.append(rows);
+    } else if (!rows.empty()) {
+      data.write_in_place(data.rows() - written_, rows);
+    }
+    if (!is_field || is_full) rows.clear();
   }
-  waiting_ = 0;
+  written_ = is_full ? 0 : waiting_;
+  if (is_full) waiting_ = 0;
   file_.flush();
+  path_.keep();
   last_write_ = std::chrono::steady_clock::now();
 }
 
-void SolutionFile::finish(const RunReport& report) {
-  if (broken_) return columns_.clear();  // the disk is full, and the run has said so
-  if (waiting_ > 0) write_rows();
-  set_attribute(file_.id(), "status", to_string(report.status));
+void SolutionFile::close(const RunReport& report) {
+  if (waiting_ > written_) write_rows(true);
   set_attribute(file_.id(), "message", report.message);
   set_attribute(file_.id(), "energy_law", to_string(report.law));
+  set_attribute(file_.id(), "status", to_string(report.status));
   columns_.clear();
   file_.close();
+}
+
+void SolutionFile::finish(const RunReport& report) {
+  std::string failure;
+  try {
+    if (!broken_) close(report);  // else the disk is full, and the run has said so
+  } catch (const Error& error) {
+    failure = error.what();
+  }
+  columns_.clear();
+  file_.abandon();
   path_.commit();
-  write_xdmf(xdmf_, path_.path(), layout_, has_modified_);
+  if (!failure.empty()) throw Error("{}", failure);
+}
+
+SolutionFile::~SolutionFile() {
+  try {
+    if (!broken_ && !columns_.empty() && waiting_ > written_) write_rows(true);
+  } catch (const std::exception&) {  // what is in the file stays
+    broken_ = true;
+  }
+  columns_.clear();
+  file_.abandon();
+}
+
+void SolutionFile::describe(const std::atomic<bool>* stop) const {
+  write_xdmf(path_.folder(), path_.path().filename().string(), layout_, has_modified_, stop);
 }
 
 }  // namespace seiche

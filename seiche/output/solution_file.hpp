@@ -1,5 +1,6 @@
-// solution.h5 and solution.xdmf: t, H and the fields on their grid at every due step. The first is an HDF5 file that NetCDF-4
-// readers such as xarray open with named dimensions and coordinates, the second tells ParaView what is in it.
+// solution.h5 and solution.xdmf: t, H and the fields on their grid at every due step. The first is an HDF5 file that
+// NetCDF-4 readers such as xarray open with named dimensions and coordinates, the second tells ParaView what is in
+// it.
 #pragma once
 
 #include <seiche/core/observer.hpp>
@@ -9,11 +10,14 @@
 #include <seiche/output/hdf5.hpp>
 #include <seiche/output/solution_layout.hpp>
 
+#include <atomic>
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace seiche {
@@ -29,21 +33,27 @@ struct SnapshotTimes {
   double interval = 0.0;  // > 0: at its multiples, and `schedule` counts for the first and the last state only
 };
 
-// Rows go to the disk chunk by chunk, and at least every few seconds: memory does not grow with the run, and a program that
-// is killed leaves a readable solution.h5.partial behind.
+// Rows go to the disk chunk by chunk, and at least every few seconds: memory does not grow with the run, and a
+// program that is killed leaves a readable solution.h5.partial behind. What is once in the file stays readable,
+// whatever fails later: then the file gets its name all the same, with the status "unfinished".
 class SolutionFile : public Observer {
  public:
-  // In `directory`, which exists. `space` outlives the observer. Throws Error where nothing can be written.
-  SolutionFile(const std::filesystem::path& directory, const Problem& problem, const Space& space,
-               const SnapshotTimes& times, bool has_modified_energy, const SolutionDescription& description = {});
+  // `space` outlives the observer. Throws Error where nothing can be written.
+  SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
+               bool has_modified_energy, const SolutionDescription& description = {});
+  ~SolutionFile() override;  // without finish, what was observed stays as solution.h5.partial
 
   bool is_due(const State& state, bool last) const override;
   double next_time() const override;
   void observe(const State& state, const EnergyReading& energy) override;
-  void finish(const RunReport& report) override;
+  void finish(const RunReport& report) override;  // solution.h5
+  // Called before rows go to the disk: what is written of the same run elsewhere goes first.
+  void before_writing(std::function<void()> call) { before_writing_ = std::move(call); }
+  // solution.xdmf, after finish, for which ParaView asks; not where `stop` is set meanwhile.
+  void describe(const std::atomic<bool>* stop = nullptr) const;
 
  private:
-  struct Column {  // a data set with its rows that are not yet written
+  struct Column {  // a data set with its rows that are not yet written, or whose chunk is not yet full
     Hdf5Dataset data;
     std::vector<double> rows;
   };
@@ -52,10 +62,10 @@ class SolutionFile : public Observer {
   void write_mesh();
   void write_bars();
   void add(Column& column, std::span<const double> row) const;
-  void write_rows();
+  void write_rows(bool last);
+  void close(const RunReport& report);
 
   PartialPath path_;
-  std::filesystem::path xdmf_;
   SolutionLayout layout_;
   Hdf5File file_;
   const Space& space_;
@@ -65,9 +75,11 @@ class SolutionFile : public Observer {
   std::vector<Column> columns_;  // the fields, H, H_modified if there is one, t
   bool has_modified_;
   bool broken_ = false;                     // a row could not be written
-  std::size_t waiting_ = 0, most_waiting_;  // rows
+  std::size_t waiting_ = 0, most_waiting_;  // rows of the chunk that is not yet full
+  std::size_t written_ = 0;                 // of them
   std::chrono::steady_clock::time_point last_write_;
   Vector values_;
+  std::function<void()> before_writing_;
 };
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/solution_reader.hpp>
 
+#include <algorithm>
 #include <iterator>
 #include <sstream>
 
@@ -10,6 +11,12 @@ namespace {
 std::vector<std::string> words(const std::string& text) {
   std::istringstream input(text);
   return {std::istream_iterator<std::string>(input), {}};
+}
+
+std::vector<double> all_of(const Hdf5Dataset& data) {
+  std::vector<double> values(data.rows() * data.row_size());
+  data.read(0, values);
+  return values;
 }
 
 }  // namespace
@@ -22,10 +29,14 @@ SolutionReader::SolutionReader(const std::filesystem::path& path)
   for (const std::string& name : fields_) {
     data_.push_back(file_.dataset(name));
     meanings_.push_back(text_attribute(data_.back().id(), "long_name"));
-    if (data_.back().rows() < t_.rows() || data_.back().shape() != data_.front().shape())
-      throw Error("{} is damaged: {} does not fit to t and {}", path.string(), name, fields_.front());
+    Hdf5Shape shape = data_.back().shape();
+    shape.front() = data_.front().rows();
+    if (shape != data_.front().shape())
+      throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
   }
   if (data_.empty()) throw Error("{} holds no field", path.string());
+  if (file_.has("H_modified")) modified_ = file_.dataset("H_modified");
+  count_times(path);
   const Hdf5Shape& shape = data_.front().shape();
   const bool numbered = file_.has("point");
   for (std::size_t a = 1; a < shape.size(); ++a) {
@@ -38,8 +49,33 @@ SolutionReader::SolutionReader(const std::filesystem::path& path)
   points_ = static_cast<Index>(data_.front().row_size());
 }
 
-std::vector<double> SolutionReader::all_of(const Hdf5Dataset& data) {
-  std::vector<double> values(data.rows() * data.row_size());
+// A program that was killed may have written more rows of some than of others: what counts is what all have.
+void SolutionReader::count_times(const std::filesystem::path& path) {
+  std::uint64_t least = std::min(t_.rows(), H_.rows());
+  if (modified_) least = std::min(least, modified_->rows());
+  for (const Hdf5Dataset& data : data_) least = std::min(least, data.rows());
+  const bool is_finished = text("status") != "unfinished";
+  const auto require_whole = [&](const Hdf5Dataset& data) {
+    if (is_finished && data.rows() != least)
+      throw Error("{} is damaged: {} has {} rows, and others have {}", path.string(), data.name(), data.rows(), least);
+  };
+  require_whole(t_);
+  require_whole(H_);
+  if (modified_) require_whole(*modified_);
+  for (const Hdf5Dataset& data : data_) require_whole(data);
+  count_ = static_cast<Index>(least);
+}
+
+std::uint64_t SolutionReader::surplus() const {
+  const auto least = static_cast<std::uint64_t>(count_);
+  std::uint64_t more = t_.rows() - least + (H_.rows() - least);
+  if (modified_) more += modified_->rows() - least;
+  for (const Hdf5Dataset& data : data_) more += (data.rows() - least) * data.row_size();
+  return more;
+}
+
+std::vector<double> SolutionReader::first_of(const Hdf5Dataset& data) const {
+  std::vector<double> values(static_cast<std::size_t>(count_));
   data.read(0, values);
   return values;
 }
@@ -86,6 +122,16 @@ void SolutionReader::field(Index field, Index k, Vector& values) const {
   values.resize(points_);
   data_[static_cast<std::size_t>(field)].read(static_cast<std::uint64_t>(k),
                                               {values.data(), static_cast<std::size_t>(points_)});
+}
+
+void cut_solution(const Folder& folder, const std::string& name) {
+  const SolutionReader solution(folder.path() / name);
+  std::vector<std::string> names = solution.fields();
+  names.insert(names.end(), {"H", "t"});
+  if (Hdf5File::open(folder, name).has("H_modified")) names.emplace_back("H_modified");
+  Hdf5File file = Hdf5File::open_to_write(folder, name);
+  for (const std::string& one : names) file.dataset(one).cut(static_cast<std::uint64_t>(solution.count()));
+  file.close();
 }
 
 }  // namespace seiche

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,11 @@ class SolutionReader {
   // Throws Error where the file cannot be read, or is no solution.
   explicit SolutionReader(const std::filesystem::path& path);
 
-  Index count() const { return static_cast<Index>(t_.rows()); }  // of times
-  std::vector<double> times() const { return all_of(t_); }
-  std::vector<double> energies() const { return all_of(H_); }
+  Index count() const { return count_; }  // of times for which everything is there
+  std::vector<double> times() const { return first_of(t_); }
+  std::vector<double> energies() const { return first_of(H_); }
+  // Values of an unfinished file that belong to no time, since others are missing for it; cut_solution takes them away.
+  std::uint64_t surplus() const;
   const std::vector<std::string>& fields() const { return fields_; }
   const std::string& meaning(Index field) const { return meanings_[static_cast<std::size_t>(field)]; }
   const std::vector<CoordinateAxis>& axes() const { return axes_; }  // of space; none for a single point
@@ -41,15 +44,21 @@ class SolutionReader {
   std::string text(const std::string& attribute) const { return text_attribute(file_.id(), attribute); }
 
  private:
-  static std::vector<double> all_of(const Hdf5Dataset& data);
+  void count_times(const std::filesystem::path& path);
+  std::vector<double> first_of(const Hdf5Dataset& data) const;  // as many as there are times
   std::vector<Place> places(const std::string& name) const;
 
   Hdf5File file_;
   Hdf5Dataset t_, H_;
+  std::optional<Hdf5Dataset> modified_;
   std::vector<std::string> fields_, meanings_;
   std::vector<Hdf5Dataset> data_;
   std::vector<CoordinateAxis> axes_;
   Index points_ = 1;
+  Index count_ = 0;
 };
+
+// So that readers that know nothing of this find the same number of rows everywhere.
+void cut_solution(const Folder& folder, const std::string& name);
 
 }  // namespace seiche

@@ -56,8 +56,8 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void write_summary(const std::filesystem::path& path, const RunIdentity& run, const RunReport& report) {
-  write_file(path, summary_json(run, report));
+void write_summary(const Folder& folder, const RunIdentity& run, const RunReport& report) {
+  write_file(folder, "summary.json", summary_json(run, report));
 }
 
 }  // namespace seiche

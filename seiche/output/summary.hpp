@@ -2,8 +2,8 @@
 #pragma once
 
 #include <seiche/core/run_report.hpp>
+#include <seiche/output/folder.hpp>
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,6 +22,6 @@ struct RunIdentity {
 
 // A number that is not finite becomes null, since JSON has no NaN; so does `modified` for a method that has none.
 std::string summary_json(const RunIdentity& run, const RunReport& report);
-void write_summary(const std::filesystem::path& path, const RunIdentity& run, const RunReport& report);
+void write_summary(const Folder& folder, const RunIdentity& run, const RunReport& report);
 
 }  // namespace seiche

@@ -72,18 +72,18 @@ std::string global(const std::string& file, const std::string& name, std::uint64
 
 }  // namespace
 
-void write_xdmf(const std::filesystem::path& path, const std::filesystem::path& solution, const SolutionLayout& layout,
-                bool has_modified_energy) {
-  const Hdf5File file = Hdf5File::open(solution);
+void write_xdmf(const Folder& folder, const std::string& name, const SolutionLayout& layout, bool has_modified_energy,
+                const std::atomic<bool>* stop) {
+  const Hdf5File file = Hdf5File::open(folder, name);
   const Hdf5Dataset t = file.dataset("t");
-  const std::string name = solution.filename().string();
   const std::string where = points(layout, name);
-  AtomicFile xdmf(path);
+  AtomicFile xdmf(folder, std::filesystem::path(name).stem().string() + ".xdmf");
   xdmf.write(
       "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
       "    <Grid Name=\"solution\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
   std::vector<double> times;
   for (std::uint64_t k = 0; k < t.rows(); ++k) {
+    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
     constexpr std::uint64_t block = 4096;
     if (k % block == 0) {
       times.resize(std::min(block, t.rows() - k));

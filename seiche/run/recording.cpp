@@ -178,6 +178,7 @@ void Recording::finish_observers() {
     } catch (const Error& error) {
       const bool first = report_.status == RunReport::Status::success;
       report_.status = RunReport::Status::failed;
+      if (report_.message.find(error.what()) != std::string::npos) continue;  // several files, one reason
       report_.message = first ? std::string(error.what()) : report_.message + "; " + error.what();
     }
   }

@@ -3,6 +3,7 @@
 #include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
+#include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/study/audit.hpp>
 #include <seiche/study/audit_book.hpp>
@@ -57,7 +58,7 @@ class Auditor {
     origin();
     times();
     final_state();
-    snapshots();
+    if (has_states()) snapshots();
     summary();
     law();
     ledger();
@@ -135,10 +136,17 @@ class Auditor {
               same ? "the case that it holds says the same" : "the case that it holds says something else");
   }
 
+  // Of a run that was killed the last state is the last in solution.h5, and energy.csv may go on behind it.
   void final_state() {
+    const std::string claim =
+        is_whole() ? "the last H is that of final.txt" : "the last H of solution.h5 is that of final.txt";
+    if (!has_states()) return book_.add(claim, Verdict::not_checked, "the run was killed before it left a state");
     const EnergyTerms end = energies_.of(read_initial_file(directory_ / "final.txt", problem_));
-    book_.compare("the last H is that of final.txt", end.sum(), H_.back(), std::max(round_off_, end.round_off()));
+    const double last = is_whole() ? H_.back() : SolutionReader(directory_ / "solution.h5").energies().back();
+    book_.compare(claim, end.sum(), last, std::max(round_off_, end.round_off()));
   }
+  bool is_whole() const { return summary_.value("status", Json()) != "unfinished"; }
+  bool has_states() const { return is_whole() || std::filesystem::exists(directory_ / "solution.h5"); }
 
   // H of every state in solution.h5 against the H beside it, and against energy.csv where that has the time too.
   void snapshots() {
@@ -273,6 +281,7 @@ bool Audit::confirms() const {
 
 Audit audit(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
+  require_recovered(directory);
   RunSpec spec = read_case(directory / "case.toml");
   return spec.ensemble ? audit_ensemble(directory, spec) : Auditor(directory, std::move(spec)).run();
 }

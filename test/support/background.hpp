@@ -48,6 +48,8 @@ class Background {
     return condition();
   }
 
+  void send(int signal) const { kill(child_, signal); }
+
   // Its exit code, or the signal that ended it with a minus; −1000 where it did not end for seconds, and was killed.
   int end(int signal) {
     kill(child_, signal);

@@ -9,5 +9,6 @@ namespace seiche::test {
 std::string source_directory();
 std::string test_data_directory();
 std::string program_path();
+std::string failing_writes_path();  // a library to be loaded before it (test/faults)
 
 }  // namespace seiche::test

@@ -1,0 +1,45 @@
+// What a run leaves first when its time loop has ended: the files that nobody could write again.
+#pragma once
+
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/observer.hpp>
+#include <seiche/output/reserve_file.hpp>
+
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace seiche::cli {
+
+// Observers finish in their order: this one does something then.
+class AtTheEnd : public Observer {
+ public:
+  explicit AtTheEnd(std::function<void(const RunReport&)> action) : action_(std::move(action)) {}
+  bool is_due(const State&, bool) const override { return false; }
+  void observe(const State&, const EnergyReading&) override {}
+  void finish(const RunReport& report) override { action_(report); }
+
+ private:
+  std::function<void(const RunReport&)> action_;
+};
+
+// final.txt and summary.json, with room kept for them where the disk is full.
+class LastWords {
+ public:
+  using Summary = std::function<std::string(const RunReport&)>;
+
+  LastWords(const Folder& folder, const Simulation& simulation, Summary summary);
+
+  void write(const RunReport& report);
+  // Once more where what came later has failed. A summary that does not tell of a failure must not stay.
+  void correct(const RunReport& report);
+
+ private:
+  Folder folder_;
+  const Simulation& simulation_;
+  Summary summary_;
+  ReserveFile reserve_;
+  std::string written_;
+};
+
+}  // namespace seiche::cli

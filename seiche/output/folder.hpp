@@ -1,0 +1,28 @@
+// A folder held open. What is written goes into the folder that was opened, wherever its path leads by then: a run
+// whose folder was removed, renamed or replaced by a link touches no file of another one.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+namespace seiche {
+
+class Folder {
+ public:
+  explicit Folder(const std::filesystem::path& path);  // throws Error where it is none, or cannot be opened
+
+  const std::filesystem::path& path() const;  // by which it was opened
+  int descriptor() const;
+  bool is_at_its_path() const;  // or does the path lead elsewhere by now?
+  // Throws Error where the folder is gone, or the lock that was taken in it (FolderLock) is no longer there: then
+  // another run may have taken the names.
+  void require_lock() const;
+  bool has_lock() const;  // false where that would throw
+
+ private:
+  friend class FolderLock;
+  struct Open;
+  std::shared_ptr<Open> open_;  // copies share it
+};
+
+}  // namespace seiche

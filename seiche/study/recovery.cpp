@@ -1,0 +1,193 @@
+#include <seiche/backend/backends.hpp>
+#include <seiche/config/case_file.hpp>
+#include <seiche/config/simulation.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/final_state.hpp>
+#include <seiche/output/reserve_file.hpp>
+#include <seiche/output/run_folder.hpp>
+#include <seiche/output/solution_reader.hpp>
+#include <seiche/output/summary.hpp>
+#include <seiche/output/xdmf.hpp>
+#include <seiche/study/csv_table.hpp>
+#include <seiche/study/recovery.hpp>
+#include <seiche/study/versions.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What energy.csv says about a run.
+struct Energies {
+  double first_t = 0, last_t = 0;
+  std::size_t rows = 0;
+  EnergySummary H, modified;
+  bool has_modified = false;
+};
+
+void follow(EnergySummary& summary, double value, std::size_t row) {
+  if (row == 0) summary = {.initial = value, .final = value, .max_increase = 0.0};
+  if (row > 0)
+    summary.max_increase =
+        std::max(row == 1 ? -std::numeric_limits<double>::infinity() : summary.max_increase, value - summary.final);
+  summary.final = value;
+}
+
+Energies read_energies(const fs::path& file) {
+  CsvReader reader(file);
+  Energies found;
+  found.has_modified = reader.names().size() > 2 && reader.names()[2] == "H_modified";
+  for (std::vector<double> row; reader.next(row); ++found.rows) {
+    if (found.rows == 0) found.first_t = row[0];
+    found.last_t = row[0];
+    follow(found.H, row[1], found.rows);
+    if (found.has_modified) follow(found.modified, row[2], found.rows);
+  }
+  return found;
+}
+
+class Rescue {
+ public:
+  explicit Rescue(const Folder& folder) : folder_(folder), directory_(folder.path()), spec_(read_case(case_file())) {}
+
+  Recovery run() {
+    tables();
+    if (spec_.ensemble) {
+      found_.lost.emplace_back("the members of the ensemble, whose files are written when all have ended");
+    } else {
+      solution();
+    }
+    if (has("energy.csv") && !has("summary.json")) summary();
+    // These can be had again, or are no longer needed.
+    for (const char* name :
+         {"solution.xdmf.partial", "report.html.partial", "summary.json.partial", "case.toml.partial", reserve_name})
+      remove_file(folder_, name);
+    if (unfinished_files(directory_).empty())  // without a row
+      for (const char* name : {"energy.csv.partial", "solution.h5.partial"}) remove_file(folder_, name);
+    if (has("final.txt")) remove_file(folder_, "final.txt.partial");
+    return found_;
+  }
+
+ private:
+  fs::path case_file() const {
+    if (!has("case.toml")) throw Error("{} holds no run: there is no case.toml in it", directory_.string());
+    return directory_ / "case.toml";
+  }
+  bool has(const char* name) const { return fs::is_regular_file(directory_ / name); }
+
+  void tables() {
+    if (!has("energy.csv.partial")) return;
+    const fs::path partial = directory_ / "energy.csv.partial";
+    const std::uintmax_t whole = end_of_lines(partial), all = fs::file_size(partial);
+    if (whole < all) {
+      fs::resize_file(partial, whole);
+      found_.lost.push_back(fmt::format("{} bytes of a last line of energy.csv that is not whole", all - whole));
+    }
+    std::size_t rows = 0;
+    if (whole > 0) {
+      CsvReader reader(partial);
+      for (std::vector<double> row; reader.next(row);) ++rows;
+    }
+    if (rows == 0) {
+      found_.lost.emplace_back("all of energy.csv, which has no row yet");
+      return;
+    }
+    PartialPath(folder_, "energy.csv").commit();
+    found_.saved.push_back(fmt::format("energy.csv, {} rows", rows));
+  }
+
+  void solution() {
+    if (has("solution.h5.partial") && unfinished_files(directory_).find("solution.h5") == std::string::npos) {
+      found_.lost.emplace_back("all of solution.h5, which has no row yet");
+    } else if (has("solution.h5.partial")) {
+      try {
+        rescue_solution();
+      } catch (const Error& error) {
+        found_.lost.push_back(fmt::format("solution.h5.partial, which is left as it is: {}", error.what()));
+      }
+    }
+    if (!has("solution.h5")) return;
+    const SolutionReader solution(directory_ / "solution.h5");
+    if (solution.count() == 0) return;
+    if (!has("final.txt")) {
+      Vector state;
+      solution.state(solution.count() - 1, state);
+      write_final_state(folder_, state);
+      found_.saved.push_back(fmt::format("final.txt, the state at t = {:.9g}, the last in solution.h5",
+                                         solution.time(solution.count() - 1)));
+    }
+    if (has("solution.xdmf")) return;
+    write_xdmf(folder_, "solution.h5", solution_layout(make_problem(spec_)),
+               find_method(spec_.method).law == "H_modified");
+    found_.saved.emplace_back("solution.xdmf");
+  }
+
+  // Every row is read before the file gets its name.
+  void rescue_solution() {
+    const fs::path partial = directory_ / "solution.h5.partial";
+    std::optional<SolutionReader> solution(partial);
+    const Index count = solution->count();
+    Vector state;
+    for (Index k = 0; k < count; ++k) solution->state(k, state);
+    const double last = solution->time(count - 1);
+    const std::uint64_t cut = solution->surplus();
+    solution.reset();
+    if (cut > 0) {
+      cut_solution(folder_, "solution.h5.partial");
+      found_.lost.push_back(fmt::format("{} values of solution.h5 at times for which others are missing", cut));
+    }
+    PartialPath(folder_, "solution.h5").commit();
+    found_.saved.push_back(fmt::format("solution.h5, {} times up to t = {:.9g}", count, last));
+  }
+
+  void summary() {
+    const Energies energies = read_energies(directory_ / "energy.csv");
+    if (energies.rows == 0) return;
+    if (spec_.ensemble) return;
+    RunReport report;
+    report.message = fmt::format(
+        "the run ended, killed or without a disk to write to, before its files were whole; `seiche recover` found rows up "
+        "to t = {:.9g} of {:.9g}; no energy law is promised: it was not judged",
+        energies.last_t, spec_.t_end);
+    report.t = energies.last_t;
+    report.energy = energies.H;
+    report.has_modified_energy = energies.has_modified;
+    report.modified = energies.modified;
+    report.wall_seconds = std::nan("");
+    if (!spec_.tolerance)
+      report.steps = static_cast<std::int64_t>(std::ceil((energies.last_t - energies.first_t) / spec_.h - 1e-6));
+    const Problem problem = make_problem(spec_);
+    const RunIdentity identity{.problem = problem.name,
+                               .method = spec_.method,
+                               .backend = spec_.backend == "auto" ? std::string(automatic_backend(problem).name)
+                                                                  : spec_.backend,
+                               .h = spec_.tolerance ? std::nan("") : spec_.h,
+                               .tolerance = spec_.tolerance,
+                               .versions = versions_in_use()};
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary_json(identity, report));
+    json["status"] = "unfinished";
+    if (spec_.tolerance) json["steps"] = nullptr;
+    json["counts"] = nullptr;  // nobody has counted to the end
+    write_file(folder_, "summary.json", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    found_.saved.emplace_back("summary.json, with the status unfinished");
+  }
+
+  Folder folder_;
+  fs::path directory_;
+  RunSpec spec_;
+  Recovery found_;
+};
+
+}  // namespace
+
+Recovery recover(const Folder& folder) { return Rescue(folder).run(); }
+
+}  // namespace seiche

@@ -1,0 +1,70 @@
+// To be loaded before a program (LD_PRELOAD): the n-th write to a file that is no standard stream fails, as on a disk
+// that is full or broken. By the environment: SEICHE_FAIL_AT is n, from 1; SEICHE_FAIL_WITH the number of the error;
+// with SEICHE_FAIL_ONCE the writes behind it succeed again.
+#include <dlfcn.h>
+#include <sys/types.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+template <class Function>
+Function* real(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+long number(const char* name) {
+  const char* const text = std::getenv(name);
+  return text != nullptr ? std::atol(text) : 0;
+}
+
+// Does this one fail? Then errno says why.
+bool fails(int file) {
+  static const long at = number("SEICHE_FAIL_AT"), with = number("SEICHE_FAIL_WITH");
+  static const bool once = std::getenv("SEICHE_FAIL_ONCE") != nullptr;
+  static long count = 0;
+  if (file <= STDERR_FILENO || at == 0) return false;
+  ++count;
+  if (once ? count != at : count < at) return false;
+  errno = static_cast<int>(with);
+  return true;
+}
+
+}  // namespace
+
+extern "C" {
+
+ssize_t write(int file, const void* from, size_t size) {
+  static auto* const next = real<ssize_t(int, const void*, size_t)>("write");
+  return fails(file) ? -1 : next(file, from, size);
+}
+
+ssize_t pwrite(int file, const void* from, size_t size, off_t at) {
+  static auto* const next = real<ssize_t(int, const void*, size_t, off_t)>("pwrite");
+  return fails(file) ? -1 : next(file, from, size, at);
+}
+
+ssize_t pwrite64(int file, const void* from, size_t size, off64_t at) {
+  static auto* const next = real<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");
+  return fails(file) ? -1 : next(file, from, size, at);
+}
+
+ssize_t writev(int file, const iovec* from, int count) {
+  static auto* const next = real<ssize_t(int, const iovec*, int)>("writev");
+  return fails(file) ? -1 : next(file, from, count);
+}
+
+ssize_t pwritev(int file, const iovec* from, int count, off_t at) {
+  static auto* const next = real<ssize_t(int, const iovec*, int, off_t)>("pwritev");
+  return fails(file) ? -1 : next(file, from, count, at);
+}
+
+size_t fwrite(const void* from, size_t size, size_t count, FILE* file) {
+  static auto* const next = real<size_t(const void*, size_t, size_t, FILE*)>("fwrite");
+  return fails(fileno(file)) ? 0 : next(from, size, count, file);
+}
+}
