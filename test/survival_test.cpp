@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class Survival : public Cli {
  protected:
@@ -218,6 +219,20 @@ TEST_F(Survival, WhereALinkTakesThePlaceOfTheFolderNothingIsWrittenThroughIt) {
   EXPECT_EQ(text("victim/report.html"), report);
   EXPECT_EQ(json::parse(text("moved/summary.json"))["status"], "interrupted") << "where the run began";
   EXPECT_GT(SolutionReader(directory / "moved/solution.h5").count(), 2);
+}
+
+// The loader takes an empty entry for the current folder, where anybody may have put a library.
+TEST_F(Survival, NoLibraryIsLookedForInTheCurrentFolder) {
+  const std::string read =
+      "readelf -d '" + test::program_path() + "' >'" + (directory / "dynamic.txt").string() + "' 2>/dev/null";
+  if (std::system(read.c_str()) != 0) GTEST_SKIP() << "no readelf";
+  for (const std::string& line : lines("dynamic.txt")) {
+    if (line.find("RPATH") == std::string::npos && line.find("RUNPATH") == std::string::npos) continue;
+    const std::size_t begin = line.find('[') + 1;
+    const std::string path = ":" + line.substr(begin, line.rfind(']') - begin) + ":";
+    EXPECT_THAT(path, Not(HasSubstr("::"))) << line;
+    EXPECT_THAT(path, Not(HasSubstr(":."))) << line;
+  }
 }
 
 }  // namespace

@@ -32,6 +32,16 @@ foreach(command IN ITEMS "${consumer}" "${program};--version")
   endif()
 endforeach()
 
+# The loader takes an empty entry of a search path for the current folder.
+find_program(readelf readelf)
+if(readelf)
+  execute_process(COMMAND "${readelf}" -d "${program}" OUTPUT_VARIABLE dynamic COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "R(UN)?PATH[^\n]*" paths "${dynamic}")
+  if(paths MATCHES "(\\[|:)(:|\\])")
+    message(FATAL_ERROR "${program} looks for libraries in the current folder: ${paths}")
+  endif()
+endif()
+
 # Each example says at its end what it prints.
 execute_process(COMMAND "${CMAKE_COMMAND}" -S "${source}/examples" -B "${work}/examples" -G "${generator}"
   -D "CMAKE_BUILD_TYPE=${config}" -D "CMAKE_CXX_COMPILER=${compiler}" -D "CMAKE_PREFIX_PATH=${prefix}"
