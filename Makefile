@@ -3,10 +3,11 @@ PREFIX ?= /usr/local
 ARGS ?=
 OUT ?= $(if $(filter --quick,$(ARGS)),out/paper-quick,out/paper)
 WP_ARGS ?=
+VERIFY ?=
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps configure build paper docs test python bench install format tidy asan fuzz clean
+.PHONY: help deps configure build paper docs test verify python bench install format tidy asan fuzz clean
 
 help:  ## this list
 	@echo "Seiche: energy-stable integrators for damped Hamiltonian systems"
@@ -35,6 +36,10 @@ test:  ## build and run all tests
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release --parallel $(JOBS)
 	@ctest --preset release --parallel $(JOBS)
+
+verify: build  ## wrong numbers looked for on systems of its own, docs/verification.md (VERIFY="--only morse", --help)
+	@bash scripts/install-deps --python
+	@/usr/bin/python3 -m verification --program build/release/seiche $(VERIFY)
 
 python:  ## the Python package: build/python, to be imported from there (pip install . installs it)
 	@bash scripts/install-deps --python
