@@ -51,6 +51,17 @@ TEST(AutoMethod, EveryProblemRunsAndReachesItsTolerance) {
   }
 }
 
+TEST(AutoMethod, ARateThatIsNotANumberIsNotWritten) {
+  const Problem p =
+      make_problem(parse_case("[problem]\nname = \"custom\"\nH = \"p^2/2 + sqrt(q)\"\nD = { p = \"0.1\" }\n"
+                              "initial = { q = \"1e-7\", p = \"0\" }\n",
+                              "x.toml"));
+  const Simulation simulation(p, {.method = "auto", .variable_steps = true, .tolerance = 1e-6});
+  EXPECT_EQ(simulation.reason().find("nan"), std::string::npos) << simulation.reason();
+  EXPECT_EQ(simulation.reason().find("stiff"), std::string::npos) << simulation.reason();
+  EXPECT_NE(simulation.reason().find("not finite close to the start"), std::string::npos) << simulation.reason();
+}
+
 TEST(AutoMethod, TakesCollocationWhereFrictionTurnsNoFasterThanTheSolution) {
   Problem p = klein_gordon_case(0.0, 1.0);
   p.friction = saturating_friction(0.4, 1.0);

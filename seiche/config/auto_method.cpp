@@ -95,8 +95,11 @@ MethodChoice choose_method(const Problem& problem, const System& system, const M
   const double wanted = tolerance > 0 ? tolerance : 1e-6;
   MethodChoice choice{.method = collocation_for(wanted), .options = options, .reason = {}};
   const ProblemRates rates = rates_of(system);
-  const std::string seen = fmt::format("the linear part has rates up to {:.3g} and the solution starts with {:.3g}",
-                                       rates.linear, rates.solution);
+  const bool is_known = std::isfinite(rates.solution);
+  const std::string seen =
+      fmt::format("the linear part has rates up to {:.3g} and {}", rates.linear,
+                  is_known ? fmt::format("the solution starts with {:.3g}", rates.solution)
+                           : "the rate of the solution is not known, since the force is not finite close to the start");
   const std::string accuracy = tolerance > 0 ? fmt::format("tolerance {:g}", tolerance) : "steps of one size";
   if (problem.structure) {
     choice.reason = fmt::format("{}, since S changes with z ({})", choice.method, accuracy);
@@ -136,7 +139,7 @@ MethodChoice choose_method(const Problem& problem, const System& system, const M
     return choice;
   }
   choice.reason = fmt::format("{} ({}): {}{}", choice.method, accuracy, seen,
-                              nystrom ? "; damping so stiff must not be split into backward flows" : "");
+                              nystrom && is_known ? "; damping so stiff must not be split into backward flows" : "");
   return choice;
 }
 
