@@ -77,7 +77,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     system_.space->to_physical(extension_.defect(last_, forces_, s.history), physical_);
     if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
     const double of_linear_flow = physical_.lpNorm<Eigen::Infinity>();
-    const double of_forces = std::max({of_linear_flow, of_nonlinear_part(s, of_linear_flow), unseen});
+    const double of_polynomial = std::max({of_linear_flow, of_nonlinear_part(s, of_linear_flow), unseen});
+    const double of_forces = std::max(of_polynomial, unsolved(s, of_polynomial));
     // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is not,
     // the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
     const double displacement = projected_.last().displacement - projected_.last().blur;
@@ -180,6 +181,20 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   int stages() const { return static_cast<int>(forces_.size()); }
 
+  // Of the last step: what more sweeps would change, which no polynomial of its forces tells. The last change times the rate at which
+  // sweeps converge, calibrated, or something of at most `enough`.
+  double unsolved(const State& s, double enough) {
+    constexpr double calibration = 1.0 / 16;  // the force at the last node changes most
+    change_.setZero();
+    change_.segment(of_forces_.begin, of_forces_.size) =
+        calibration * last_.h * convergence_ *
+        (s.history.back().segment(of_forces_.begin, of_forces_.size) - components_before_);
+    as_rate(change_);
+    if (change_.norm() <= enough) return enough;  // which bounds the max norm
+    system_.space->to_physical(change_, physical_);
+    return physical_.lpNorm<Eigen::Infinity>();
+  }
+
   struct Tables {
     std::unique_ptr<PhiMap> nodes;  // forces → Z_i
     std::unique_ptr<PhiMap> end;    // forces → ẑ
@@ -222,7 +237,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   // what a sweep changes.
   void sweep(const State& s, double t, double h, const PhiMap& nodes) {
     SweepControl control(stages(), s.history_h != 0, may_save_sweeps_);
-    double change = 0;
+    double change = 0, change_before = 0;
     const auto error = [&] { return extension_.defect({h, s.history_h}, s.history, forces_).norm(); };
     do {
       components_before_ = forces_.back().segment(of_forces_.begin, of_forces_.size);
@@ -242,8 +257,10 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
           force_.evaluate(at, forces_[which]);
         }
       }
+      change_before = change;
       change = h * distance(forces_.back(), of_forces_.begin, components_before_);
     } while (control.wants_another(change, error));
+    convergence_ = change_before > 0 ? std::min(1.0, change / change_before) : 0;  // one sweep tells no rate
   }
 
   bool compute(const State& s, double t, double h, Vector& z) override {
@@ -303,6 +320,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   std::vector<Seen> seen_;                           // where dissipation is evaluated node by node
   StepDissipation::Sum coarse_;                      // of these
   std::vector<StepDissipation::Energies> energies_;  // of Z_i, where dissipation follows from them
+  double convergence_ = 1;                           // of the last two sweeps
   bool steps_are_alike_ = true;
   Vector physical_, unseen_;
   bool moves_itself_ = true;  // does a force move what it depends on?
