@@ -74,6 +74,9 @@ class Stepper {
   // From now on every step fills the ledger of its report, at the price of a few energies; the bits of a solution may change,
   // since what is fused otherwise is done part by part.
   virtual void keep_ledger() = 0;
+  // From now on a step is taken to be accurate where its error is at most this, in the max norm of physical values and per unit of
+  // time: an auxiliary variable then has to be no worse.
+  virtual void expect(double /*error_rate*/) {}
 };
 
 // A stepper that tells the error of its steps, and knows the solution inside the last one.

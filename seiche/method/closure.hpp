@@ -32,6 +32,7 @@ class Closure {
   virtual bool has_modified_energy() const { return false; }
   // From now on `advance` fills `scalar` of the ledger in its report: what its energy changes beside the dissipation of S.
   virtual void keep_ledger() { keeps_ledger_ = true; }
+  virtual void expect(double /*error_rate*/) {}  // as Stepper::expect
 
  protected:
   // No damping, no force, S skew: H of a solution stays, and so does a drift by round-off, which then adds up.

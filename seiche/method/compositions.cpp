@@ -34,6 +34,7 @@ class Composed : public Stepper {
     keeps_ledger_ = true;
     closure_->keep_ledger();
   }
+  void expect(double error_rate) override { closure_->expect(error_rate); }
 
  protected:
   bool keeps_ledger() const { return keeps_ledger_; }

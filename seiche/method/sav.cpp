@@ -11,7 +11,12 @@ namespace {
 class SavClosure final : public Closure {
  public:
   SavClosure(const System& system, const MethodOptions& options)
-      : Closure(system), given_C_(options.C), auxiliary_(options.auxiliary), g_(Vector::Zero(system.space->size())) {}
+      : Closure(system),
+        given_C_(options.C),
+        auxiliary_(options.auxiliary),
+        g_(Vector::Zero(system.space->size())),
+        pushed_(g_),
+        physical_(Vector::Zero(system.space->physical_size())) {}
 
   void begin(State& s) override;
   void damp(State& s, double t, double h) override;
@@ -25,16 +30,19 @@ class SavClosure final : public Closure {
   }
   StepReport advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) override;
   bool has_modified_energy() const override { return true; }
+  void expect(double error_rate) override { error_rate_ = error_rate; }
 
  protected:
   void read_modified(const State& s, const ValueAndMagnitude& quadratic, EnergyReading& reading) const override;
 
  private:
-  bool keep_margin(State& s, double quadratic_energy, double v_mid) const;
+  double margin_against_drift(double drift, double margin);
+  bool keep_margin(State& s, double quadratic_energy, double v_mid, double against_drift) const;
 
   std::optional<double> given_C_;
   AuxiliaryMode auxiliary_;
-  Vector g_;
+  double error_rate_ = 0;  // that steps may have; 0: nobody knows
+  Vector g_, pushed_, physical_;
 };
 
 // C = 2E₀ keeps V + C well away from 0 where √(V + C) would lose digits, without drowning V in C.
@@ -77,15 +85,30 @@ StepReport left_the_numbers(double v_mid, double t, double h) {
                                  number_text(v_mid), t, h)};
 }
 
-// Where V + C or r² has become small against the energy, C and r² rise together: H̃ does not change. A large positive
-// V(ẑ) is no reason to: at steps far too long ẑ is meaningless, and a C to match it would drown H̃ in round-off.
-bool SavClosure::keep_margin(State& s, double quadratic_energy, double v_mid) const {
+// The errors of all steps are left in r² − (V + C) = δ, and the force is r/√(V + C) ≈ 1 + δ/(2(V + C)) times what it should be:
+// an error per unit of time that no step size lowers, and a larger C does. Returns the V + C from which on it is a small share of
+// what steps may have, for ĝ in g_; or something smaller than `margin`, if that is enough.
+double SavClosure::margin_against_drift(double drift, double margin) {
+  constexpr double share = 0.1;
+  system().linear->apply_S(g_, pushed_);
+  const double wanted = std::abs(drift) / (2 * share * error_rate_);
+  if (wanted * pushed_.norm() < margin) return 0;  // which bounds the max norm, and saves a transform
+  system().space->to_physical(pushed_, physical_);
+  return wanted * physical_.lpNorm<Eigen::Infinity>();
+}
+
+// Where V + C or r² has become small against the energy, or drifts too far apart, C and r² rise together: H̃ does not change. A
+// large positive V(ẑ) is no reason to: at steps far too long ẑ is meaningless, and a C to match it would drown H̃ in round-off.
+bool SavClosure::keep_margin(State& s, double quadratic_energy, double v_mid, double against_drift) const {
   if (auxiliary_ == AuxiliaryMode::frozen) return false;
   constexpr double tiny = 1e-300;
+  constexpr double most = 1e8;  // of C for the energy: H̃ keeps half its digits
+  constexpr double seldom = 4;  // more than is needed now, so that C rises in few steps
   const double scale = std::max({s.energy_scale, quadratic_energy + std::max(0.0, -v_mid), tiny});
   const double margin = std::min(s.r_squared, v_mid + s.shift);
-  if (margin >= 0.1 * scale) return false;
-  const double rise = 2 * scale - margin;
+  const double against = std::min(against_drift, most * scale);
+  if (margin >= std::max(0.1 * scale, against)) return false;
+  const double rise = std::max(2 * scale, seldom * against) - margin;
   s.shift += rise;
   s.r_squared += rise;
   return true;
@@ -95,10 +118,15 @@ bool SavClosure::keep_margin(State& s, double quadratic_energy, double v_mid) co
 StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) {
   StepReport report;
   const Propagator& propagator = propagators.at(h);
-  potential().gradient(s.z, g_);
+  double drift = 0;
+  if (error_rate_ > 0)
+    drift = s.r_squared - (potential().value_and_gradient(s.z, g_) + s.shift);
+  else
+    potential().gradient(s.z, g_);
   propagator.predict(s.z, g_, g_, flows.before);                // ẑ, from z⁻
   const double v_mid = potential().value_and_gradient(g_, g_);  // V(ẑ) and ĝ
   if (!std::isfinite(v_mid)) return left_the_numbers(v_mid, t, h);
+  const double against_drift = drift != 0 ? margin_against_drift(drift, v_mid + s.shift) : 0;
 
   bool solved = false;
   const double r_squared = s.r_squared;
@@ -108,7 +136,7 @@ StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double
       [&](const Propagator::Powers& power) {
         const double quadratic_energy =
             power.quadratic_energy ? *power.quadratic_energy : system().linear->quadratic_energy(s.z);
-        report.fallbacks += keep_margin(s, quadratic_energy, v_mid) ? 1 : 0;
+        report.fallbacks += keep_margin(s, quadratic_energy, v_mid, against_drift) ? 1 : 0;
         const double to_g = 1 / std::sqrt(v_mid + s.shift);
         const double gd = to_g * power.of_increment;     // gᵀFMz⁻
         const double gq = to_g * to_g * power.of_force;  // gᵀFg

@@ -31,6 +31,7 @@ class Doubled final : public AdaptiveStepper {
   EnergyReading energy(const State& s) const override { return stepper_->energy(s); }
   bool has_modified_energy() const override { return stepper_->has_modified_energy(); }
   void keep_ledger() override { stepper_->keep_ledger(); }
+  void expect(double error_rate) override { stepper_->expect(error_rate); }
   int order() const override { return order_; }
 
   StepReport attempt(State& s, double h) override {

@@ -2,6 +2,7 @@
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/event_finder.hpp>
 #include <seiche/run/recording.hpp>
+#include <seiche/run/run_pace.hpp>
 #include <seiche/run/step_controller.hpp>
 
 #include <algorithm>
@@ -24,12 +25,14 @@ class AdaptiveLoop {
         recording_(recording),
         controller_(stepper.order(), options.tolerance),
         events_(options.events),
+        pace_(state.t, options.t_end, system.space->size()),
         time_(state.t),
         size_(system.space->physical(state.z).lpNorm<Eigen::Infinity>()) {
     if (options.tolerance < 1e-14 * size_)
       throw Error(
           "the tolerance {:.3g} is below what double precision can tell of numbers as large as {:.3g}; write at least {:.3g}",
           options.tolerance, size_, 1e-14 * size_);
+    stepper.expect(controller_.allowed());
   }
 
   void run() {
@@ -41,6 +44,10 @@ class AdaptiveLoop {
         return recording_.interrupt(options_.t_end);
       }
       if (!advance()) return;
+      const std::string objection = pace_.objection(state_, h_);
+      if (objection.empty()) continue;
+      if (unproven_) state_ = backup_;
+      return recording_.fail_step(objection);
     }
   }
 
@@ -70,6 +77,7 @@ class AdaptiveLoop {
          : std::isfinite(quotient) && quotient > 0 ? controller_.first_share() * quotient
                                                    : 1e-3;
     h_ = bounded(StepController::rounded(std::min(h_, std::max(left, options_.t_end * epsilon) / 3)));
+    first_of_all_ = h_;
   }
 
   double bounded(double h) const { return options_.largest_h > 0 ? std::min(h, options_.largest_h) : h; }
@@ -140,7 +148,7 @@ class AdaptiveLoop {
         h, state_.t, error, error / h, options_.tolerance, controller_.allowed());
   }
 
-  double least_step() const { return 16 * epsilon * std::max(std::abs(state_.t), 1e-3 * std::abs(options_.t_end)); }
+  double least_step() const { return 16 * epsilon * std::max(std::abs(state_.t), first_of_all_); }
 
   bool reject(double next, const std::string& reason) {
     ++recording_.report().rejected;
@@ -248,12 +256,14 @@ class AdaptiveLoop {
   Recording& recording_;
   StepController controller_;
   EventFinder events_;
+  RunPace pace_;
   Time time_;
   double size_;  // the largest number of the initial state
   double h_ = 0;
-  int rejections_ = 0;     // since the last accepted step
-  bool unproven_ = false;  // is there a first step whose error is not known yet?
-  State backup_, first_;   // before it, and after
+  double first_of_all_ = 0;  // h of the first attempt since the start, or the last event
+  int rejections_ = 0;       // since the last accepted step
+  bool unproven_ = false;    // is there a first step whose error is not known yet?
+  State backup_, first_;     // before it, and after
   double first_h_ = 0;
   double last_event_ = -std::numeric_limits<double>::infinity();
   int crowd_ = 0;  // of events, each soon after the one before

@@ -30,10 +30,12 @@ class RememberingStepper final : public AdaptiveStepper {
   EnergyReading energy(const State& state) const override { return stepper_.energy(state); }
   bool has_modified_energy() const override { return stepper_.has_modified_energy(); }
   void keep_ledger() override { stepper_.keep_ledger(); }
+  void expect(double error_rate) override { stepper_.expect(error_rate); }
 
   int order() const override { return adaptive_->order(); }
   StepReport attempt(State& state, double h) override;
   std::optional<double> error(const State& state) override { return adaptive_->error(state); }
+  double unseen(const State& state) override { return adaptive_->unseen(state); }
   void undo(State& state) override;
   void interpolate(const State& state, double t, Vector& z) override { adaptive_->interpolate(state, t, z); }
   void forget(State& state) override { adaptive_->forget(state); }

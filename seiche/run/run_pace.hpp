@@ -1,0 +1,38 @@
+// Will a run with variable steps come to its end?
+#pragma once
+
+#include <seiche/core/state.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// Where a solution blows up, or a method cannot have the error it is asked for, steps shrink or stay so short that a run never
+// ends, and none of them fails. Three signs, looked at whenever the number of attempts has doubled, so that layers, pulses and
+// near collisions, which are over in a share of the run, are none (docs/decisions/0004-when-a-run-ends.md):
+//   runaway    doublings of the work lead less and less far, to a sum that ends before t_end;
+//   collapse   three quarters of the work led nowhere beside the first quarter;
+//   endless    what is left takes billions of attempts.
+class RunPace {
+ public:
+  RunPace(double t_start, double t_end, Index unknowns);
+  // After every attempt, accepted or not, with the length of the last step: why the run will not come to its end; "" else.
+  std::string objection(const State& s, double h);
+
+ private:
+  struct Mark {
+    double t, size;
+  };
+  std::string judge(const State& s, double h) const;
+  bool shrinks(double& limit) const;
+
+  double t_end_;
+  double weight_;  // of an attempt: the work of small systems is not in their unknowns
+  std::int64_t attempts_ = 0, next_ = 1;
+  std::vector<Mark> marks_;  // at 0, 1, 2, 4, 8, … attempts
+  double usual_size_ = 0;    // |z| in the beginning
+};
+
+}  // namespace seiche
