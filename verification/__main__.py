@@ -22,11 +22,11 @@ except ImportError as missing:
     sys.exit(77)  # as a test it is skipped
 
 from . import program, reference, table
-from .checks import backends, certificate, drift, ending, ensemble, law, order, projection, scale, tolerance
+from .checks import backends, certificate, drift, ending, ensemble, law, linear, order, projection, scale, tolerance
 from .systems import SYSTEMS
 from .verdict import Row, row
 
-OF_SYSTEMS = {"order": order, "projection": projection, "tolerance": tolerance, "law": law, "backends": backends}
+OF_SYSTEMS = {"order": order, "linear": linear, "projection": projection, "tolerance": tolerance, "law": law, "backends": backends}
 OF_THEIR_OWN = {"certificate": certificate, "scale": scale, "ensemble": ensemble, "drift": drift, "ending": ending}
 LEFT_OUT_OF_QUICK = {"ending"}
 REFERENCES = reference.load()
@@ -66,6 +66,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--references", action="store_true", help="compute the references anew; runs nothing")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
     parser.add_argument("--program", type=Path, help="the program; by default build/release/seiche")
+    parser.add_argument("--time-out", type=int, help="seconds of a processor that a run may take; 60, or 10 with --quick")
     parser.add_argument("--cases", type=Path, help="write the case of every wrong row into this folder")
     given = parser.parse_args()
     for name in filter(None, given.only.split(",")):
@@ -107,8 +108,7 @@ def main() -> int:
     if not program.PROGRAM.exists():
         print(f"verification: {program.PROGRAM} is not there; build it, or name it by --program", file=sys.stderr)
         return 2
-    if given.quick:
-        program.TIME_OUT = 10
+    program.TIME_OUT = given.time_out or (10 if given.quick else program.TIME_OUT)
     start = time.monotonic()
     rows = reference_rows(names)
     names = [name for name in names if name in REFERENCES]
@@ -133,7 +133,8 @@ def main() -> int:
             (given.cases / f"{name}.toml").write_text(r.case)
     if given.page:
         version = subprocess.run([program.PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
-        given.page.write_text(table.page(rows, version, seconds, list(SYSTEMS.values())))
+        command = "make verify" + (' VERIFY="--quick"' if given.quick else "")
+        given.page.write_text(table.page(rows, version, seconds, list(SYSTEMS.values()), command))
     return 1 if wrong else 0
 
 

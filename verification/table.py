@@ -8,6 +8,7 @@ from .verdict import Row
 
 TITLES = {
     "order": "Observed orders",
+    "linear": "Largest error on linear systems, at steps of any length",
     "projection": "The default law against `guard` and `none`: error as a multiple of the better of the two",
     "tolerance": "Tolerances: error as a multiple of tolerance × gain",
     "law": "Largest rise of the kept energy in a step, relative to it, for h = 1/4, 3, 30, 300",
@@ -52,11 +53,11 @@ def matrix(rows: list[Row]) -> str:
     return "\n".join(lines)
 
 
-def page(rows: list[Row], version: str, seconds: float, systems: list) -> str:
+def page(rows: list[Row], version: str, seconds: float, systems: list, command: str) -> str:
     wrong = [row for row in rows if row.verdict == "wrong"]
     text = f"""# Verification
 
-What `make verify` found when it was last run for this page, with {version}: {summary(rows)}, in {seconds:.0f} s.
+What `{command}` found when it was last run for this page, with {version}: {summary(rows)}, in {seconds:.0f} s.
 
 The suite stands in `verification/`, apart from the tests. Its {len(systems)} systems are in no case file of this project. Each is written twice: as a user writes it, by formula
 or in matrices, and as a plain right-hand side in NumPy. References are by Radau IIA collocation of order 17, compared with order 13 and with SciPy, or closed forms: their own error is 1e-14 or
@@ -65,6 +66,7 @@ better, and stands in `verification/references.json`. The program only meets the
 | check | what must hold |
 |---|---|
 | order | the slope of the error over the last three of falling steps is the order that `seiche list methods` declares, less 0.4 or a tenth; or what the system allows |
+| linear | methods with all of the linear part in the exponential are exact on linear systems, however far apart the rates |
 | projection | the default law's error is at most twice that of `law = "guard"` and of `law = "none"` (four times for methods of order two and etdrk4), also where steps resolve neither layers nor oscillations |
 | tolerance | the error is at most ten times tolerance × gain, gain = ∫‖∂z(T)/∂z(t)‖dt: what one error per unit of time amounts to |
 | law | where a law is promised, no recorded energy rises beyond round-off for h = 1/4 … 300, and none is promised where the exact H may rise |
@@ -73,7 +75,7 @@ better, and stands in `verification/references.json`. The program only meets the
 | scale | lengths and times of 2^±100 change nothing |
 | ensemble | members are single runs |
 | drift | 100 000 steps of a free pendulum keep their energy |
-| ending | blow-ups, collapsing steps and extreme rates end within {60} s, with a true word |
+| ending | blow-ups, collapsing steps and extreme rates end within 60 s of a processor, with a true word |
 
 ```sh
 make verify                             # all of it, some minutes on two cores
