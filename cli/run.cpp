@@ -158,9 +158,9 @@ ExitCode run(const RunArguments& arguments) {
   Simulation simulation(problem, simulation_with);
   // Cheap beside a run: what structure leaves open is not looked at here.
   if (!spec.tolerance)
-    for (const std::string& beyond : {beyond_stability(simulation, spec.h), beyond_rate(simulation, spec.h, spec.t_end),
-                                      beyond_splitting(simulation, spec.h),
-                                      work_of_exponentials(simulation, spec.sparse, spec.h, spec.t_end)})
+    for (const std::string& beyond :
+         {beyond_stability(simulation, spec.h), beyond_rate(simulation, spec.h, spec.t_end),
+          beyond_splitting(simulation, spec.h), work_of_exponentials(simulation, spec.sparse, spec.h, spec.t_end)})
       if (!beyond.empty()) spec.notes.push_back(beyond);
   Certificate certificate = certify(problem, {.method = spec.method,
                                               .method_options = spec.method_options,

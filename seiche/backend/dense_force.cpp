@@ -56,7 +56,12 @@ class InEnergyCoordinates {
         kernel_(orthonormal(c_.T.transpose() * casimirs_)) {}
 
   Matrix force(double h) const {
-    if (kind_ == PropagatorKind::exponential) return exponential_force(S_, M_, rate_, h);
+    if (kind_ == PropagatorKind::exponential) {
+      Matrix G = exponential_force(S_, M_, rate_, h);
+      G -= (kernel_ * (kernel_.transpose() * G)).eval();
+      G -= ((G * kernel_) * kernel_.transpose()).eval();
+      return G;
+    }
     return contracting_cayley_force(S_, M_, rate_, kernel_, h);
   }
 

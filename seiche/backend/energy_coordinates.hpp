@@ -111,14 +111,19 @@ std::optional<EnergyCoordinates<Matrix>> energy_coordinates(const Matrix& M) {
   return c;
 }
 
-// Units along the kernel of M for a step h: what energy moves along it, or ∇V there, is then of the size of the energy.
+// Units along the kernel of M for a step h: what energy moves along it, or ∇V there, is then of the size of the energy. One where S and
+// the kernel have only round-off in common, as where the kernel is one of S too.
 template <class Matrix>
 double kernel_unit(const EnergyCoordinates<Matrix>& c, const Matrix& S, double h) {
   const Index kernel = S.rows() - c.rank;
   if (kernel == 0) return 1;
-  const Matrix rows = c.inverse.bottomRows(kernel) * S;
-  const double coupling = std::abs(h) * (rows * c.inverse.topRows(c.rank).adjoint()).norm();
-  const double inside = std::sqrt(std::abs(h) * (rows * c.inverse.bottomRows(kernel).adjoint()).norm());
+  const Matrix along = c.inverse.bottomRows(kernel);
+  const Matrix others = c.inverse.topRows(c.rank);
+  const Matrix rows = along * S;
+  const double round_off = 8 * epsilon * static_cast<double>(S.rows()) * along.norm() * S.norm();
+  if (!(rows.norm() > round_off)) return 1;
+  const double coupling = std::abs(h) * (rows * others.adjoint()).norm();
+  const double inside = std::sqrt(std::abs(h) * (rows * along.adjoint()).norm());
   const double unit = std::max(coupling, inside);
   return unit > 0 && std::isfinite(unit) ? std::exp2(std::ceil(std::log2(unit))) : 1;
 }
