@@ -222,13 +222,14 @@ TEST(StiffRates, MixedStiffnessIsRoundedByTheSquareOfTheFastestRate) {
       problem.matrices =
           std::make_shared<SparseOperators>(SparseOperators{.S = operators.S, .M = sparse(M), .D = operators.D});
       problem.initial << Q * squares.cwiseSqrt().cwiseInverse(), Q * Vector::Constant(n, start_p);
-      const double bound = std::min(20 * epsilon * square(fastest) * 10 / 2, 2.0);
+      const double bound = 20 * epsilon * square(fastest) * 10 / 2;
       for (const MethodEntry& method : methods()) {
         if (!applies(method.name, problem)) continue;
         SCOPED_TRACE(fmt::format("{} ω = {} γ = {}", method.name, fastest, gamma));
         const Outcome r = run(method, problem, "dense", 0.125, 80);
         EXPECT_LE(r.worst_rise, 1);
-        if (!is_exact_for_linear_equations(method, gamma > 0)) continue;
+        // Beyond, round-off in M may turn the slow motion into a free one.
+        if (!is_exact_for_linear_equations(method, gamma > 0) || bound > 0.1) continue;
         EXPECT_NEAR(Q.col(0).dot(r.z.head(n)), q, bound);
         EXPECT_NEAR(Q.col(0).dot(r.z.tail(n)), p, bound);
       }

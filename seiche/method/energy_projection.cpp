@@ -13,10 +13,12 @@ constexpr int max_bisections = 60;
 constexpr double blurred = 1e-13;     // moves relative to z that round-off in H may ask for
 constexpr double least_slope = 0.05;  // relative to its terms: below, H hardly changes along the line
 
-// By how much H may pass the cap: its round-off at a point, but for points whose terms have grown beyond reason.
+// By how much H may pass the cap: its round-off at a point, but for points whose energies have grown beyond reason. The terms alone may
+// grow by much, where a mean drifts and ½zᵀMz sees none of it.
 double slack(const EnergyLine::Parts& parts, const EnergyTarget& aim) {
-  const double of_start = 16 * epsilon * EnergyProjection::gross_growth * aim.terms;
-  return of_start > 0 ? std::min(parts.loss(), of_start) : parts.loss();  // at rest nothing has a size yet
+  const double most = EnergyProjection::gross_growth * aim.terms;
+  const bool grown = most > 0 && !(parts.values() <= most);  // at rest nothing has a size yet
+  return grown ? std::min(parts.loss(), 16 * epsilon * most) : parts.loss();
 }
 
 }  // namespace

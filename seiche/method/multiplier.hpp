@@ -3,6 +3,7 @@
 
 #include <seiche/core/potential.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -48,8 +49,12 @@ class MultiplierEquation {
   MultiplierEquation(const Potential& potential, Index size);
   // The vectors of the line must live and keep their values for as long as the equation is evaluated.
   void set(const Line& line, const MeasuredAt* measured_at = nullptr);
-  // What the steps before have left of the law, F is to make up for: F(x) + left = 0, until the next `set`.
-  void make_up_for(double left) { left_ = left; }
+  // What the steps before have left of the law, F is to make up for: F(x) + left = 0, until the next `set`. No more than F is solved
+  // to: that outweighs what each step leaves, and the equation has a root wherever it had one.
+  void make_up_for(double left) {
+    const double most = 4 * epsilon * scales_[0];
+    left_ = std::clamp(left, -most, most);
+  }
 
   Value at(double x);
   // |F| ≤ 4ε scale, or (lm) |Δx| ≤ 4ε max(1, |1 + x|).
