@@ -144,7 +144,7 @@ class PhiRowBlocks {
  public:
   PhiRowBlocks(const PhiRows& rows, const LinearBlocks<Matrix>& blocks, double h)
       : rows_(rows), S_(blocks.S), L_(blocks.L()), h_(h) {
-    constexpr double plain_size = 16;
+    constexpr double plain_size = 128;
     blocks_.resize(static_cast<std::size_t>(rows.forces) + 1);
     if (scaled_norm<Matrix>(h * L_) > plain_size) use_energy(blocks);
   }
