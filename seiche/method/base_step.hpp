@@ -36,10 +36,10 @@ class BaseStep {
   virtual StepDissipation::Kind dissipation_kind() const = 0;
   // Of the step just computed to z with H = H(z), where the kind is not `none`.
   virtual StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double H) = 0;
-  // Makes what that needs for steps of h, so that none of them allocates.
-  virtual void prepare_flow(double /*h*/) {}
   // Of the same step: what `fine` of that amount misses of the linear flow; 0 where it is no quadrature.
   virtual double flow_missed(const State& /*s*/, double /*h*/) { return 0; }
+  // Makes what that needs for steps of h, so that none of them allocates.
+  virtual void prepare_flow(double /*h*/) {}
 
   // The step just computed will be taken: s is still as before it but for what this changes, and never z, t and n.
   // Not resolved: e^{hL}z was taken instead of ẑ.

@@ -11,8 +11,8 @@ namespace seiche {
 // positive under the energy-compatible damping condition with D = I, so that the equation H(z(λ)) = E is well conditioned.
 class EnergyProjection {
  public:
-  static constexpr double gross_growth =
-      1e6;  // of the terms of H in one step: no solution of an equation that a step resolves
+  // Of the terms of H in one step: by so much no solution grows that the step resolves.
+  static constexpr double gross_growth = 1e6;
 
   // `system` and `phi` outlive the projection.
   EnergyProjection(const System& system, const PhiEvaluator& phi);

@@ -1,7 +1,6 @@
 #include <seiche/core/spectral_radius.hpp>
 #include <seiche/method/flow_quadrature.hpp>
 
-#include <array>
 #include <cmath>
 
 namespace seiche {
