@@ -1,10 +1,12 @@
-// Tolerances where the linear part has no share in the error: gradient flows, and energies without a quadratic term.
+// Tolerances and the interval law where the linear part has no share in the error: gradient flows, and energies without a quadratic term.
 #include <seiche/config/custom_problem.hpp>
+#include <seiche/config/simulation.hpp>
 #include <seiche/solve/solve.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -56,6 +58,28 @@ TEST(Tolerance, HoldsWhereTheLinearPartHasNoShareInTheError) {
         EXPECT_LE((last - exact).lpNorm<Eigen::Infinity>(), 10 * tolerance)
             << flow.name << ", " << method << ", " << tolerance << ": " << s.report.steps << " steps";
       }
+    }
+  }
+}
+
+// Where z goes straight down V, errors of the solution inside a step add up, and two quadratures on it agree on a wrong dissipation.
+TEST(EnergyInterval, CostsNoAccuracyOnGradientFlows) {
+  const Problem p = custom_problem({.fields = {"a", "b"},
+                                    .H = "(a^2 + b^2 - 1)^2/4 + (a - b)^2/2",
+                                    .S = {{"-1", "0"}, {"0", "-1"}},
+                                    .initial = {{"a", "1.5"}, {"b", "0.2"}}});
+  const auto end = [&](const std::string& method, double h, EnergyLaw law) {
+    Simulation simulation(p, {.method = method, .method_options = {.law = law}});
+    for (int n = 0; n < static_cast<int>(3 / h); ++n) EXPECT_TRUE(simulation.step(h).solved());
+    return Vector(simulation.physical());
+  };
+  const Vector exact = end("egc8", 1.0 / 128, EnergyLaw::none);
+  for (const auto& [method, factor] :
+       {std::pair("egc4", 2.0), {"egc6", 2.0}, {"egc8", 2.0}, {"etdrk4", 2.0}, {"egc2", 3.0}, {"seimp", 3.0}}) {
+    for (const double h : {1.0 / 4, 1.0 / 8, 1.0 / 16}) {
+      const auto error = [&](EnergyLaw law) { return (end(method, h, law) - exact).norm(); };
+      EXPECT_LE(error(EnergyLaw::interval), factor * std::max(error(EnergyLaw::guard), 1e-13))
+          << method << ", h = " << h;
     }
   }
 }

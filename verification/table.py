@@ -67,7 +67,7 @@ better, and stands in `verification/references.json`. The program only meets the
 |---|---|
 | order | the slope of the error over the last three of falling steps is the order that `seiche list methods` declares, less 0.4 or a tenth; or what the system allows |
 | linear | methods with all of the linear part in the exponential are exact on linear systems, however far apart the rates |
-| projection | the default law's error is at most twice that of `law = "guard"` and of `law = "none"` (four times for methods of order two and etdrk4), also where steps resolve neither layers nor oscillations |
+| projection | the default law's error is at most twice that of `law = "guard"` and of `law = "none"` (three times for methods of order two), also where steps resolve neither layers nor oscillations |
 | tolerance | the error is at most ten times tolerance × gain, gain = ∫‖∂z(T)/∂z(t)‖dt: what one error per unit of time amounts to |
 | law | where a law is promised, no recorded energy rises beyond round-off for h = 1/4 … 300, and none is promised where the exact H may rise |
 | backends | dense, modal and sparse differ by round-off |

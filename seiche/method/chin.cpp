@@ -43,7 +43,7 @@ class Chin final : public BaseStep {
   bool moved_far() const override { return moved_far_; }
   StepDissipation::Kind dissipation_kind() const override { return kind_; }
   StepDissipation::Amount dissipated(const State&, double, double, const Vector&, double) override {
-    return {.fine = damping_, .coarse = damping_, .negative = kind_ == StepDissipation::Kind::general};
+    return {.fine = damping_, .negative = kind_ == StepDissipation::Kind::general};
   }
 
  private:

@@ -29,7 +29,7 @@ class Nystrom : public BaseStep {
   std::string_view failure() const override { return "the Runge–Kutta–Nyström splitting left the numbers"; }
   StepDissipation::Kind dissipation_kind() const override { return kind_; }
   StepDissipation::Amount dissipated(const State&, double, double, const Vector&, double) override {
-    return {.fine = taken_, .coarse = taken_, .negative = kind_ == StepDissipation::Kind::general};
+    return {.fine = taken_, .negative = kind_ == StepDissipation::Kind::general};
   }
 
  protected:

@@ -30,7 +30,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
                 .order = stages,
                 .kind = force_.kind(),
                 .weights = [C = interpolation(rule_.nodes)](double theta) { return collocation_weights(C, theta); }},
-        dissipation_(system, *phi_, output_, {rule_, GaussRule(stages + 2), NestedRules(stages)}),
+        dissipation_(system, *phi_, output_, output_, {rule_, GaussRule(stages + 2), NestedRules(stages)}),
         projected_(system, *phi_, *this, law),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
         cache_(cached_step_sizes(system.space->size())),

@@ -33,7 +33,7 @@ EnergyTarget energy_target(EnergyLaw law, double before, double computed, double
     if (dissipated.negative) return {computed, std::max(before, computed)};
     return {std::min(computed, before), before};
   }
-  const double u = std::abs(dissipated.fine - dissipated.coarse);
+  const double u = dissipated.doubt;
   const double narrow = nearest(before, computed, rest, dissipated, u);
   double target = narrow;
   if (narrow != computed) target = nearest(before, computed, rest, dissipated, u + margin * std::abs(flow_missed()));

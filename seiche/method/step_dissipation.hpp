@@ -29,8 +29,9 @@ class StepDissipation {
     GaussRule coarse, fine;
     NestedRules nested;  // where Q is known from energies
   };
-  // `system` and `phi` outlive it.
-  StepDissipation(const System& system, const PhiEvaluator& phi, StepOutput output, Rules rules);
+  // Where Q depends on ∇V the coarser rule looks at `coarse`: a dense output that is less accurate than the end of the step errs in ∫Q by
+  // more than two rules on it differ by. `system` and `phi` outlive it.
+  StepDissipation(const System& system, const PhiEvaluator& phi, StepOutput output, StepOutput coarse, Rules rules);
 
   // How Q can be known.
   enum class Kind {
@@ -50,8 +51,9 @@ class StepDissipation {
     void add(double weight, const System::Dissipation& q);
   };
   struct Amount {
-    double fine = 0.0, coarse = 0.0;  // of `taken`
-    double work = 0.0;                // fine
+    double fine = 0.0;   // of `taken`
+    double doubt = 0.0;  // how far the coarser quadrature is from it
+    double work = 0.0;
     bool negative = false;
     double gain = std::numeric_limits<double>::infinity();  // where that is so, and how much is not known
   };
@@ -84,14 +86,14 @@ class StepDissipation {
     NodeMaps fine, coarse;            // general; each made when it is first asked for
     std::unique_ptr<PhiMap> between;  // the nodes of the nested rules that are not known already
   };
-  void add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces, const GaussRule& rule,
-                 NodeMaps& maps, Sum& sum);
+  void add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces, const StepOutput& output,
+                 const GaussRule& rule, NodeMaps& maps, Sum& sum);
   Tables& tables(double h);
   static bool follow_energies(const System& system);
 
   const System& system_;
   const PhiEvaluator& phi_;
-  StepOutput output_;
+  StepOutput output_, coarse_output_;
   Rules rules_;
   Kind kind_;
   bool needs_gradient_, follows_energies_;

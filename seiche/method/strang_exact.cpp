@@ -42,7 +42,7 @@ class StrangExact final : public BaseStep {
     StepDissipation::Sum sum;
     add_end(t, s.z, h / 2, sum);
     add_end(t + h, z, h / 2, sum);
-    return {.fine = sum.taken, .coarse = sum.taken, .work = sum.work, .negative = sum.negative, .gain = sum.gain};
+    return {.fine = sum.taken, .work = sum.work, .negative = sum.negative, .gain = sum.gain};
   }
 
  private:
