@@ -154,6 +154,33 @@ TEST(Adaptive, BouncesShorterThanAStepAreMetToo) {
   }
 }
 
+// From q = 0 with q̇ = 1: the start is a zero of q, which rises, and one of 1 − p, whose slope there is 0.
+TEST(Adaptive, AZeroAtTheStartIsAnEventInTheDirectionThatIsTaken) {
+  const Problem p = custom_problem({.H = "p^2/2 + q^2/2", .initial = {{"q", "0"}, {"p", "1"}}});
+  using Direction = Event::Direction;
+  for (const bool fixed : {true, false}) {
+    const auto times = [&](const std::function<double(double, const Vector&)>& g, Direction direction, bool ends) {
+      Simulation simulation(p, {.method = "egc6", .variable_steps = !fixed});
+      const std::vector<Event> events = {{.g = g, .action = [&](State&) { return !ends; }, .direction = direction}};
+      const IntegrateOptions options{.h = 0.25, .t_end = 7, .events = events};
+      return (fixed ? integrate(simulation.system(), simulation.stepper(), simulation.state(), options)
+                    : integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                         {.tolerance = 1e-8, .t_end = 7, .events = events}))
+          .events;
+    };
+    const auto q = [](double, const Vector& z) { return z[0]; };
+    EXPECT_EQ(times(q, Direction::any, false).size(), 3);  // 0, π, 2π
+    EXPECT_EQ(times(q, Direction::rising, false).size(), 2);
+    const std::vector<double> falling = times(q, Direction::falling, false);
+    ASSERT_EQ(falling.size(), 1);
+    EXPECT_NEAR(falling[0], std::numbers::pi, 1e-7);
+    EXPECT_EQ(times(q, Direction::any, true), std::vector<double>{0.0});
+    EXPECT_EQ(times([](double, const Vector& z) { return 1 - z[1]; }, Direction::rising, true),
+              std::vector<double>{0.0});
+    EXPECT_TRUE(times([](double, const Vector&) { return 0.0; }, Direction::any, true).empty());
+  }
+}
+
 // A bouncing ball: infinitely many bounces before t = 10.
 TEST(Adaptive, EventsThatAccumulateEndTheRun) {
   CustomProblem ball;

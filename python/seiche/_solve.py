@@ -91,7 +91,8 @@ def solve(
     events : function or list of functions
         ``g(t, y) -> float``; an event is a change of its sign from one step to the next. Attributes as in SciPy: ``direction`` (> 0 rising, < 0 falling),
         ``terminal`` (True, or the number of occurrences that end the run); and ``action(t, y)``, which may return a new state.
-        The method starts anew behind an event. Two changes inside one step are not seen: where they may lie close, h_max keeps
+        As in SciPy, a zero at the start is an event too. The method starts anew behind an event. Two changes inside one step
+        are not seen: where they may lie close, h_max keeps
         steps short.
     dense_output : bool
         Keep a state for every step, so that ``result.sol(t)`` is the solution at any time.

@@ -37,7 +37,12 @@ class AdaptiveLoop {
 
   void run() {
     if (!recording_.record(state_.t >= options_.t_end)) return;
-    start();
+    const EventFinder::Found at_start =
+        events_.begin(state_, [this](double t, const Vector& z, Vector& rate) { system_.right_hand_side(t, z, rate); });
+    if (at_start.empty())
+      start();
+    else if (!happen(at_start))
+      return;
     while (state_.t < options_.t_end) {
       if (options_.stop && options_.stop->load(std::memory_order_relaxed)) {
         if (unproven_) state_ = backup_;
@@ -196,8 +201,11 @@ class AdaptiveLoop {
     at.t = found.t;
     if (found.t != state_.t) stepper_.interpolate(state_, found.t, at.z);
     std::swap(state_, at);
+    return !crowds(found.t) && happen(found);
+  }
+
+  bool happen(const EventFinder::Found& found) {
     bool goes_on = true;
-    if (crowds(found.t)) return false;
     for (const Event* event : found.events) {
       recording_.report().events.push_back(found.t);
       goes_on = event->action && event->action(state_) && goes_on;

@@ -27,10 +27,35 @@ double EventFinder::value(std::size_t i, double t, const Vector& z) const {
   return g;
 }
 
+// Two short steps of Euler's method: a velocity that is 0 may yet change g through its own rate.
+EventFinder::Found EventFinder::begin(const State& state, Rate rate) {
+  constexpr double short_of = 0x1p-20;  // the time in which z would change by its own size
+  Found found{.t = state.t, .events = {}};
+  std::vector<std::size_t> on_surface;
+  for (std::size_t i = 0; i < events_.size(); ++i)
+    if (value(i, state.t, state.z) == 0) on_surface.push_back(i);
+  if (on_surface.empty()) return found;
+
+  Vector z = state.z, change(state.z.size());
+  rate(state.t, z, change);
+  const double quotient = z.norm() / change.norm();
+  const double dt = short_of * (std::isfinite(quotient) && quotient > 0 ? quotient : 1.0);
+  z += dt * change;
+  rate(state.t + dt, z, change);
+  z += dt * change;
+  for (const std::size_t i : on_surface) {
+    const double soon = value(i, state.t + 2 * dt, z);
+    if (is_crossing(-soon, soon, events_[i].direction)) found.events.push_back(&events_[i]);
+  }
+  happened_ = found.events;
+  return found;
+}
+
 void EventFinder::start(const State& state) {
   for (std::size_t i = 0; i < events_.size(); ++i) {
     const bool just_now = std::find(happened_.begin(), happened_.end(), &events_[i]) != happened_.end();
-    left_[i] = {state.t, just_now ? 0.0 : value(i, state.t, state.z), just_now};
+    const double g = just_now ? 0.0 : value(i, state.t, state.z);
+    left_[i] = {state.t, g, g == 0};
   }
   happened_.clear();
 }

@@ -13,17 +13,21 @@ class EventFinder {
  public:
   explicit EventFinder(std::span<const Event> events) : events_(events), left_(events.size()) {}
 
+  struct Found {
+    double t = 0.0;
+    std::vector<const Event*> events;  // all that happen at t; none: no event in the step
+    bool empty() const { return events.empty(); }
+  };
+  using Rate = FunctionRef<void(double t, const Vector& z, Vector& rate)>;  // ż
+  // The events that the run begins with: those whose g is 0, in the direction that it then takes. As in SciPy.
+  Found begin(const State& state, Rate rate);
+
   // The values from which signs change. The state stands on the surface of events that have just happened, on either side by
   // round-off: for them the sign counts that g has a little later, inside the next step.
   void start(const State& state);
 
   using Inside = FunctionRef<void(double t, Vector& z)>;  // z ← the solution at a time inside the last step
 
-  struct Found {
-    double t = 0.0;
-    std::vector<const Event*> events;  // all that happen at t; none: no event in the step
-    bool empty() const { return events.empty(); }
-  };
   // The first events inside the last step, located on the solution inside it to round-off in t (TOMS 748). Throws Error
   // where an event function is no number.
   Found find(const State& state, Inside inside);

@@ -14,8 +14,10 @@ constexpr std::int64_t finite_check_every = 64;
 
 class FixedLoop {
  public:
-  FixedLoop(Stepper& stepper, State& state, const IntegrateOptions& options, const TimeGrid& grid, Recording& recording)
-      : stepper_(stepper),
+  FixedLoop(const System& system, Stepper& stepper, State& state, const IntegrateOptions& options, const TimeGrid& grid,
+            Recording& recording)
+      : system_(system),
+        stepper_(stepper),
         state_(state),
         options_(options),
         grid_(grid),
@@ -24,6 +26,9 @@ class FixedLoop {
 
   void run() {
     if (!recording_.record(grid_.steps == 0)) return;
+    const EventFinder::Found at_start =
+        events_.begin(state_, [this](double t, const Vector& z, Vector& rate) { system_.right_hand_side(t, z, rate); });
+    if (!at_start.empty() && !happen(at_start)) return;
     events_.start(state_);
     std::int64_t k = 1;
     while (k <= grid_.steps) {
@@ -83,6 +88,10 @@ class FixedLoop {
     } else {
       recording_.enter(whole);
     }
+    return happen(found);
+  }
+
+  bool happen(const EventFinder::Found& found) {
     bool goes_on = true;
     for (const Event* event : found.events) {
       recording_.report().events.push_back(found.t);
@@ -97,6 +106,7 @@ class FixedLoop {
     return true;
   }
 
+  const System& system_;
   Stepper& stepper_;
   State& state_;
   const IntegrateOptions& options_;
@@ -113,7 +123,7 @@ RunReport integrate(const System& system, Stepper& stepper, State& state, const 
                     std::span<Observer* const> observers) {
   const TimeGrid grid(state.t, options.h, options.t_end);
   Recording recording(system, stepper, state, options.law, observers);
-  FixedLoop loop(stepper, state, options, grid, recording);
+  FixedLoop loop(system, stepper, state, options, grid, recording);
   try {
     loop.run();
   } catch (const Error& error) {  // a propagator that does not exist, a disk that is full
