@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <seiche/config/case_file.hpp>
+#include <seiche/config/initial_file.hpp>
 #include <seiche/config/kick_stability.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/config/sparse_work.hpp>
@@ -162,6 +163,8 @@ ExitCode run(const RunArguments& arguments) {
          {beyond_stability(simulation, spec.h), beyond_rate(simulation, spec.h, spec.t_end),
           beyond_splitting(simulation, spec.h), work_of_exponentials(simulation, spec.sparse, spec.h, spec.t_end)})
       if (!beyond.empty()) spec.notes.push_back(beyond);
+  if (std::holds_alternative<FileData>(spec.initial))
+    if (const std::string lost = lost_between_runs(simulation); !lost.empty()) spec.notes.push_back(lost);
   Certificate certificate = certify(problem, {.method = spec.method,
                                               .method_options = spec.method_options,
                                               .t_end = spec.t_end,

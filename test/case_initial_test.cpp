@@ -3,6 +3,9 @@
 #include "support/temporary_directory.hpp"
 
 #include <seiche/config/case_file.hpp>
+#include <seiche/config/formula_compiler.hpp>
+#include <seiche/config/initial_file.hpp>
+#include <seiche/damping/rates.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -105,6 +108,19 @@ TEST_F(CaseFolder, ACaseFileThatCannotBeReadSaysSo) {
   EXPECT_THAT(error_of([&] { read_case(directory); }), HasSubstr("is a folder"));
   const fs::path empty = write("empty.toml", "");
   EXPECT_THAT(error_of([&] { read_case(empty); }), HasSubstr("has no name"));
+}
+
+TEST_F(CaseFolder, WhatAFileCannotTellAContinuedRunIsSaid) {
+  const auto lost = [](const Problem& problem, const char* method) {
+    Simulation simulation(problem, {.method = method});
+    return lost_between_runs(simulation);
+  };
+  const Problem constant = duffing_from("1 2 3 4");
+  EXPECT_EQ(lost(constant, "egc4"), "");
+  EXPECT_THAT(lost(constant, "seisav"), HasSubstr("auxiliary variables of seisav"));
+  Problem changing = constant;
+  changing.damping.rate = formula_rate(compile_formula("0.1 + 0.05*sin(t)", {"t"}));
+  EXPECT_THAT(lost(changing, "egc4"), HasSubstr("from t = 0 on"));
 }
 
 }  // namespace

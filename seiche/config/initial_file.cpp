@@ -3,6 +3,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -20,6 +21,12 @@ double read_token(const std::string& token, const std::filesystem::path& file, s
   if (status == std::errc() && rest == end && std::isfinite(value)) return value;
   throw Error("{}:{}: '{}' is not a finite number", file.string(), line,
               token.size() > 60 ? token.substr(0, 60) + "…" : token);
+}
+
+bool depends_on_time(const Problem& problem) {
+  const auto changes = [](const auto& rate) { return rate && !rate->is_constant(); };
+  return changes(problem.damping.rate) || changes(problem.damping.field_rate) ||
+         std::any_of(problem.forces.begin(), problem.forces.end(), changes);
 }
 
 }  // namespace
@@ -46,6 +53,18 @@ Vector read_initial_file(const std::filesystem::path& file, const Problem& probl
                     : fmt::format("{} field{} × {} unknowns", problem.field_count(),
                                   problem.field_count() == 1 ? "" : "s", problem.grid.unknowns()));
   return z;
+}
+
+std::string lost_between_runs(Simulation& simulation) {
+  const std::string auxiliaries =
+      simulation.stepper().has_modified_energy()
+          ? fmt::format("the auxiliary variables of {} begin anew", simulation.method().name)
+          : "";
+  const std::string time = depends_on_time(simulation.problem()) ? "damping and forces are those from t = 0 on" : "";
+  if (auxiliaries.empty() && time.empty()) return "";
+  const std::string both = auxiliaries.empty() || time.empty() ? "" : ", and ";
+  return fmt::format("a file holds z alone: {}{}{}; a run that this is to continue would go on a little differently",
+                     auxiliaries, both, time);
 }
 
 }  // namespace seiche
