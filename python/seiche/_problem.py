@@ -123,7 +123,7 @@ class Problem:
     M : (n, n) array or scipy.sparse matrix
         Symmetric and positive semidefinite.
     S : (n, n) array or scipy.sparse matrix, optional
-        The structure, with S + Sᵀ negative semidefinite; by default [[0, I], [−I, 0]].
+        The structure; by default [[0, I], [−I, 0]]. Where S + Sᵀ ⪯ 0 fails, no energy law is promised.
     D : (n, n) array or scipy.sparse matrix, optional
         Constant damping, 1/time.
     V : callable or str, optional

@@ -50,9 +50,6 @@ void SparseOperators::validate() const {
   if (const auto x = negative_direction(M))
     throw Error("M must be positive semidefinite, but zᵀMz = {:.6g} for a z of norm 1 that is largest at entry {}",
                 x->value, x->largest + 1);
-  if (const auto x = negative_direction(SparseMatrix(-symmetric_part(S))))
-    throw Error("S + Sᵀ must be negative semidefinite, but zᵀSz = {:.6g} for a z of norm 1 that is largest at entry {}",
-                -x->value, x->largest + 1);
 }
 
 }  // namespace seiche

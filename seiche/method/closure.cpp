@@ -21,7 +21,7 @@ EnergyReading Closure::energy(const State& s) const {
 
 bool Closure::nothing_changes_H() const {
   if (!system_.damping->is_zero() || system_.force || system_.structure) return false;
-  // zᵀSz = 0, tried with one vector: sym(S) ⪯ 0, so that no two of its terms cancel.
+  // zᵀSz = 0, tried with one vector without symmetries.
   const Vector z = generic_state(*system_.space);
   Vector Sz(z.size());
   system_.linear->apply_S(z, Sz);

@@ -94,7 +94,7 @@ ProblemEntry sparse_entry() {
           {
               file("M",
                    "symmetric, positive semidefinite; a Matrix Market file; \"\": a chain of 20, held at its ends"),
-              file("S", "S + Sᵀ negative semidefinite; \"\": [[0, I], [−I, 0]]"),
+              file("S", "the structure; a law is promised where S + Sᵀ ⪯ 0; \"\": [[0, I], [−I, 0]]"),
               file("D", "constant damping; \"\": none"),
               {.name = "fields",
                .kind = ParameterKind::integer,
