@@ -8,6 +8,7 @@
 #include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/nls.hpp>
+#include <seiche/problem/truss.hpp>
 #include <seiche/study/certificate.hpp>
 #include <seiche/study/reference.hpp>
 
@@ -119,6 +120,30 @@ TEST(Certificate, AWitnessOfAMatrixHasItsSigns) {
                                [](const Hypothesis& h) { return h.grade == Grade::violated; });
   ASSERT_NE(MD, certificate.hypotheses.end());
   EXPECT_THAT(MD->witness, HasSubstr("z = (a: 0.934, b: -0.358), where it is -0.172681"));
+}
+
+// D = diag(0, γ − 0.1) from a constant part that feeds and a constant rate that makes up for it; one that changes is judged alone.
+TEST(Certificate, PartsOfAConstantDampingAreJudgedTogether) {
+  const auto promised = [](bool by_matrices, const RatePointer& gamma) {
+    Problem p = by_matrices ? truss({.panels = 3}) : klein_gordon_case();
+    p.damping = {.constant = BlockStencil(2), .rate = gamma, .rate_fields = {false, true}};
+    if (by_matrices) {
+      p.damping.rate_fields = {false, false, true, true};
+      SparseOperators matrices = *p.matrices;
+      matrices.D.resize(p.size(), p.size());
+      for (Index i = p.size() / 2; i < p.size(); ++i) matrices.D.insert(i, i) = -0.1;
+      p.matrices = std::make_shared<SparseOperators>(matrices);
+    } else {
+      p.damping.constant(1, 1) += Stencil::identity(-0.1);
+    }
+    return promise_energy_law(p, 1).promised;
+  };
+  for (const bool by_matrices : {false, true}) {
+    EXPECT_TRUE(promised(by_matrices, constant_rate(0.2)));
+    EXPECT_TRUE(promised(by_matrices, constant_rate(0.1)));
+    EXPECT_FALSE(promised(by_matrices, constant_rate(0.05)));
+    EXPECT_FALSE(promised(by_matrices, formula_rate(compile_formula("0.2 + 0.01*sin(t)", {"t"}))));
+  }
 }
 
 }  // namespace

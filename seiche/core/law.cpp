@@ -59,8 +59,8 @@ LawPromise promise_of_stencils(const Problem& problem, double t_end, const Opera
     const std::string complaint = complaint_about_field_rate(problem, t_end);
     if (!complaint.empty()) return {false, complaint};
   }
-  const bool feeds =
-      (findings.MD_constant && !findings.MD_constant->holds()) || (damping.rate && !findings.MD_rate->holds());
+  const bool feeds = (findings.MD_constant && !findings.MD_constant->holds()) ||
+                     (damping.rate && findings.MD_rate && !findings.MD_rate->holds());
   if (feeds) return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
   return promise_given_semidefinite_MD(problem);
 }

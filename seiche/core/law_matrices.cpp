@@ -39,8 +39,8 @@ LawPromise promise_energy_law_of_matrices(const Problem& problem, double t_end, 
   if (!problem.has_damping()) return {true, "sym(S) ⪯ 0 and no damping flow"};
 
   if (std::string text = complaint_about_rates(problem, t_end); !text.empty()) return {false, text};
-  const bool feeds =
-      (findings.MD_constant && !findings.MD_constant->holds()) || (damping.rate && !findings.MD_rate->holds());
+  const bool feeds = (findings.MD_constant && !findings.MD_constant->holds()) ||
+                     (damping.rate && findings.MD_rate && !findings.MD_rate->holds());
   if (feeds) return {false, "sym(MD) is not positive semidefinite: the damping feeds some direction"};
   return promise_given_semidefinite_MD(problem);
 }

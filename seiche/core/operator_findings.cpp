@@ -1,3 +1,4 @@
+#include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/definiteness.hpp>
 #include <seiche/core/operator_findings.hpp>
 
@@ -75,6 +76,13 @@ class Scan {
   AnyBlock block_;
 };
 
+// Is D = D₀ + γP one constant matrix whose flow is that of its parts, in any order? Then one part may make up for the other.
+bool is_one_damping(const Problem& problem) {
+  const LinearDamping& damping = problem.damping;
+  return problem.has_constant_damping() && damping.rate && damping.rate->is_constant() && !damping.field_rate &&
+         rate_commutes(problem);
+}
+
 template <class AnyBlock>
 OperatorFindings look_at_modes(const Problem& problem) {
   const Modes modes(problem.grid);
@@ -83,9 +91,11 @@ OperatorFindings look_at_modes(const Problem& problem) {
   const bool has_constant = problem.has_constant_damping();
   const bool has_rate = damping.rate || damping.field_rate;
   const AnyBlock projector = has_rate ? AnyBlock(rate_symbol(problem)) : AnyBlock();
+  const bool together = is_one_damping(problem);
+  const AnyBlock beside = together ? AnyBlock(damping.rate->value(0) * projector) : AnyBlock(AnyBlock::Zero(m, m));
 
   Scan<AnyBlock> metric(m, modes.count()), structure(m, modes.count());
-  Scan<AnyBlock> constant(m, has_constant ? modes.count() : 0), rate(m, has_rate ? modes.count() : 0);
+  Scan<AnyBlock> constant(m, has_constant ? modes.count() : 0), rate(m, has_rate && !together ? modes.count() : 0);
   OperatorFindings findings;
   findings.S_is_skew = true;
   for (Index k = 0; k < modes.count(); ++k) {
@@ -96,13 +106,13 @@ OperatorFindings look_at_modes(const Problem& problem) {
     structure.add(k, -S);
     for (Index i = 0; findings.S_is_skew && i < m; ++i)
       for (Index j = 0; j <= i; ++j) findings.S_is_skew &= S(i, j) + std::conj(S(j, i)) == 0.0;
-    if (has_constant) constant.add(k, M * symbol_of<AnyBlock>(damping.constant, mode));
-    if (has_rate) rate.add(k, M * projector);
+    if (has_constant) constant.add(k, M * (symbol_of<AnyBlock>(damping.constant, mode) + beside));
+    if (has_rate && !together) rate.add(k, M * projector);
   }
   findings.M.over_modes = metric.result(modes);
   findings.minus_S.over_modes = structure.result(modes);
   if (has_constant) findings.MD_constant = Semidefiniteness{.over_modes = constant.result(modes)};
-  if (has_rate) findings.MD_rate = Semidefiniteness{.over_modes = rate.result(modes)};
+  if (has_rate && !together) findings.MD_rate = Semidefiniteness{.over_modes = rate.result(modes)};
   return findings;
 }
 
@@ -114,8 +124,11 @@ OperatorFindings look_at_matrices(const Problem& problem) {
   findings.S_is_skew = symmetric.norm() == 0;
   findings.M = look(matrices.M);
   findings.minus_S = look(SparseMatrix(-symmetric));
-  if (problem.has_constant_damping()) findings.MD_constant = look(symmetric_part(matrices.M * matrices.D));
-  if (problem.damping.rate || problem.damping.field_rate)
+  const bool together = is_one_damping(problem);
+  if (problem.has_constant_damping())
+    findings.MD_constant =
+        look(symmetric_part(SparseMatrix(matrices.M * (together ? frozen_damping_matrix(problem) : matrices.D))));
+  if ((problem.damping.rate || problem.damping.field_rate) && !together)
     findings.MD_rate = look(symmetric_part(matrices.M * rate_matrix(problem)));
   return findings;
 }

@@ -33,7 +33,8 @@ struct OperatorFindings {
   Semidefiniteness M;
   Semidefiniteness minus_S;  // −½(S + Sᵀ)
   bool S_is_skew = false;    // S + Sᵀ = 0 exactly
-  // Of ½(MD + DᵀM), for the constant part of D and for the projector of its rate; nothing where there is no such part.
+  // Of ½(MD + DᵀM), for the constant part of D and for the projector of its rate; nothing where there is no such part. A rate that is
+  // constant and commutes with that part is looked at as a piece of it.
   std::optional<Semidefiniteness> MD_constant, MD_rate;
 };
 

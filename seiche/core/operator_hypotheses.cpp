@@ -91,7 +91,9 @@ Hypothesis hypothesis_of_MD(const Problem& problem, const OperatorFindings& find
   const std::string name = "sym(MD) ⪰ 0";
   std::vector<Hypothesis> parts;
   if (findings.MD_constant)
-    parts.push_back(semidefinite(problem, name, *findings.MD_constant, "the constant part of D takes from ½zᵀMz"));
+    parts.push_back(semidefinite(problem, name, *findings.MD_constant,
+                                 findings.MD_rate ? "the constant part of D by itself takes from ½zᵀMz"
+                                                  : "the constant part of D takes from ½zᵀMz"));
   if (findings.MD_rate)
     parts.push_back(semidefinite(problem, name, *findings.MD_rate, "the rate takes from ½zᵀMz where it is ≥ 0"));
   if (parts.empty()) return {name, Grade::by_structure, "there is no linear damping"};
