@@ -5,6 +5,7 @@
 #include "support/paper_cases.hpp"
 #include "support/worst.hpp"
 
+#include <seiche/config/custom_problem.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/method/nystrom_scheme.hpp>
@@ -229,6 +230,23 @@ TEST(Chin, LetsHFallByItsFormAlone) {
     Simulation simulation(p, {.method = "chin4", .method_options = with_law(EnergyLaw::none)});
     expect_falling_energy(simulation, h, 200);
   }
+}
+
+// b oscillates by itself and V knows nothing of it.
+TEST(Chin, TakesAPotentialThatLeavesOutAPosition) {
+  const Problem p =
+      custom_problem({.fields = {"a", "b", "p", "r"},
+                      .H = "(p^2 + r^2)/2 + a^2/2 + b^2 + a*b/2 + a^4/4",
+                      .D = {{"0", "0", "0", "0"}, {"0", "0", "0", "0"}, {"0", "0", "0.1", "0"}, {"0", "0", "0", "0.1"}},
+                      .initial = {{"a", "1"}, {"b", "0.5"}, {"p", "0.25"}, {"r", "0"}}});
+  const auto end = [&](const std::string& method, int steps, const MethodOptions& options = {}) {
+    Simulation simulation(p, {.method = method, .method_options = options});
+    for (int n = 0; n < steps; ++n) EXPECT_TRUE(simulation.step(4.0 / steps).solved());
+    return Vector(simulation.physical());
+  };
+  const Vector exact = end("egc8", 256);
+  EXPECT_LT((end("chin4", 64) - exact).norm(), 1e-6);
+  EXPECT_LT((end("crkn6", 64, with_explicit_kicks()) - exact).norm(), 1e-8);
 }
 
 TEST(Chin, CountsWhatItsInnerProjectionsFallBackTo) {

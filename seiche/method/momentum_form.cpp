@@ -10,9 +10,8 @@ constexpr double vanishing = 1e-13;  // relative to the vector: what is left of 
 
 class Probe {
  public:
-  explicit Probe(const System& system) : system_(system), support_(system.potential->support()) {
+  Probe(const System& system, Potential::Support positions) : system_(system), support_(positions) {
     const Index size = system.space->size();
-    if (support_.size == 0) support_ = {0, size / 2};
     all_.resize(size);
     std::uint64_t bits = 1;
     for (double& x : all_) {  // a linear congruential generator
@@ -72,24 +71,34 @@ std::optional<double> rate_of(const System& system, const Probe& probe) {
   return rate;
 }
 
-}  // namespace
-
-MomentumForm momentum_form(const System& system) {
-  const Probe probe(system);
+MomentumForm form_with(const System& system, Potential::Support positions) {
+  const Probe probe(system, positions);
   const Vector u = probe.with_positions();
   const Vector v = probe.with_momenta();
-  const Index begin = probe.positions().begin;
-  const Index size = probe.positions().size;
-  MomentumForm form{.positions = probe.positions()};
+  MomentumForm form{.positions = positions};
   const Vector Su = probe.S(u);
   const Vector Sv = probe.S(v);
   const Vector Mv = probe.M(v);
   form.kicks = probe.in_momenta(Su);
   form.separable = form.kicks && probe.in_positions(Sv) && probe.in_momenta(Mv) && probe.in_positions(probe.M(u));
-  form.canonical = form.separable && begin == 0 && 2 * size == probe.size() && (Mv - v).norm() == 0 &&
-                   (Su.tail(size) + u.head(size)).norm() == 0 && (Sv.head(size) - v.tail(size)).norm() == 0;
+  form.canonical = form.separable && positions.begin == 0 && 2 * positions.size == probe.size() &&
+                   (Mv - v).norm() == 0 && (Su.tail(positions.size) + u.head(positions.size)).norm() == 0 &&
+                   (Sv.head(positions.size) - v.tail(positions.size)).norm() == 0;
   form.rate = rate_of(system, probe);
   return form;
+}
+
+}  // namespace
+
+MomentumForm momentum_form(const System& system) {
+  const Potential::Support asked = system.potential->support();
+  const Index half = system.space->size() / 2;
+  const Potential::Support first_half{0, half};
+  if (asked.size == 0) return form_with(system, first_half);
+  MomentumForm form = form_with(system, asked);
+  if (form.separable || asked.begin + asked.size > half) return form;
+  const MomentumForm wider = form_with(system, first_half);  // V may leave out a position
+  return wider.separable ? wider : form;
 }
 
 }  // namespace seiche

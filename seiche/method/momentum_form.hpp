@@ -10,10 +10,11 @@ namespace seiche {
 // Asked of the operators themselves: each statement "A maps this part into that one" is tried on one vector without a zero, for
 // which another A would have to be made.
 struct MomentumForm {
-  Potential::Support positions;     // those that V depends on; the first half of z where there is no V
-  bool kicks = false;               // S∇V moves momenta alone: the flow of ż = S∇V(z) is a kick
-  bool separable = false;           // H = T(v) + U(u), and S couples u with v alone
-  bool canonical = false;           // separable, T = ½|v|², u' = v and v' = −∇U, component by component
+  Potential::Support
+      positions;           // those that V depends on; the first half of z where that makes a separable form or V = 0
+  bool kicks = false;      // S∇V moves momenta alone: the flow of ż = S∇V(z) is a kick
+  bool separable = false;  // H = T(v) + U(u), and S couples u with v alone
+  bool canonical = false;  // separable, T = ½|v|², u' = v and v' = −∇U, component by component
   std::optional<double> rate = {};  // γ, where D is γ on momenta and 0 on positions, at any time
 };
 MomentumForm momentum_form(const System& system);
