@@ -3,6 +3,7 @@
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/study/converge.hpp>
+#include <test/support/error_of.hpp>
 #include <test/support/paper_cases.hpp>
 
 #include <gtest/gtest.h>
@@ -30,6 +31,15 @@ TEST(Reference, FollowsTheDampedOscillatorExactly) {
   }
   EXPECT_GT(reference.error, 0);
   EXPECT_LT(reference.error, 1e-13);
+}
+
+TEST(Reference, ThatWouldNeverEndIsRefused) {
+  Problem problem = test::duffing_case(1e9);
+  for (const ReferenceKind kind : {ReferenceKind::fehlberg78, ReferenceKind::seavf}) {
+    const std::string message = test::error_of([&] { make_reference(problem, {0.0, 5e8, 1e9}, {.kind = kind}); });
+    EXPECT_NE(message.find("would take"), std::string::npos) << message;
+    EXPECT_NE(message.find("choose an earlier end"), std::string::npos) << message;
+  }
 }
 
 TEST(Reference, SamplesEveryStepOfEveryStepSizeOnce) {

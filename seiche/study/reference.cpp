@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 
 namespace seiche {
@@ -18,6 +19,8 @@ namespace odeint = boost::numeric::odeint;
 
 // Of the smallest step: nearer times are the same time, reached by different products k h.
 constexpr double same_time = 1e-6;
+
+constexpr double most_steps = 1e10;  // of a reference by steps of one size
 
 using Record = std::function<void(std::size_t k, std::span<const double> z)>;  // the state at the k-th time
 
@@ -43,6 +46,32 @@ double careful_step(const PhysicalEquation& equation, const std::vector<double>&
   return largest_entry(z) > 0 && change > 0 ? 0.01 * largest_entry(z) / change : 0.01;
 }
 
+// Does an explicit scheme come to an end? Looked at now and then, from the share of the time that is behind it.
+class Patience {
+ public:
+  Patience(const PhysicalEquation& equation, double t_end, const std::atomic<bool>* stop)
+      : unknowns_(static_cast<double>(equation.initial().size())), t_end_(t_end), stop_(stop) {}
+
+  void count(double t) {
+    if (++evaluations_ % look_every != 0) return;
+    if (stop_ && stop_->load(std::memory_order_relaxed))
+      throw Error("the reference solution was interrupted at t = {}", t);
+    const double expected = static_cast<double>(evaluations_) * t_end_ / t;
+    if (evaluations_ >= first_estimate && !(expected * unknowns_ <= most_work))
+      throw Error(
+          "no reference: up to t = {:.3g} it took {} evaluations of the right-hand side, and to t = {:.6g} it would take about {:.1g}; the "
+          "equation is stiff, and an explicit scheme follows its fastest rate: choose an earlier end",
+          t, evaluations_, t_end_, expected);
+  }
+
+ private:
+  static constexpr std::int64_t look_every = 1024, first_estimate = std::int64_t{1} << 20;
+  static constexpr double most_work = 1e13;  // evaluations × unknowns: hours
+  double unknowns_, t_end_;
+  const std::atomic<bool>* stop_;
+  std::int64_t evaluations_ = 0;
+};
+
 void fehlberg78(const Problem& problem, const std::vector<double>& times, double tolerance,
                 const std::atomic<bool>* stop, const Record& record) {
   using Values = std::vector<double>;
@@ -51,11 +80,16 @@ void fehlberg78(const Problem& problem, const std::vector<double>& times, double
   Values z = equation.initial();
   // A first step over a whole gap may overflow where the equation is stiff, and the controller accepts what is NaN.
   const double first_step = std::min(times[1] - times[0], careful_step(equation, z));
+  Patience patience(equation, times.back(), stop);
   std::size_t k = 0;
   try {
     odeint::integrate_times(
-        std::ref(stepper), [&](const Values& x, Values& dxdt, double t) { equation.right_hand_side(t, x, dxdt); }, z,
-        times.begin(), times.end(), first_step,
+        std::ref(stepper),
+        [&](const Values& x, Values& dxdt, double t) {
+          patience.count(t);
+          equation.right_hand_side(t, x, dxdt);
+        },
+        z, times.begin(), times.end(), first_step,
         [&](const Values& x, double t) {
           check(x, t, stop);
           record(k++, x);
@@ -68,6 +102,9 @@ void fehlberg78(const Problem& problem, const std::vector<double>& times, double
 
 void seavf(const Problem& problem, const std::vector<double>& times, double h_wanted, const std::atomic<bool>* stop,
            const Record& record) {
+  if (const double steps = times.back() / h_wanted; steps > most_steps)
+    throw Error("the reference by seavf at h = {:.3g} would take {:.1g} steps to t = {:.6g}; choose an earlier end",
+                h_wanted, steps, times.back());
   Simulation simulation(problem, {.method = "seavf"});
   Vector values = simulation.physical();
   double h = 0;
