@@ -55,7 +55,10 @@ class Advisor {
   std::string of_field(std::string_view field) const {
     switch (c_.kind) {
       case Kind::constant_entry:
-        return fmt::format("{} is a field, and entries of S and M are constant: numbers and derivatives", field);
+        return fmt::format(
+            "{} is a field, and entries of S and M are constant: numbers and derivatives. A structure S(z) is written in C++ (seiche::Structure, "
+            "as in the problem rigid_body), and egc2 … egc8, seimp and etdrk4 take it",
+            field);
       case Kind::damping_entry:
         return fmt::format(
             "{} is a field, and D is linear: its entries are coefficients, rates in t and the place, and derivatives; damping "
