@@ -43,9 +43,12 @@ class Background {
 
   static bool wait_until(const std::function<bool()>& condition, int seconds = 20) {
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
-    while (!condition() && std::chrono::steady_clock::now() < give_up)
+    bool is_met = condition();
+    while (!is_met && std::chrono::steady_clock::now() < give_up) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return condition();
+      is_met = condition();
+    }
+    return is_met;
   }
 
   void send(int signal) const { kill(child_, signal); }
