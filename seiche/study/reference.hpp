@@ -43,8 +43,7 @@ class Reference {
 // The times k h (k = 0, 1, …; the last one t_end) of all step sizes, merged.
 std::vector<double> sample_times(std::span<const double> step_sizes, double t_end);
 
-// Throws Error where the solution leaves the numbers, would not fit into memory, or where steps as short as an explicit scheme needs would
-// never end.
+// Throws Error where the solution is no longer finite, does not fit into memory, or needs more steps than will ever end.
 Reference make_reference(const Problem& problem, const std::vector<double>& times,
                          const ReferenceOptions& options = {});
 
