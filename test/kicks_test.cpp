@@ -279,6 +279,8 @@ TEST(Rates, OfADampingThatIsSplitFromForcesItBalancesAreSaidBeforeTheRun) {
   EXPECT_EQ(beyond_splitting(Simulation(stiff, {.method = "seisav"}), 1e-3), "");
   EXPECT_EQ(beyond_splitting(Simulation(stiff, {.method = "egc4"}), 0.1), "") << "damping in its exponential";
   EXPECT_EQ(beyond_splitting(Simulation(stiff, {.method = "eisav"}), 0.1), "");
+  EXPECT_THAT(beyond_splitting(Simulation(stiff, {.method = "chin4"}), 0.1),
+              testing::HasSubstr("of order four only where hγ < 2"));
   for (const auto& [name, problem] : golden_cases())
     EXPECT_EQ(beyond_splitting(Simulation(problem, {.method = "seisav"}), 1.0 / 16), "") << name;
 }

@@ -41,7 +41,8 @@ std::string beyond_rate(const Simulation& simulation, double h, double t_end) {
 
 // A force F against γ ≫ 1/h: the exact momentum is F/γ, and behind a splitting hF/2.
 std::string beyond_splitting(const Simulation& simulation, double h) {
-  if (simulation.method().composition != Composition::strang) return "";
+  const Composition composition = simulation.method().composition;
+  if (composition != Composition::strang && composition != Composition::chin) return "";
   const System& system = simulation.system();
   Vector pushed(system.initial.size()), damped(pushed), damped_twice(pushed);
   system.right_hand_side(0, system.initial, pushed);
@@ -52,6 +53,11 @@ std::string beyond_splitting(const Simulation& simulation, double h) {
   const double length = damped.norm();
   const double rate = length > 0 ? damped_twice.norm() / length : 0;
   if (!(h * rate > 2)) return "";
+  if (composition == Composition::chin)
+    return fmt::format(
+        "{} splits the damping from the forces, and is of order four only where hγ < 2: it is {:.3g} with h = {:.4g} and γ = {:.4g}; take h ≤ "
+        "{:.2g}, or a method with the damping in its exponential (egc4, eisav)",
+        simulation.method().name, h * rate, h, rate, 1 / rate);
   return fmt::format(
       "{} splits the damping from the forces, and where the two balance, momenta are wrong by the factor hγ/2: it is {:.3g} with h = {:.4g} and "
       "γ = {:.4g}; take h ≤ {:.2g}, or a method with the damping in its exponential (egc4, eisav)",
