@@ -237,6 +237,42 @@ TEST(StiffRates, MixedStiffnessIsRoundedByTheSquareOfTheFastestRate) {
   }
 }
 
+// S is not skew, and what it takes to zero (cᵀS = 0, S(1, −1, 2)ᵀ = 0) is not the same on its two sides: c stays, and a and b turn about ±½.
+TEST(StiffRates, WhatAnSThatFeedsKeepsStays) {
+  Problem problem = sparse_problem({.fields = 1,
+                                    .matrices = {.S = sparse(Matrix{{0, 1000, 500}, {-1000, 0, 500}, {0, 0, 0}}),
+                                                 .M = identity_matrix(3),
+                                                 .D = {}}});
+  problem.initial = Vector{{1, 0, 1}};
+  const double c = std::cos(1000.0) / 2, s = std::sin(1000.0) / 2;
+  const Vector exact{{0.5 + c + s, -0.5 + c - s, 1}};
+  for (const MethodEntry& method : methods()) {
+    if (!applies(method.name, problem) || !is_exact_for_linear_equations(method, false)) continue;
+    for (const std::string_view backend : {"dense", "sparse"}) {
+      for (const double h : {1.0 / 16, 1.0 / 4, 1.0}) {  // hρ = 62 … 1000
+        SCOPED_TRACE(fmt::format("{} {} h = {}", method.name, backend, h));
+        const Outcome r = run(method, problem, backend, h, static_cast<int>(1 / h));
+        EXPECT_LE((r.z - exact).lpNorm<Eigen::Infinity>(), 1e-10);
+      }
+    }
+  }
+}
+
+TEST(StiffRates, DampingThatFeedsIsNotRefused) {
+  Matrix D = Matrix::Zero(2, 2), M = Matrix::Identity(2, 2);
+  D(1, 1) = -0.1;
+  M(0, 0) = 1e6;
+  Problem problem = sparse_problem({.matrices = {.S = {}, .M = sparse(M), .D = sparse(D)}});
+  problem.initial = Vector{{1e-3, start_p}};
+  const auto [q, p] = oscillator(1e3, -0.1, 10);
+  for (const char* name : {"eavf", "eisav", "egc4", "etdrk4"}) {
+    SCOPED_TRACE(name);
+    const Outcome r = run(find_method(name), problem, "dense", 0.125, 80);
+    EXPECT_NEAR(1e3 * r.z[0], q, 1e-10);
+    EXPECT_NEAR(r.z[1], p, 1e-10);
+  }
+}
+
 // ½zᵀMz + fᵀz does not rise in z ← z + F(Mz + f), beyond the round-off of its terms: the contract, as every closure meets it.
 double worst_rise(const System& system, const Propagator& propagator, double fastest) {
   std::mt19937_64 random(3);

@@ -52,26 +52,28 @@ class InEnergyCoordinates {
         S_(c_.structure(S)),
         M_(c_.metric()),
         rate_(c_.loss(S)),
-        casimirs_(dense_kernel(S)),
-        kernel_(orthonormal(c_.T.transpose() * casimirs_)) {}
+        feeds_(has_negative_direction(rate_)),
+        casimirs_(dense_kernel<Matrix>(S.transpose())),
+        unmoved_(feeds_ ? dense_kernel(S) : casimirs_),
+        kernels_{orthonormal(c_.T.transpose() * casimirs_), orthonormal(c_.T.transpose() * unmoved_)} {}
 
   Matrix force(double h) const {
     if (kind_ == PropagatorKind::exponential) {
       Matrix G = exponential_force(S_, M_, rate_, h);
-      G -= (kernel_ * (kernel_.transpose() * G)).eval();
-      G -= ((G * kernel_) * kernel_.transpose()).eval();
+      kernels_.restore(G);
       return G;
     }
-    return contracting_cayley_force(S_, M_, rate_, kernel_, h);
+    return contracting_cayley_force(S_, M_, rate_, kernels_, h);
   }
 
   DenseForce maps(double h, double size) const {
     const Matrix G = force(h);
-    require_contract(G, M_, h, size);
-    const Matrix T = c_.T - casimirs_ * (casimirs_.transpose() * c_.T);  // else up to round-off of what is fast
+    if (!feeds_) require_contract(G, M_, h, size);
+    const Matrix T = without(casimirs_);  // else up to round-off of what is fast
+    const Matrix of_force = feeds_ ? without(unmoved_) : T;
     const Matrix half = kind_ == PropagatorKind::cayley ? Matrix(G / 2) : force(h / 2);
     const Matrix of_state = M_ * c_.inverse;
-    DenseForce maps{G * T.transpose(), G * of_state, half * T.transpose(), half * of_state, T};
+    DenseForce maps{G * of_force.transpose(), G * of_state, half * of_force.transpose(), half * of_state, T};
     const Matrix F = T * maps.F;
     const Matrix FM = T * maps.FM;
     if (!may_join(FM, c_, c_.T, G * M_) || !may_join(F, c_, c_.inverse.transpose(), G)) return maps;
@@ -85,10 +87,21 @@ class InEnergyCoordinates {
     return Eigen::HouseholderQR<Matrix>(columns).householderQ() * Matrix::Identity(columns.rows(), columns.cols());
   }
 
+  // xᵀAx < 0 for some x, beyond round-off?
+  static bool has_negative_direction(const Matrix& A) {
+    const double round_off = 1e-13 * A.cwiseAbs().maxCoeff();
+    if (round_off == 0) return false;
+    const Matrix shifted = A + round_off * Matrix::Identity(A.rows(), A.cols());
+    return Eigen::LLT<Matrix>(shifted).info() != Eigen::Success;
+  }
+  Matrix without(const Matrix& columns) const { return c_.T - columns * (columns.transpose() * c_.T); }
+
   EnergyCoordinates<Matrix> c_;
   Matrix S_, M_, rate_;
-  Matrix casimirs_;  // of S: their products with z do not move
-  Matrix kernel_;    // the same in y
+  bool feeds_;               // sym(S) ⪯ 0 fails: there is no contract to keep
+  Matrix casimirs_;          // cᵀS = 0: their products with z do not move
+  Matrix unmoved_;           // Sc = 0: forces that do nothing
+  Kernels<Matrix> kernels_;  // both, in y
 };
 
 }  // namespace

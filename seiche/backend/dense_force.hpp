@@ -13,7 +13,7 @@ struct DenseForce {
   Eigen::MatrixXd T;  // 0 × 0: none
 };
 
-// Throws Error where F + Fᵀ + FᵀMF ⪯ 0 cannot be kept to round-off.
+// Throws Error where sym(S) ⪯ 0, and F + Fᵀ + FᵀMF ⪯ 0 cannot be kept to round-off.
 DenseForce dense_force(PropagatorKind kind, const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double h);
 
 }  // namespace seiche

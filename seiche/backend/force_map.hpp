@@ -154,13 +154,22 @@ Matrix cayley_force(const Matrix& S, const Matrix& M, double h) {
   return (I - 0.5 * A).partialPivLu().solve(h * S);
 }
 
-// The same where hSM is so large that the solution leaves the contract; R = hBᴴ(S + Sᴴ)B with B = I + MF/2 for every h. `kernel`:
-// orthonormal columns that S takes to zero, and so does F.
+// Orthonormal columns with leftᴴS = 0 and S right = 0. The same hold for F, and round-off beside fast motion may break them.
 template <class Matrix>
-Matrix contracting_cayley_force(const Matrix& S, const Matrix& M, const Matrix& rate, const Matrix& kernel, double h) {
+struct Kernels {
+  Matrix left, right;
+  void restore(Matrix& F) const {
+    F -= (left * (left.adjoint() * F)).eval();
+    F -= ((F * right) * right.adjoint()).eval();
+  }
+};
+
+// The same where hSM is so large that the solution leaves the contract; R = hBᴴ(S + Sᴴ)B with B = I + MF/2 for every h.
+template <class Matrix>
+Matrix contracting_cayley_force(const Matrix& S, const Matrix& M, const Matrix& rate, const Kernels<Matrix>& kernels,
+                                double h) {
   Matrix F = cayley_force(S, M, h);
-  F -= (kernel * (kernel.adjoint() * F)).eval();
-  F -= ((F * kernel) * kernel.adjoint()).eval();
+  kernels.restore(F);
   for (int i = 0; i < 2; ++i) {
     const Matrix B = Matrix::Identity(S.rows(), S.cols()) + M * F / 2;
     const Matrix W = h * (B.adjoint() * (rate * B));

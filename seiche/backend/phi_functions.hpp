@@ -180,9 +180,9 @@ class PhiRowBlocks {
     find_casimirs(blocks.D0);
   }
 
-  // Columns c with Sc = 0, as long as damping multiplies all of them by one number: then cᴴφ_k(hL) = φ_k(−hμ)cᴴ.
+  // Columns c with cᴴS = 0, as long as damping multiplies all of them by one number: then cᴴφ_k(hL) = φ_k(−hμ)cᴴ.
   void find_casimirs(const Matrix& D0) {
-    casimirs_ = dense_kernel(S_);
+    casimirs_ = dense_kernel<Matrix>(S_.adjoint());
     if (casimirs_.cols() == 0) return;
     const Matrix damped = D0.adjoint() * casimirs_;
     decay_ = std::real((casimirs_.adjoint() * damped)(0, 0));

@@ -160,6 +160,7 @@ class SparsePhi final : public PhiEvaluator {
     return std::make_unique<SparsePhiMap>(rows, common_, h);
   }
   std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const override {
+    common_->require_reach(h);
     return std::make_unique<SparsePhiForms>(forms, common_, Q(), h);
   }
 
@@ -177,7 +178,7 @@ class SparsePhi final : public PhiEvaluator {
 
   bool without_casimirs(const Vector& z, Vector& d) const override {
     if (!kernel_) {
-      kernel_ = sparse_kernel(operators_->S);
+      kernel_ = sparse_kernel(operators_->S.transpose());
       products_.resize(kernel_->cols());
     }
     if (kernel_->cols() == 0) return false;

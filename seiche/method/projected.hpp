@@ -62,6 +62,7 @@ class Projected {
   BaseStep& base_;
   EnergyLaw law_;
   bool may_flow_freely_;  // does e^{hL}z leave out neither a force nor friction?
+  bool feeds_;            // Q is a form of z that is negative somewhere: H may rise in any step
   EnergyProjection projection_;
   StepCache<PhiMap> free_;  // e^{hL}z
   Vector z_;                // ẑ, then zⁿ
