@@ -136,8 +136,11 @@ TEST(RunThatEnds, ARunThatNoMachineEndsIsEnded) {
 TEST(RunThatEnds, LongRunsLayersPulsesAndNearCollisionsGoOn) {
   const std::int64_t most = 1 << 22;
   EXPECT_EQ((Pace{.t_end = 1e7, .h = [](double) { return 0.01; }, .most = most}.ended_at()), 0) << "long";
-  EXPECT_EQ((Pace{.t_end = 1e3, .h = [](double t) { return t < 1e-3 ? 1e-9 : 0.1; }, .most = most}.ended_at()), 0)
-      << "a layer at the start";
+  for (const double h : {1e-9, 2.5e-10})
+    EXPECT_EQ((Pace{.t_end = 1e3, .h = [h](double t) { return t < 1e-3 ? h : 0.1; }, .most = 4 * most}.ended_at()), 0)
+        << "a layer of a million steps and more at the start, h = " << h;
+  EXPECT_EQ((Pace{.t_end = 1e5, .h = [](double t) { return 1e-7 * std::exp(t / 6); }, .most = 32 * most}.ended_at()), 0)
+      << "a fast mode that decays beside a slow one";
   EXPECT_EQ((Pace{.t_end = 1e3, .h = [](double t) { return std::abs(t - 100) < 1e-3 ? 2e-9 : 0.01; }, .most = most}
                  .ended_at()),
             0)

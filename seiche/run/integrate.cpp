@@ -28,8 +28,10 @@ class FixedLoop {
     if (!recording_.record(grid_.steps == 0)) return;
     const EventFinder::Found at_start =
         events_.begin(state_, [this](double t, const Vector& z, Vector& rate) { system_.right_hand_side(t, z, rate); });
-    if (!at_start.empty() && !happen(at_start)) return;
-    events_.start(state_);
+    if (at_start.empty())
+      events_.start(state_);
+    else if (!happen(at_start))
+      return;
     std::int64_t k = 1;
     while (k <= grid_.steps) {
       if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return recording_.interrupt(grid_.end);

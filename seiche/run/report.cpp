@@ -63,7 +63,7 @@ std::string RunReport::remark_on_widened() const {
   if (widened == 0) return "";
   return fmt::format(
       "in {} of {} h does not resolve a layer or an oscillation of the linear flow, whose dissipation no quadrature sees; the "
-      "interval for H was widened by what it misses, and there H is only kept from rising",
+      "interval for H was widened by eight times what it misses",
       widened, counted_steps(steps));
 }
 

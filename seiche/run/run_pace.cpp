@@ -18,10 +18,11 @@ constexpr double falling = 0.6;             // how far three doublings lead besi
 // Attempts of a small system that have been made, and that are left at the present pace.
 constexpr double left_of_runaway = two_to(21);
 constexpr double done_of_collapse = two_to(23), left_of_collapse = two_to(26);
-constexpr double done_of_endless = two_to(20), left_of_endless = 2e9;
+constexpr double done_of_endless = two_to(23), left_of_endless = 1e11;  // most of a day, at a microsecond each
 constexpr double patience = 16;    // times that for solutions that fade, since at rest steps are long
 constexpr double recovered = 1.2;  // the last doubling beside the one before
 constexpr double nowhere = 1e-2;   // of the way that the first quarter led
+constexpr double steady = 8.2;  // three doublings beside the three before; 8 at a constant pace, more where steps grow
 
 constexpr const char* remedies =
     "take a larger tolerance, or another method (egc6 and crkn6 take longer steps than methods of order two); where none goes on, "
@@ -42,12 +43,13 @@ std::string RunPace::objection(const State& s, double h) {
   return static_cast<double>(attempts_) < least_attempts ? "" : judge(s, h);
 }
 
+double RunPace::way(std::size_t ago, std::size_t doublings) const {
+  const std::size_t last = marks_.size() - 1 - ago;
+  return marks_[last].t - marks_[last - doublings].t;
+}
+
 // The sum of a geometric series with the ratio of the last three doublings to the three before.
 bool RunPace::shrinks(double& limit) const {
-  const auto way = [this](std::size_t ago, std::size_t doublings) {
-    const std::size_t last = marks_.size() - 1 - ago;
-    return marks_[last].t - marks_[last - doublings].t;
-  };
   const double ratio = way(0, 3) / way(3, 3);
   if (!(ratio < falling) || way(0, 1) > recovered * way(1, 1)) return false;
   limit = marks_.back().t + way(0, 3) * ratio / (1 - ratio);
@@ -76,7 +78,8 @@ std::string RunPace::judge(const State& s, double h) const {
         "{:.9g} would take {:.3g} more; {}",
         done, quarter.t, s.t, h, t_end_, left, remedies);
   const bool fades = s.z.norm() < 0.9 * half.size;
-  if (work_done >= done_of_endless * (fades ? patience : 1) && left > left_of_endless)
+  const bool is_steady = way(0, 3) <= steady * way(3, 3);
+  if (is_steady && work_done >= done_of_endless * (fades ? patience : 1) && work_left > left_of_endless)
     return fmt::format(
         "the run would not end: with steps as the last, of h = {:.3g}, t = {:.9g} is {:.3g} attempts away; take an earlier end, a "
         "larger tolerance, or another method (egc6 and crkn6 take longer steps than methods of order two)",

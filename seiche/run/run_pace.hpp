@@ -14,7 +14,7 @@ namespace seiche {
 // near collisions, which are over in a share of the run, are none (docs/decisions/0004-when-a-run-ends.md):
 //   runaway    doublings of the work lead less and less far, to a sum that ends before t_end;
 //   collapse   three quarters of the work led nowhere beside the first quarter;
-//   endless    what is left takes billions of attempts.
+//   endless    steps do not grow, and what is left takes most of a day.
 class RunPace {
  public:
   RunPace(double t_start, double t_end, Index unknowns);
@@ -26,6 +26,7 @@ class RunPace {
     double t, size;
   };
   std::string judge(const State& s, double h) const;
+  double way(std::size_t ago, std::size_t doublings) const;  // in t, up to so many marks ago
   bool shrinks(double& limit) const;
 
   double t_end_;
