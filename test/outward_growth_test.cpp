@@ -88,5 +88,31 @@ TEST(OutwardGrowth, ALawIsPromisedWhereOneRateShrinksAllThatVDependsOn) {
   EXPECT_THAT(law("p^2/2 - q^4/4", "{ q = 0.1 }").reason, HasSubstr("the form of V does not show that it falls"));
 }
 
+// The kinetic energy of a double pendulum is ½pᵀA(q)p with A ⪰ 0 for every q, if `coupling` is at most √2 there: friction on the momenta
+// takes p·∂H/∂p = pᵀA(q)p per unit of its rate.
+Problem double_pendulum(const std::string& coupling, const std::string& D) {
+  return made("(p^2 + 2*r^2 - 2*" + coupling + "*p*r*cos(a - b))/(2*(1 + sin(a - b)^2)) + 3 - 2*cos(a) - cos(b)",
+              "fields = [\"a\", \"b\", \"p\", \"r\"]\nD = " + D);
+}
+
+TEST(OutwardGrowth, FrictionOnMomentaOfAMovingMassIsSeenToTakeEnergy) {
+  const LawPromise law = promise_energy_law(double_pendulum("1", "{ p = 0.1, r = 0.1 }"), 10);
+  EXPECT_TRUE(law.promised) << law.reason;
+  EXPECT_THAT(law.reason, HasSubstr("v·∂V/∂v ≥ 0"));
+  EXPECT_TRUE(promise_energy_law(double_pendulum("1.4", "{ p = 0.1, r = 0.1 }"), 10).promised);
+  EXPECT_FALSE(promise_energy_law(double_pendulum("1.5", "{ p = 0.1, r = 0.1 }"), 10).promised)
+      << "A is indefinite at q = 0";
+  EXPECT_FALSE(promise_energy_law(double_pendulum("1", "{ p = 0.1 }"), 10).promised) << "r·∂H/∂p may have any sign";
+  EXPECT_FALSE(promise_energy_law(double_pendulum("1", "{ p = 0.1, r = 0.2 }"), 10).promised) << "two rates";
+  EXPECT_FALSE(promise_energy_law(double_pendulum("1", "{ b = 0.1, p = 0.1, r = 0.1 }"), 10).promised)
+      << "b may be moved uphill";
+  EXPECT_TRUE(
+      promise_energy_law(made("p^2/(2 + cos(q)) + 1 - cos(q)", "D = { p = \"0.1 + 0.05*sin(t)\" }"), 10).promised);
+  EXPECT_FALSE(promise_energy_law(made("p^2/(1 + 2*cos(q)) + 1 - cos(q)", "D = { p = 0.1 }"), 10).promised)
+      << "a mass that changes sign";
+  EXPECT_FALSE(promise_energy_law(made("(p^2 + p^3)/(2 + cos(q)) + 1 - cos(q)", "D = { p = 0.1 }"), 10).promised)
+      << "of another degree";
+}
+
 }  // namespace
 }  // namespace seiche::test

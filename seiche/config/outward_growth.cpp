@@ -1,9 +1,12 @@
 // Does an energy fall when its fields shrink together?
 #include <seiche/config/algebra_functions.hpp>
 #include <seiche/config/formula_expression.hpp>
+#include <seiche/core/definiteness.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
+#include <optional>
 
 namespace seiche {
 namespace {
@@ -41,7 +44,7 @@ class Look {
       const Growth g = growth(t);
       if (g != Growth::outward && g != Growth::none) rest += t;
     }
-    return convex(rest) && at_rest(rest);
+    return (convex(rest) && at_rest(rest)) || is_nonnegative_form(rest);
   }
 
  private:
@@ -155,6 +158,73 @@ class Look {
       }
     }
     return !GiNaC::is_a<GiNaC::mul>(rest) && convex(rest);
+  }
+
+  // Σ aᵢⱼuᵢuⱼ/b with coefficients in other symbols, as the kinetic energy of a double pendulum: then u·∇ is twice it. Not negative where
+  // that holds with every |aᵢⱼ| as large, and every aᵢᵢ as small, as their bounds allow.
+  bool is_nonnegative_form(const Expression& e) const {
+    constexpr std::size_t most_terms = 64;
+    if (terms(e) > most_terms || is_number(e)) return false;
+    const Expression quotient = e.normal().numer_denom();
+    const std::optional<Bounds> below = bounds(quotient.op(1));
+    if (!below || names_field(quotient.op(1)) || !(below->least > 0 || below->most < 0)) return false;
+    const Expression form = (below->least > 0 ? quotient.op(0) : -quotient.op(0)).expand();
+    const auto n = static_cast<Index>(fields_.size());
+    SparseMatrix comparison(n, n);
+    Expression counted = 0;
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = 0; j <= i; ++j) {
+        const GiNaC::realsymbol& a = fields_[static_cast<std::size_t>(i)];
+        const GiNaC::realsymbol& b = fields_[static_cast<std::size_t>(j)];
+        if (!form.is_polynomial(a)) return false;
+        const Expression coefficient = i == j ? form.coeff(a, 2) : form.coeff(a, 1).coeff(b, 1);
+        counted += coefficient * a * b;
+        const std::optional<Bounds> of = bounds(coefficient);
+        if (!of) return false;
+        const double entry = i == j ? of->least : -std::max(-of->least, of->most) / 2;
+        comparison.coeffRef(i, j) = comparison.coeffRef(j, i) = entry;
+      }
+    }
+    if (!(form - counted).expand().is_zero()) return false;  // of another degree
+    return !negative_direction(comparison);
+  }
+
+  struct Bounds {
+    double least, most;
+  };
+  // Of all values that an expression can have, whatever its symbols are; nothing where it is not seen to be bounded.
+  static std::optional<Bounds> bounds(const Expression& e) {
+    if (is_number(e)) return Bounds{number(e).to_double(), number(e).to_double()};
+    for (const char* bounded : {"sin", "cos", "tanh"})
+      if (is(e, bounded)) return Bounds{-1, 1};
+    if (is(e, "sech")) return Bounds{0, 1};
+    if (GiNaC::is_a<GiNaC::power>(e)) return bounds_of_power(e.op(0), e.op(1));
+    const bool is_sum = GiNaC::is_a<GiNaC::add>(e);
+    if (!is_sum && !GiNaC::is_a<GiNaC::mul>(e)) return std::nullopt;
+    Bounds all = is_sum ? Bounds{0, 0} : Bounds{1, 1};
+    for (std::size_t i = 0; i < e.nops(); ++i) {
+      const std::optional<Bounds> one = bounds(e.op(i));
+      if (!one) return std::nullopt;
+      if (is_sum) {
+        all = {all.least + one->least, all.most + one->most};
+        continue;
+      }
+      const auto [least, most] =
+          std::minmax({all.least * one->least, all.least * one->most, all.most * one->least, all.most * one->most});
+      all = {least, most};
+    }
+    return all;
+  }
+
+  static std::optional<Bounds> bounds_of_power(const Expression& base, const Expression& exponent) {
+    if (!is_number(exponent) || !number(exponent).is_pos_integer()) return std::nullopt;
+    const std::optional<Bounds> of = bounds(base);
+    if (!of) return std::nullopt;
+    const double a = std::pow(of->least, number(exponent).to_double());
+    const double b = std::pow(of->most, number(exponent).to_double());
+    if (!number(exponent).is_even()) return Bounds{a, b};
+    const bool passes_zero = of->least < 0 && of->most > 0;
+    return Bounds{passes_zero ? 0 : std::min(a, b), std::max(a, b)};
   }
 
   const Symbols& fields_;

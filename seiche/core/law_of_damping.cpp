@@ -22,32 +22,38 @@ std::optional<double> multiple_of_identity(const SparseMatrix& D, Index first, I
   return diagonal[0];
 }
 
-// Are all fields that V depends on damped by one rate for all of them and all points, and by nothing else?
-bool shrinks_together(const Problem& problem) {
+// Of the fields that V depends on, the first that damping moves, where those before it rest and all from there on are damped by one
+// rate for all points, and by nothing else. Counted from the first field of V.
+std::optional<Index> shrinks_together_from(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
-  if (damping.field_rate) return false;
+  if (damping.field_rate) return std::nullopt;
   std::optional<std::pair<bool, double>> first;  // by γ(t), and by so much beside it
+  Index resting = 0;
   for (Index field = 0; field < problem.field_count(); ++field) {
     if (!problem.potential_depends_on(field)) continue;
-    if (problem.friction && field >= problem.field_count() / 2) return false;
+    if (!first && !problem.damping_moves(field)) {
+      ++resting;
+      continue;
+    }
+    if (problem.friction && field >= problem.field_count() / 2) return std::nullopt;
     double constant = 0;
     if (problem.matrices) {
       const Index points = problem.grid.unknowns();
       const std::optional<double> factor = multiple_of_identity(problem.matrices->D, field * points, points);
-      if (!factor || *factor < 0) return false;
+      if (!factor || *factor < 0) return std::nullopt;
       constant = *factor;
     }
     for (Index j = 0; j < problem.field_count() && !problem.matrices; ++j) {
       const Stencil& entry = damping.constant(field, j);
       const std::optional<double> factor = entry.factor_of_identity();
-      if (!factor || (j != field && *factor != 0) || *factor < 0) return false;
+      if (!factor || (j != field && *factor != 0) || *factor < 0) return std::nullopt;
       if (j == field) constant = *factor;
     }
     const bool by_rate = damping.rate && damping.rate_fields[static_cast<std::size_t>(field)];
-    if (first && *first != std::pair(by_rate, constant)) return false;
+    if (first && *first != std::pair(by_rate, constant)) return std::nullopt;
     first = {by_rate, constant};
   }
-  return true;
+  return resting;
 }
 
 }  // namespace
@@ -64,8 +70,10 @@ std::string complaint_beyond_linear(const Problem& problem, double t_end) {
 LawPromise promise_given_semidefinite_MD(const Problem& problem) {
   if (!problem.damping_moves_potential()) return {true, "sym(MD) ⪰ 0 and V does not depend on the damped fields"};
   // sym(MD) ⪰ 0 is not enough where damping moves what V depends on. D = γ there lets V fall where u·∇V(u) ≥ 0.
-  if (shrinks_together(problem) && problem.potential->grows_outward())
-    return {true, "D = γI where V depends on u, and u·∇V(u) ≥ 0 for every u"};
+  const std::optional<Index> from = shrinks_together_from(problem);
+  if (from && problem.potential->grows_outward_from(*from))
+    return {true, *from == 0 ? "D = γI where V depends on u, and u·∇V(u) ≥ 0 for every u"
+                             : "D = γI on the damped fields v of V(u, v), and v·∂V/∂v ≥ 0 for all u and v"};
   return {
       false,
       "the damping moves the field that V depends on, and the form of V does not show that it falls when that shrinks: "

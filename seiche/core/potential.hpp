@@ -54,6 +54,9 @@ class PointwisePotential {
   virtual int homogeneity() const { return 0; }
   // True if u·∇V(u) ≥ 0 for every u by the form of V: then damping that acts on u cannot raise V.
   virtual bool grows_outward() const = 0;
+  // The same of the fields from this one on, whatever those before it are: Σ_{i ≥ first} uᵢ·∂V/∂uᵢ ≥ 0. A kinetic energy
+  // ½pᵀA(q)p does so with A ⪰ 0.
+  virtual bool grows_outward_from(Index first) const { return first == 0 && grows_outward(); }
   // `members`, of which this is one, side by side in the lanes of panels with `rows` values each; one after the other where
   // that is not written for the potential.
   virtual std::unique_ptr<LanePotential> for_lanes(std::span<const std::shared_ptr<const PointwisePotential>> members,

@@ -44,6 +44,11 @@ class FormulaPotential final : public PointwisePotential {
   int degree() const override { return w_.degree; }
   int homogeneity() const override { return w_.homogeneity; }
   bool grows_outward() const override { return w_.grows_outward; }
+  bool grows_outward_from(Index first) const override {
+    if (first == 0) return w_.grows_outward;
+    const auto field = static_cast<std::size_t>(first);
+    return field < w_.grows_outward_from.size() && w_.grows_outward_from[field];
+  }
 
   double value(std::span<const double> u) const override {
     return sum(u, [&](double* table, std::size_t, std::size_t points) {

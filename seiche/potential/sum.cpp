@@ -73,6 +73,12 @@ class Sum final : public PointwisePotential {
   bool grows_outward() const override {
     return all_of([](const PointwisePotential& part) { return part.grows_outward(); });
   }
+  bool grows_outward_from(Index first) const override {
+    return std::all_of(parts_.begin(), parts_.end(), [first](const PlacedPotential& p) {
+      const Index behind = first - p.first_field;
+      return behind >= p.potential->fields() || p.potential->grows_outward_from(std::max<Index>(behind, 0));
+    });
+  }
 
  private:
   static constexpr std::size_t most_coefficients = 65;  // formulas have degrees of at most 64
