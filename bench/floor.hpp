@@ -17,7 +17,8 @@ struct FloorOptions {
 };
 
 // step: one of seisav on the modal backend. transforms: the four of a step, by the backend's own code. fftw: the same
-// four by one plan of FFTW for the whole grid (periodic grids; else 0). triad: a = b + s c over the unknowns of one field.
+// four by one plan of FFTW for the whole grid (periodic grids; else 0). triad: a = b + s c over the unknowns of one
+// field.
 Floor measure_floor(const Problem& problem, const FloorOptions& options);
 
 }  // namespace seiche::bench

@@ -1,4 +1,5 @@
-// What a potential by a formula costs beside the same one in C++, in turns on 4096 points: gradients alone, and whole steps.
+// What a potential by a formula costs beside the same one in C++, in turns on 4096 points: gradients alone, and whole
+// steps.
 #include <seiche/config/custom_problem.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/damping/rates.hpp>

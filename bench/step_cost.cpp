@@ -39,8 +39,8 @@ Problem gkdv(Index points) {
       {.length = 0.5 * static_cast<double>(points), .points = points, .mu = seiche::constant_rate(0.5)});
 }
 
-// A method that solves an equation makes as many transforms as that takes. A backend without transforms has the triad alone
-// beside it.
+// A method that solves an equation makes as many transforms as that takes. A backend without transforms has the triad
+// alone beside it.
 void step_cost(benchmark::State& state, const Problem& problem, const std::string& method, const std::string& backend) {
   const double per_point = 1e9 / static_cast<double>(problem.grid.unknowns());
   seiche::bench::StepBeside cost{};

@@ -41,8 +41,8 @@ void print_lines(std::string_view text) { std::fwrite(text.data(), 1, text.size(
 
 void prepare_process() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing, which is told
-  // The lowest number that is free is given to the next file that is opened. Opened the wrong way round, reading and writing
-  // fail as they do with a closed one.
+  // The lowest number that is free is given to the next file that is opened. Opened the wrong way round, reading and
+  // writing fail as they do with a closed one.
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(number, F_GETFD) < 0 && errno == EBADF)
       ::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY);

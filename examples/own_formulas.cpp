@@ -1,5 +1,5 @@
-// An equation written down: a wall of φ⁴ on a line, its energy H, its damping D and how it starts by formulas. Nothing is
-// differentiated by hand; H is split into ½zᵀMz and V, and the first note of the problem says how.
+// An equation written down: a wall of φ⁴ on a line, its energy H, its damping D and how it starts by formulas. Nothing
+// is differentiated by hand; H is split into ½zᵀMz and V, and the first note of the problem says how.
 #include <seiche/seiche.hpp>
 
 #include <cstdio>

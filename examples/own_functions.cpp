@@ -1,5 +1,5 @@
-// A potential and a law of friction by functions of one's own, on a wave: V = Σ(cosh u − 1), which `gradient_complaint` compares
-// with its gradient, and a drag R(v) = c|v|v with its exact flow.
+// A potential and a law of friction by functions of one's own, on a wave: V = Σ(cosh u − 1), which `gradient_complaint`
+// compares with its gradient, and a drag R(v) = c|v|v with its exact flow.
 #include <seiche/seiche.hpp>
 
 #include <cmath>

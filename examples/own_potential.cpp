@@ -1,5 +1,5 @@
-// A potential of one's own: W(u) = cosh u − 1 at every point of a wave, by a functor that the loops over the grid inline.
-// mean_slope is (W(b) − W(a))/(b − a) without cancellation; the energy laws stand on it.
+// A potential of one's own: W(u) = cosh u − 1 at every point of a wave, by a functor that the loops over the grid
+// inline. mean_slope is (W(b) − W(a))/(b − a) without cancellation; the energy laws stand on it.
 #include <seiche/seiche.hpp>
 
 #include <cmath>

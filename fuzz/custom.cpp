@@ -1,4 +1,5 @@
-// Whatever formula stands at any place of a custom problem that takes one, the problem is made or refused with a sentence.
+// Whatever formula stands at any place of a custom problem that takes one, the problem is made or refused with a
+// sentence.
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/case_value.hpp>
 #include <seiche/core/error.hpp>

@@ -1,5 +1,5 @@
-// What stands in for libFuzzer where the compiler has none: every file of the folders, and then random changes of them for so many
-// seconds. Without coverage to guide it, but with the same sanitizers.
+// What stands in for libFuzzer where the compiler has none: every file of the folders, and then random changes of them
+// for so many seconds. Without coverage to guide it, but with the same sanitizers.
 //   fuzz_formula [SECONDS] FOLDER…
 #include <algorithm>
 #include <chrono>

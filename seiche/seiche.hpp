@@ -1,7 +1,7 @@
 // Everything a program needs: problems, methods, backends, the time loop and its observers.
 //
-// Start here: seiche/solve/solve.hpp is one call for one run; seiche/config/simulation.hpp puts a problem, a method and a
-// backend together, to step oneself; seiche/core/problem.hpp says what a problem is; seiche/method/methods.hpp and
+// Start here: seiche/solve/solve.hpp is one call for one run; seiche/config/simulation.hpp puts a problem, a method and
+// a backend together, to step oneself; seiche/core/problem.hpp says what a problem is; seiche/method/methods.hpp and
 // seiche/problem/problems.hpp list what there is.
 #pragma once
 

@@ -1,4 +1,5 @@
-// Variable steps: the tolerance means what it says, the law holds at every accepted step, and asked times cost no steps.
+// Variable steps: the tolerance means what it says, the law holds at every accepted step, and asked times cost no
+// steps.
 #include "support/convergence.hpp"
 #include "support/paper_cases.hpp"
 
@@ -290,8 +291,8 @@ TEST(Adaptive, APendulumComesToRestAtItsTiltedPlaceWhateverTheTolerance) {
   }
 }
 
-// The well is at q = 1, where H is flat: what round-off in H may move a state by excuses no error of the scheme, also where the
-// oscillation has all but died out.
+// The well is at q = 1, where H is flat: what round-off in H may move a state by excuses no error of the scheme, also
+// where the oscillation has all but died out.
 TEST(Adaptive, TheToleranceHoldsNearARestThatIsNotTheOrigin) {
   const Problem p = custom_problem(
       {.H = "p^2/2 - q^2/2 + q^4/4", .D = {{"0", "0"}, {"0", "0.1"}}, .initial = {{"q", "2"}, {"p", "0"}}});

@@ -122,7 +122,8 @@ TEST(Certificate, AWitnessOfAMatrixHasItsSigns) {
   EXPECT_THAT(MD->witness, HasSubstr("z = (a: 0.934, b: -0.358), where it is -0.172681"));
 }
 
-// D = diag(0, γ − 0.1) from a constant part that feeds and a constant rate that makes up for it; one that changes is judged alone.
+// D = diag(0, γ − 0.1) from a constant part that feeds and a constant rate that makes up for it; one that changes is
+// judged alone.
 TEST(Certificate, PartsOfAConstantDampingAreJudgedTogether) {
   const auto promised = [](bool by_matrices, const RatePointer& gamma) {
     Problem p = by_matrices ? truss({.panels = 3}) : klein_gordon_case();

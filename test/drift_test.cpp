@@ -10,7 +10,8 @@
 namespace seiche {
 namespace {
 
-// The equation of each step is solved to a few ε, with an error whose sign stays: 6e-12 in 10⁶ steps, were it not made up for.
+// The equation of each step is solved to a few ε, with an error whose sign stays: 6e-12 in 10⁶ steps, were it not made
+// up for.
 TEST(DriftSlow, OfMultipliersIsNoneInAMillionStepsOfAFreePendulum) {
   const Problem pendulum = custom_problem({.H = "p^2/2 - cos(q)", .initial = {{"q", "1"}, {"p", "0.5"}}});
   for (const char* method : {"seilm", "seidm"}) {

@@ -98,7 +98,8 @@ TEST(EnergyLaw, WithoutDampingEveryMethodKeepsItsEnergyToTwelveDigits) {
   }
 }
 
-// Amplitudes at which every step is gross: the projection has far to go, along lines that are not rays where S has Casimirs.
+// Amplitudes at which every step is gross: the projection has far to go, along lines that are not rays where S has
+// Casimirs.
 TEST(EnergyLaw, OfProjectionHoldsAtLargeAmplitudes) {
   Problem both = klein_gordon_case(0.001, 1.0);  // damping of u and v: Q is no quadratic form, and V is of u alone
   both.damping.rate_fields = {true, true};

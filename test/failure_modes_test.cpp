@@ -93,8 +93,8 @@ TEST(FailureMode, AnEnergyThatIsUnboundedBelowFailsAtHugeStepsWithTheEnergiesAnd
   }
 }
 
-// Damping that feeds the high modes by 10⁴⁰ in a step: e^{hL}z, which stands for the solution there, has an energy that only z = 0 brings
-// down again.
+// Damping that feeds the high modes by 10⁴⁰ in a step: e^{hL}z, which stands for the solution there, has an energy that
+// only z = 0 brings down again.
 TEST(FailureMode, AStepThatLeavesNothingOfTheStateIsNoSolution) {
   Problem problem = klein_gordon_case(-460, 1.0);
   for (const std::string& method : collocation) {

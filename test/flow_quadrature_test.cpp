@@ -158,7 +158,8 @@ TEST(EnergyInterval, IsNotWidenedWhereStepsResolveTheFlow) {
   }
 }
 
-// Cahn and Hilliard's equation, by steps so long that nothing but a constant is left, whose energy is larger: S∇H there is round-off.
+// Cahn and Hilliard's equation, by steps so long that nothing but a constant is left, whose energy is larger: S∇H there
+// is round-off.
 TEST(EnergyInterval, NoStepIsLetRiseByTheRoundOffOfItsDissipation) {
   const Problem problem = custom_problem({.fields = {"u"},
                                           .grid = GridOptions{.points = {16}},

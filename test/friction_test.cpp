@@ -169,8 +169,8 @@ TEST(Friction, MethodsKeepTheirOrdersUnderIt) {
   }
 }
 
-// Of van der Pol's equation with μ = 1 as any high-order integration gives them: see Amore, Boyd, Fernández (2018), Appl. Math.
-// Comput. 324, for the amplitude 2.00861986087… and the period 6.66328685932….
+// Of van der Pol's equation with μ = 1 as any high-order integration gives them: see Amore, Boyd, Fernández (2018),
+// Appl. Math. Comput. 324, for the amplitude 2.00861986087… and the period 6.66328685932….
 TEST(Friction, VanDerPolsOscillatorFindsItsLimitCycle) {
   Problem problem = oscillator({.alpha = 0});
   problem.friction = position_friction(formula("u^2 - 1"), problem.grid);

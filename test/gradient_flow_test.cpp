@@ -1,4 +1,5 @@
-// Tolerances and the interval law where the linear part has no share in the error: gradient flows, and energies without a quadratic term.
+// Tolerances and the interval law where the linear part has no share in the error: gradient flows, and energies without
+// a quadratic term.
 #include <seiche/config/custom_problem.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/solve/solve.hpp>
@@ -62,7 +63,8 @@ TEST(Tolerance, HoldsWhereTheLinearPartHasNoShareInTheError) {
   }
 }
 
-// Where z goes straight down V, errors of the solution inside a step add up, and two quadratures on it agree on a wrong dissipation.
+// Where z goes straight down V, errors of the solution inside a step add up, and two quadratures on it agree on a wrong
+// dissipation.
 TEST(EnergyInterval, CostsNoAccuracyOnGradientFlows) {
   const Problem p = custom_problem({.fields = {"a", "b"},
                                     .H = "(a^2 + b^2 - 1)^2/4 + (a - b)^2/2",

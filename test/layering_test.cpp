@@ -1,4 +1,5 @@
-// Reads every #include of the library, the program and the Python module and compares it with the table of who may include whom.
+// Reads every #include of the library, the program and the Python module and compares it with the table of who may
+// include whom.
 #include "support/paths.hpp"
 
 #include <gtest/gtest.h>

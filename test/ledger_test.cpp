@@ -66,8 +66,8 @@ TEST(Ledger, ASkewSubstepKeepsItsEnergyAndTheDampingTakesTheRest) {
   EXPECT_EQ(ledger.damping_left, 0);
 }
 
-// gKdV with a frozen auxiliary: V is measured outside the half-flows, and H of the substep is missed by all of that. What the
-// scalar equation leaves is told apart from the dissipation of S, which is none.
+// gKdV with a frozen auxiliary: V is measured outside the half-flows, and H of the substep is missed by all of that.
+// What the scalar equation leaves is told apart from the dissipation of S, which is none.
 TEST(Ledger, TellsWhatAScalarEquationLeavesFromTheDissipationOfS) {
   const Problem p = gkdv_case(0.5, 1.0, 1.0);
   Simulation frozen(

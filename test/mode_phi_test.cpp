@@ -1,4 +1,5 @@
-// φ-functions of eight modes at a time, where neighbouring lanes differ by many orders of magnitude and eigenvalues meet.
+// φ-functions of eight modes at a time, where neighbouring lanes differ by many orders of magnitude and eigenvalues
+// meet.
 #include "support/matrices.hpp"
 
 #include <seiche/backend/mode_phi.hpp>

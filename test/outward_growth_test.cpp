@@ -88,8 +88,8 @@ TEST(OutwardGrowth, ALawIsPromisedWhereOneRateShrinksAllThatVDependsOn) {
   EXPECT_THAT(law("p^2/2 - q^4/4", "{ q = 0.1 }").reason, HasSubstr("the form of V does not show that it falls"));
 }
 
-// The kinetic energy of a double pendulum is ½pᵀA(q)p with A ⪰ 0 for every q, if `coupling` is at most √2 there: friction on the momenta
-// takes p·∂H/∂p = pᵀA(q)p per unit of its rate.
+// The kinetic energy of a double pendulum is ½pᵀA(q)p with A ⪰ 0 for every q, if `coupling` is at most √2 there:
+// friction on the momenta takes p·∂H/∂p = pᵀA(q)p per unit of its rate.
 Problem double_pendulum(const std::string& coupling, const std::string& D) {
   return made("(p^2 + 2*r^2 - 2*" + coupling + "*p*r*cos(a - b))/(2*(1 + sin(a - b)^2)) + 3 - 2*cos(a) - cos(b)",
               "fields = [\"a\", \"b\", \"p\", \"r\"]\nD = " + D);

@@ -22,7 +22,8 @@ Vector after(const Problem& problem, const char* method, const char* backend, do
   return simulation.physical();
 }
 
-// Hopf (1950), Cole (1951): u = −2νθ_x/θ with θ_t = νθ_xx solves u_t + uu_x = νu_xx. θ₀ = exp(−∫u₀/2ν) as a Fourier series.
+// Hopf (1950), Cole (1951): u = −2νθ_x/θ with θ_t = νθ_xx solves u_t + uu_x = νu_xx. θ₀ = exp(−∫u₀/2ν) as a Fourier
+// series.
 double hopf_cole(double nu, double x, double t) {
   constexpr int modes = 60, samples = 512;
   using std::numbers::pi;

@@ -71,7 +71,8 @@ TEST(Potential, TheMagnitudeSumsTheSizesOfTheTerms) {
   EXPECT_DOUBLE_EQ(v.magnitude, 13.0);
 }
 
-// Where terms cancel, V is no measure of what round-off makes of it; nor is it where a small change of u changes V by much.
+// Where terms cancel, V is no measure of what round-off makes of it; nor is it where a small change of u changes V by
+// much.
 TEST(Potential, TheMagnitudeIsThatOfTermsThatCancelAndOfSteepPlaces) {
   const std::vector<double> one = {1, 0};
   const ModulusPotential<Polynomial<3>> modulus(Polynomial<3>{{0, 0, -1, 1}});

@@ -157,8 +157,8 @@ TEST(Nystrom, TheCoefficientsMeetTheConditionsOfTheirOrder) {
     ASSERT_EQ(scheme.b.size(), scheme.flows() + 1);
     for (std::size_t i = 0; i < scheme.flows(); ++i) EXPECT_EQ(scheme.a[i], scheme.a[scheme.flows() - 1 - i]);
     for (std::size_t i = 0; i <= scheme.flows(); ++i) EXPECT_EQ(scheme.b[i], scheme.b[scheme.flows() - i]);
-    // With c_i the time of a kick: Σ b_i c_iᵏ = 1/(k + 1), as for any quadrature of that order. With d_i the sum of the kicks
-    // before a flow: Σ a_i d_i² = 1/3.
+    // With c_i the time of a kick: Σ b_i c_iᵏ = 1/(k + 1), as for any quadrature of that order. With d_i the sum of the
+    // kicks before a flow: Σ a_i d_i² = 1/3.
     for (int k = 0; k < order; ++k) {
       double sum = 0;
       double c = 0;

@@ -42,8 +42,8 @@ TEST(RoundOff, BehindAnEventIsThatOfTheStateItLeft) {
   EXPECT_EQ(s.report.law, LawVerdict::holds) << s.report.law_reason;
 }
 
-// Round-off in q makes an error of |q sin q|ε in cos q, which is far more than |cos q|ε; a projection that knew nothing of that
-// would miss its energies and let H sink.
+// Round-off in q makes an error of |q sin q|ε in cos q, which is far more than |cos q|ε; a projection that knew nothing
+// of that would miss its energies and let H sink.
 TEST(RoundOff, OfAnglesThatGoRoundAndRoundKeepsTheEnergyWhereItIs) {
   for (const double q : {0.0, 1000.0}) {
     const Problem p = oscillator_of("p^2/2 - cos(q)", q, 3);

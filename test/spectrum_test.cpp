@@ -147,7 +147,8 @@ TEST(Spectrum, OfCollocationIsExactOnEveryBackend) {
     for (const BackendEntry& backend : backends_for(problem)) {
       if (problem.size() > 200) continue;
       const Spectrum s = spectrum(problem, {.method = "egc4", .backend = std::string(backend.name)}, 1.0 / 64);
-      // γ(x), and friction that changes from point to point, is a force of collocation, and not part of its exponential.
+      // γ(x), and friction that changes from point to point, is a force of collocation, and not part of its
+      // exponential.
       const double tolerance = problem.damping.field_rate || problem.friction ? 1e-3 : 1e-9;
       for (const SpectrumRow& row : s.rows) {
         EXPECT_NEAR(row.damping_error(), 0, tolerance + row.round_off)
@@ -206,7 +207,8 @@ TEST(Spectrum, SaysWhatIsAliasedAndWhatIsNotLinear) {
   EXPECT_NEAR(coarse.rows[0].numerical_frequency, coarse.rows[0].exact_frequency, 1e-11);
   EXPECT_THAT(spectrum_sentence(coarse), HasSubstr("modulo 2π/h"));
   EXPECT_FALSE(spectrum(p, {.method = "eisav"}, 0.25).rows[0].aliased);
-  // No quadrature of the dissipation resolves a step of that length: the interval is as wide, and the projection does not act.
+  // No quadrature of the dissipation resolves a step of that length: the interval is as wide, and the projection does
+  // not act.
   const Problem grid = chain({.points = 12, .neighbour_damping = 0.05, .gamma = constant_rate(0.2)});
   for (const Problem& rough : {grid, by_matrices(grid)}) {
     const Spectrum s = spectrum(rough, {.method = "egc2"}, 8.0);

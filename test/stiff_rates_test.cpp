@@ -173,8 +173,8 @@ TEST(StiffRates, FieldsOfOneModeKeepTheirDigits) {
   }
 }
 
-// Mixed by an orthogonal change of variables, a rate ω of one motion is rounded by ε times the fastest one, and so is every other: what
-// moves slowly cannot be known better than to ε ω_max t, but for a small factor.
+// Mixed by an orthogonal change of variables, a rate ω of one motion is rounded by ε times the fastest one, and so is
+// every other: what moves slowly cannot be known better than to ε ω_max t, but for a small factor.
 TEST(StiffRates, MixedMotionLosesWhatTheRoundingOfItsMatricesLoses) {
   constexpr Index n = 5;
   const Matrix Q = random_orthogonal(2 * n);
@@ -206,7 +206,8 @@ TEST(StiffRates, MixedMotionLosesWhatTheRoundingOfItsMatricesLoses) {
   }
 }
 
-// Where M is what is mixed, squares of rates are rounded: δω = εω_max²/2ω. The law holds even where nothing of the slow motion is left.
+// Where M is what is mixed, squares of rates are rounded: δω = εω_max²/2ω. The law holds even where nothing of the slow
+// motion is left.
 TEST(StiffRates, MixedStiffnessIsRoundedByTheSquareOfTheFastestRate) {
   constexpr Index n = 5;
   const Matrix Q = random_orthogonal(n);
@@ -237,7 +238,8 @@ TEST(StiffRates, MixedStiffnessIsRoundedByTheSquareOfTheFastestRate) {
   }
 }
 
-// S is not skew, and what it takes to zero (cᵀS = 0, S(1, −1, 2)ᵀ = 0) is not the same on its two sides: c stays, and a and b turn about ±½.
+// S is not skew, and what it takes to zero (cᵀS = 0, S(1, −1, 2)ᵀ = 0) is not the same on its two sides: c stays, and a
+// and b turn about ±½.
 TEST(StiffRates, WhatAnSThatFeedsKeepsStays) {
   Problem problem = sparse_problem({.fields = 1,
                                     .matrices = {.S = sparse(Matrix{{0, 1000, 500}, {-1000, 0, 500}, {0, 0, 0}}),
@@ -273,7 +275,8 @@ TEST(StiffRates, DampingThatFeedsIsNotRefused) {
   }
 }
 
-// ½zᵀMz + fᵀz does not rise in z ← z + F(Mz + f), beyond the round-off of its terms: the contract, as every closure meets it.
+// ½zᵀMz + fᵀz does not rise in z ← z + F(Mz + f), beyond the round-off of its terms: the contract, as every closure
+// meets it.
 double worst_rise(const System& system, const Propagator& propagator, double fastest) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;

@@ -7,8 +7,8 @@ namespace seiche::bench {
 
 std::unique_ptr<Run> make_etdrk4(const Equation& equation, double h);
 std::unique_ptr<Run> make_strang(const Equation& equation, double h);  // exact damped linear flow, kicks
-// Runge–Kutta–Nyström splitting: "kicks" takes the whole force by differences as a kick, explicit; "exact flow" the damped
-// linear part exactly.
+// Runge–Kutta–Nyström splitting: "kicks" takes the whole force by differences as a kick, explicit; "exact flow" the
+// damped linear part exactly.
 std::vector<Peer> rkn_peers();
 
 PeerGroup hand_written_peers();

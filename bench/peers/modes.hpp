@@ -10,8 +10,8 @@
 
 namespace seiche::bench {
 
-// Coefficients are pairs (Re, Im) of a real-to-complex transform on periodic grids, and real coefficients of sines otherwise.
-// Transforms carry no factor: to_points(to_modes(u)) = u / scale().
+// Coefficients are pairs (Re, Im) of a real-to-complex transform on periodic grids, and real coefficients of sines
+// otherwise. Transforms carry no factor: to_points(to_modes(u)) = u / scale().
 class ModeTransform {
  public:
   explicit ModeTransform(const Equation& equation);

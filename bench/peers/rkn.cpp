@@ -1,6 +1,7 @@
 // Runge–Kutta–Nyström splitting, b₁ a₁ b₂ a₂ … b₂ a₁ b₁: SRKN₆ᵇ of order four and SRKN₁₁ᵇ of order six (S. Blanes and
 // P. C. Moan, J. Comput. Appl. Math. 142, 2002). They suppose that the a-flow is linear and the b-flow a kick of v that
-// depends on u alone: then [B, [B, [B, A]]] = 0, damping in A included. Some a are negative: there damping runs backwards.
+// depends on u alone: then [B, [B, [B, A]]] = 0, damping in A included. Some a are negative: there damping runs
+// backwards.
 #include <bench/peers/hand_written.hpp>
 #include <bench/peers/modal_run.hpp>
 #include <bench/peers/right_hand_side.hpp>

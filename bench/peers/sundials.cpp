@@ -1,5 +1,5 @@
-// SUNDIALS: CVODE (Adams with Anderson acceleration, BDF with Newton and GMRES) and ARKODE (explicit; implicit–explicit with
-// the linear part implicit). GMRES is preconditioned by the exact inverse of the linear part, in modes.
+// SUNDIALS: CVODE (Adams with Anderson acceleration, BDF with Newton and GMRES) and ARKODE (explicit; implicit–explicit
+// with the linear part implicit). GMRES is preconditioned by the exact inverse of the linear part, in modes.
 #include <bench/peers/groups.hpp>
 #include <bench/peers/modes.hpp>
 #include <bench/peers/right_hand_side.hpp>

@@ -6,8 +6,8 @@
 namespace seiche::bench {
 
 // Peak resident bytes of a run of two steps of seisav on so many points in one dimension, with what the program itself
-// holds. Throws Error where the run fails, or asks for more than `limit` bytes. Call it while this process is small: the other
-// one begins as its copy.
+// holds. Throws Error where the run fails, or asks for more than `limit` bytes. Call it while this process is small:
+// the other one begins as its copy.
 double peak_bytes(Index points, double limit);
 
 // A part of what is free now, so that nobody else's is taken.

@@ -1,4 +1,5 @@
-// What the library says about a problem: its right-hand side and its energy, of physical values. Peers are held against it.
+// What the library says about a problem: its right-hand side and its energy, of physical values. Peers are held against
+// it.
 #pragma once
 
 #include <bench/peers/peer.hpp>

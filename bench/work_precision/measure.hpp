@@ -23,8 +23,8 @@ struct Contestant {
   std::vector<double> seconds = {};
 };
 
-// Sets the run up, looks at its energy along the way (untimed), and integrates once in one go for error and cost: `row` is complete
-// but for the median. Gives up with Status::skipped where it takes longer than `cap_seconds`.
+// Sets the run up, looks at its energy along the way (untimed), and integrates once in one go for error and cost: `row`
+// is complete but for the median. Gives up with Status::skipped where it takes longer than `cap_seconds`.
 Contestant examine(const Subject& subject, const Peer& peer, double parameter, double cap_seconds);
 
 // How often a run of so many seconds is timed, if short ones are timed `repeats` times.

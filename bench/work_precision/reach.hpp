@@ -21,7 +21,8 @@ struct Curve {
 
 std::vector<Curve> curves_of(const ProblemResult& result);  // in the order in which they were measured
 
-// The least time with which the curve reaches `error`, interpolated in log–log between neighbouring runs; NaN if it never does.
+// The least time with which the curve reaches `error`, interpolated in log–log between neighbouring runs; NaN if it
+// never does.
 double seconds_to_reach(const Curve& curve, double error);
 
 // How the integrator treats the energy law that it promises, or H: "kept" only if no solved run saw a rise.

@@ -48,7 +48,8 @@ class SeicheRun : public Run {
     restart();
   }
 
-  // Which steps a run by tolerance takes is not known before: what they need is a part of its cost, and nothing is kept.
+  // Which steps a run by tolerance takes is not known before: what they need is a part of its cost, and nothing is
+  // kept.
   void restart() override {
     if (sweep_ == Sweep::tolerance)
       simulation_ = std::make_unique<Simulation>(problem_, options_);

@@ -6,7 +6,8 @@
 
 namespace seiche::bench {
 
-// "egc6": steps of one size. "crkn6 explicit": with linear = "explicit". "egc6 by tolerance", "auto by tolerance": variable steps.
+// "egc6": steps of one size. "crkn6 explicit": with linear = "explicit". "egc6 by tolerance", "auto by tolerance":
+// variable steps.
 std::vector<std::string> seiche_peer_names();
 
 // Those that apply to the problem, on the automatic backend with measured FFTW plans.

@@ -44,7 +44,8 @@ void learn(Climber& climber, const Row& row, double floor) {
   climber.done = row.error < floor || at_round_off;
 }
 
-// Refuses those that integrate another equation. Looks once, with a coarse parameter: the equation does not depend on it.
+// Refuses those that integrate another equation. Looks once, with a coarse parameter: the equation does not depend on
+// it.
 std::vector<Climber> admitted(const Subject& subject, const std::vector<Peer>& peers, std::vector<Row>& rows) {
   std::vector<Climber> climbers;
   for (const Peer& peer : peers) {

@@ -1,4 +1,5 @@
-// The compiled part of the Python package `seiche`. Shapes, defaults and documentation are in the Python files around it.
+// The compiled part of the Python package `seiche`. Shapes, defaults and documentation are in the Python files around
+// it.
 #include "bind.hpp"
 
 #include <seiche/core/error.hpp>

@@ -22,8 +22,8 @@ std::span<const BackendEntry> backends();
 std::vector<std::string> backend_names();
 const BackendEntry& find_backend(std::string_view name);  // throws Error with the nearest name
 
-// What `auto` stands for: a stored table of sizes, never a timing. by_kicks: for a method that asks for no exponential, so that
-// differences on a grid are best left as they are.
+// What `auto` stands for: a stored table of sizes, never a timing. by_kicks: for a method that asks for no exponential,
+// so that differences on a grid are best left as they are.
 const BackendEntry& automatic_backend(const Problem& problem, bool by_kicks = false);
 
 // Name and version of each library the backends stand on.

@@ -7,7 +7,8 @@
 
 namespace seiche {
 
-// F and FM, and for the predictor Q and QM. With T these lead to coordinates of energy, and T from there to z; without, to z.
+// F and FM, and for the predictor Q and QM. With T these lead to coordinates of energy, and T from there to z; without,
+// to z.
 struct DenseForce {
   Eigen::MatrixXd F, FM, Q, QM;
   Eigen::MatrixXd T;  // 0 × 0: none

@@ -8,8 +8,9 @@
 
 namespace seiche {
 
-// Orthonormal columns. Singular vectors by the eigenvectors of SᴴS, each tried on S itself: the smallest eigenvalues are round-off. In units
-// in which the largest entries of columns and rows are 1: fields have units of their own, and γ beside 1 may be 10³⁰ in others.
+// Orthonormal columns. Singular vectors by the eigenvectors of SᴴS, each tried on S itself: the smallest eigenvalues
+// are round-off. In units in which the largest entries of columns and rows are 1: fields have units of their own, and γ
+// beside 1 may be 10³⁰ in others.
 template <class Matrix>
 Matrix dense_kernel(const Matrix& S) {
   const auto unit = [](double largest) { return largest > 0 ? 1 / largest : 1.0; };

@@ -13,9 +13,9 @@
 
 namespace seiche {
 
-// z = Ty with TᴴMT = diag(I, 0): the first `rank` of y carry the energy, the others are motion along the kernel of M. In z, a fast
-// oscillation is a small displacement beside large momenta and the errors of a product reach ε(hω)²; in y they reach εhω, as much as
-// the rounding of M itself.
+// z = Ty with TᴴMT = diag(I, 0): the first `rank` of y carry the energy, the others are motion along the kernel of M.
+// In z, a fast oscillation is a small displacement beside large momenta and the errors of a product reach ε(hω)²; in y
+// they reach εhω, as much as the rounding of M itself.
 template <class Matrix>
 struct EnergyCoordinates {
   Matrix T, inverse;
@@ -46,8 +46,8 @@ struct EnergyCoordinates {
 
 namespace energy_detail {
 
-// The kernel of M by orthonormal columns, and all others orthogonal to it: else a motion along the kernel would seem to be part of every
-// other. Gram–Schmidt, since it leaves zeros where they are.
+// The kernel of M by orthonormal columns, and all others orthogonal to it: else a motion along the kernel would seem to
+// be part of every other. Gram–Schmidt, since it leaves zeros where they are.
 template <class Matrix>
 void make_kernel_orthonormal(EnergyCoordinates<Matrix>& c) {
   for (Index k = c.rank; k < c.T.cols(); ++k) {
@@ -62,8 +62,9 @@ void make_kernel_orthonormal(EnergyCoordinates<Matrix>& c) {
 
 }  // namespace energy_detail
 
-// By LDLᴴ with the largest pivots first. A pivot that is round-off beside the diagonal entry it is left of counts as zero; entries
-// that differ by orders of magnitude and do not meet stay apart. Nothing where M is not positive semidefinite or not finite.
+// By LDLᴴ with the largest pivots first. A pivot that is round-off beside the diagonal entry it is left of counts as
+// zero; entries that differ by orders of magnitude and do not meet stay apart. Nothing where M is not positive
+// semidefinite or not finite.
 template <class Matrix>
 std::optional<EnergyCoordinates<Matrix>> energy_coordinates(const Matrix& M) {
   const Index n = M.rows();
@@ -111,8 +112,8 @@ std::optional<EnergyCoordinates<Matrix>> energy_coordinates(const Matrix& M) {
   return c;
 }
 
-// Units along the kernel of M for a step h: what energy moves along it, or ∇V there, is then of the size of the energy. One where S and
-// the kernel have only round-off in common, as where the kernel is one of S too.
+// Units along the kernel of M for a step h: what energy moves along it, or ∇V there, is then of the size of the energy.
+// One where S and the kernel have only round-off in common, as where the kernel is one of S too.
 template <class Matrix>
 double kernel_unit(const EnergyCoordinates<Matrix>& c, const Matrix& S, double h) {
   const Index kernel = S.rows() - c.rank;

@@ -28,8 +28,8 @@ template <class V, std::size_t taps, class Visit>
   visit.row(j, sum, size);
 }
 
-// The rows of a run, eight at a time, from a row on that begins a line of the cache where the vectors do, and otherwise one at a
-// time. Copies keep in registers what the stores of a visit might otherwise be thought to change.
+// The rows of a run, eight at a time, from a row on that begins a line of the cache where the vectors do, and otherwise
+// one at a time. Copies keep in registers what the stores of a visit might otherwise be thought to change.
 template <std::size_t taps, class Visit>
 [[gnu::always_inline]] inline void visit_rows(const Run& run, const double* x, Visit& all) {
   std::array<Index, taps> offsets{};
@@ -57,8 +57,8 @@ void visit_any_rows(const Run& run, const double* x, Visit& visit) {
   }
 }
 
-// Unrolled for the numbers of taps that differences of order two and four have in one, two and three dimensions, and of order two at
-// ends.
+// Unrolled for the numbers of taps that differences of order two and four have in one, two and three dimensions, and of
+// order two at ends.
 template <class Visit>
 [[gnu::always_inline]] inline void visit_runs(std::span<const Run> runs, const double* x, Visit& visit) {
   for (const Run& run : runs) {

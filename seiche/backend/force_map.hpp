@@ -45,8 +45,8 @@ Matrix taylor(const Matrix& S, const Matrix& M, double h) {
   return F;
 }
 
-// One Newton–Schulz step towards F + Fᴴ + FᴴMF = −W (null: zero): squares the defect where little is lost; where much is, −W
-// leaves it room.
+// One Newton–Schulz step towards F + Fᴴ + FᴴMF = −W (null: zero): squares the defect where little is lost; where much
+// is, −W leaves it room.
 template <class Matrix>
 void restore_contract(Matrix& F, const Matrix& M, const Matrix* W) {
   Matrix R = F + F.adjoint() + F.adjoint() * (M * F);
@@ -56,12 +56,14 @@ void restore_contract(Matrix& F, const Matrix& M, const Matrix* W) {
 
 // F of a step h, grown from steps so small that Taylor's series is short:
 //   F ← 2F + FMF,   which is E(2h) = E(h)² with E = I + FM.
-// Each doubling also doubles what round-off has added to the contract F + Fᴴ + FᴴMF = −W. For skew S the loss W is zero. Otherwise it
-// obeys W ← W + BᴴWB, B = I + MF, sums of what is ⪰ 0 and thus known to round-off; so the contract is restored on the way.
+// Each doubling also doubles what round-off has added to the contract F + Fᴴ + FᴴMF = −W. For skew S the loss W is
+// zero. Otherwise it obeys W ← W + BᴴWB, B = I + MF, sums of what is ⪰ 0 and thus known to round-off; so the contract
+// is restored on the way.
 template <class Matrix>
 class ForceDoubling {
  public:
-  // At most so many doublings leave the contract at round-off by themselves, but for one restoration of skew S at the end.
+  // At most so many doublings leave the contract at round-off by themselves, but for one restoration of skew S at the
+  // end.
   static constexpr int harmless = 8;
 
   // `rate`: −(S + Sᴴ).
@@ -154,7 +156,8 @@ Matrix cayley_force(const Matrix& S, const Matrix& M, double h) {
   return (I - 0.5 * A).partialPivLu().solve(h * S);
 }
 
-// Orthonormal columns with leftᴴS = 0 and S right = 0. The same hold for F, and round-off beside fast motion may break them.
+// Orthonormal columns with leftᴴS = 0 and S right = 0. The same hold for F, and round-off beside fast motion may break
+// them.
 template <class Matrix>
 struct Kernels {
   Matrix left, right;

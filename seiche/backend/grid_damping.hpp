@@ -15,9 +15,9 @@
 
 namespace seiche {
 
-// D(t) = constant + (γ(t) + γ(x, t))P. Where the constant part and γ(t)P commute (rate_commutes) Ψ is the product of their
-// flows. Elsewhere, and for γ(x, t)P, which commutes with γ(t)P only, the flow of the rates stands between two halves of the
-// constant one: symmetric and of order two, and each factor keeps the law.
+// D(t) = constant + (γ(t) + γ(x, t))P. Where the constant part and γ(t)P commute (rate_commutes) Ψ is the product of
+// their flows. Elsewhere, and for γ(x, t)P, which commutes with γ(t)P only, the flow of the rates stands between two
+// halves of the constant one: symmetric and of order two, and each factor keeps the law.
 class GridDamping final : public Damping {
  public:
   using MakeFlow = std::function<std::unique_ptr<LinearMap>(double h)>;  // e^{−h constant}

@@ -1,4 +1,5 @@
-// The part of a structure matrix that changes with the state, in whichever coordinates a FieldTransform gives each field.
+// The part of a structure matrix that changes with the state, in whichever coordinates a FieldTransform gives each
+// field.
 #pragma once
 
 #include <seiche/backend/grid_space.hpp>

@@ -9,8 +9,9 @@
 
 namespace seiche {
 
-// y' = Hy, y(0) = e₁, for the (m+1) × m matrix H of m steps of Arnoldi iteration: its last component is the usual estimate of
-// the error of the first m, β h_{m+1,m} e_mᵀ τφ₁(τH)e₁ (Saad 1992), and belongs to the solution that it corrects.
+// y' = Hy, y(0) = e₁, for the (m+1) × m matrix H of m steps of Arnoldi iteration: its last component is the usual
+// estimate of the error of the first m, β h_{m+1,m} e_mᵀ τφ₁(τH)e₁ (Saad 1992), and belongs to the solution that it
+// corrects.
 class HessenbergFlow {
  public:
   explicit HessenbergFlow(Index most_columns);

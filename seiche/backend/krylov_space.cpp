@@ -22,8 +22,9 @@ void KrylovSpace::reserve(Index columns, Index rows) {
   W_.conservativeResize(rows, capacity);
 }
 
-// Orthonormalises the columns of `block` against V and each other and appends those that are new; block = V·coefficients
-// afterwards. Two passes of Gram–Schmidt keep V orthonormal to round-off. Returns how many were appended.
+// Orthonormalises the columns of `block` against V and each other and appends those that are new; block =
+// V·coefficients afterwards. Two passes of Gram–Schmidt keep V orthonormal to round-off. Returns how many were
+// appended.
 Index KrylovSpace::append(const SparseMatrix& M, Matrix& block, Matrix& coefficients) {
   const Index before = size_;
   reserve(size_ + block.cols(), block.rows());

@@ -7,12 +7,12 @@
 
 namespace seiche {
 
-// With V of M-orthonormal columns whose first few span the given vectors, W_start = V R:  SM ≈ V T Vᵀ M on them, T skew, and
-// e^{hSM} W_start ≈ V e^{hT} R.
+// With V of M-orthonormal columns whose first few span the given vectors, W_start = V R:  SM ≈ V T Vᵀ M on them, T
+// skew, and e^{hSM} W_start ≈ V e^{hT} R.
 class KrylovSpace {
  public:
-  // `start`: one or two columns. `blocks`: the dimension in blocks of as many; 0: until e^{hT}R settles. Throws Error where
-  // it does not within a few hundred.
+  // `start`: one or two columns. `blocks`: the dimension in blocks of as many; 0: until e^{hT}R settles. Throws Error
+  // where it does not within a few hundred.
   void build(const SparseMatrix& S, const SparseMatrix& M, const Eigen::MatrixXd& start, double h, int blocks);
 
   // (e^{hT} − I) R, by which the given vectors change, and R itself.

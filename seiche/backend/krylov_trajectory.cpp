@@ -48,7 +48,8 @@ double KrylovTrajectory::begin(const Equation& equation, double sigma) {
   return norm;
 }
 
-// Appends A times the last vector to the basis. Returns the new entry h_{m+1,m}, which is 0 where the space is invariant.
+// Appends A times the last vector to the basis. Returns the new entry h_{m+1,m}, which is 0 where the space is
+// invariant.
 double KrylovTrajectory::append(const Equation& equation) {
   const Index n = unknowns();
   const Index m = flow_.columns() + 1;

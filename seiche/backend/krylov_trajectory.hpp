@@ -10,10 +10,10 @@
 
 namespace seiche {
 
-// u' = xLu + Σ_{k<p} B_k σᵏ/k! is the first part of w' = Aw with w = (u, s), s_k = σᵏ/k! and the augmented A = [xL, B; 0, J].
-// One pass from σ = 0 to the last σ asked for: the Krylov space of w grows until the estimate of HessenbergFlow is round-off,
-// or to its largest dimension, and the substep ends where the estimate no longer is (Niesen & Wright 2012, phipm; Gaudreault,
-// Rainwater & Tokman 2018, KIOPS). L is balanced first. One thread at a time.
+// u' = xLu + Σ_{k<p} B_k σᵏ/k! is the first part of w' = Aw with w = (u, s), s_k = σᵏ/k! and the augmented A = [xL, B;
+// 0, J]. One pass from σ = 0 to the last σ asked for: the Krylov space of w grows until the estimate of HessenbergFlow
+// is round-off, or to its largest dimension, and the substep ends where the estimate no longer is (Niesen & Wright
+// 2012, phipm; Gaudreault, Rainwater & Tokman 2018, KIOPS). L is balanced first. One thread at a time.
 class KrylovTrajectory {
  public:
   explicit KrylovTrajectory(const SparseMatrix& L);
@@ -27,8 +27,8 @@ class KrylovTrajectory {
     double sigma;  // > 0
     Vector* value;
   };
-  // u(0) = z, or 0 without; B: unknowns × p in balanced coordinates; outputs: with increasing σ. Writes the components in
-  // `range` of each value, all NaN where something is not finite.
+  // u(0) = z, or 0 without; B: unknowns × p in balanced coordinates; outputs: with increasing σ. Writes the components
+  // in `range` of each value, all NaN where something is not finite.
   void integrate(double x, const Vector* z, const Eigen::MatrixXd& B, std::span<const Output> outputs,
                  Potential::Support range);
 

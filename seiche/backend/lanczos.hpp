@@ -1,5 +1,5 @@
-// The exponential propagator by block Lanczos iteration in the inner product of M, where S is skew and M ≻ 0: then SM is
-// skew in it, and what the iteration computes is an isometry whatever its dimension.
+// The exponential propagator by block Lanczos iteration in the inner product of M, where S is skew and M ≻ 0: then SM
+// is skew in it, and what the iteration computes is an isometry whatever its dimension.
 #pragma once
 
 #include <seiche/backend/sparse_ldlt.hpp>
@@ -23,9 +23,9 @@ class SkewSystem {
   std::unique_ptr<SparseLdlt<double>> M_factors_;
 };
 
-// `advance` stands on one isometry of span{z, M⁻¹f} and what SM makes of it, so that the sav family keeps its energy law to
-// round-off even at a small dimension. The other verbs iterate until nothing changes: methods that call them one by one
-// need the true exponential. Unlike other propagators it allocates, as much as its dimension turns out to need.
+// `advance` stands on one isometry of span{z, M⁻¹f} and what SM makes of it, so that the sav family keeps its energy
+// law to round-off even at a small dimension. The other verbs iterate until nothing changes: methods that call them one
+// by one need the true exponential. Unlike other propagators it allocates, as much as its dimension turns out to need.
 std::unique_ptr<Propagator> lanczos_propagator(std::shared_ptr<const SkewSystem> system, Potential::Support support,
                                                double h, int dimension);
 

@@ -7,8 +7,8 @@
 namespace seiche {
 namespace {
 
-// 8 · count rows from `a` on; columns lie `stride` apart. Few rows have two sums each, so that additions need not wait for
-// one another.
+// 8 · count rows from `a` on; columns lie `stride` apart. Few rows have two sums each, so that additions need not wait
+// for one another.
 template <int count>
 [[gnu::always_inline]] inline void apply_rows(const double* a, Index stride, Index columns, const double* x,
                                               double* y) {

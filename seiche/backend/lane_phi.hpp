@@ -17,7 +17,8 @@ inline constexpr Index max_lane_phi_order = 16;
 // NOLINTNEXTLINE(modernize-use-using): the attribute belongs to the type
 typedef std::int64_t LaneIntegers __attribute__((vector_size(64)));
 
-// How often each A is to be halved for a size ‖A‖ < ½, and 2^{−that}. The exponents are read from the bits of the numbers.
+// How often each A is to be halved for a size ‖A‖ < ½, and 2^{−that}. The exponents are read from the bits of the
+// numbers.
 struct Halvings {
   LaneIntegers count{};
   Lanes factor{};
@@ -39,8 +40,9 @@ struct Halvings {
   }
 };
 
-// Doublings let the modulus of what turns drift from the true one, by as many units of round-off as there are radians. It is known:
-// that of e^λ, or the root of det e^A = e^{tr A}. X = e^A − I is scaled to it, where A turns at least twice as fast as it decays.
+// Doublings let the modulus of what turns drift from the true one, by as many units of round-off as there are radians.
+// It is known: that of e^λ, or the root of det e^A = e^{tr A}. X = e^A − I is scaled to it, where A turns at least
+// twice as fast as it decays.
 inline constexpr std::int64_t harmless_doublings = 8;
 
 template <class Scalar, int m>
@@ -75,8 +77,9 @@ template <class Scalar, int m>
   }
 }
 
-// phi[k] ← φ_k(A), k = 0 … order ≤ max_lane_phi_order, for sizes ‖A‖ lane by lane; phi[1] is written for order 0 too. As
-// `phi_functions`: Taylor's series of φ_order, the recurrence down from it, and as many doublings as each lane needs, of e^A − I.
+// phi[k] ← φ_k(A), k = 0 … order ≤ max_lane_phi_order, for sizes ‖A‖ lane by lane; phi[1] is written for order 0 too.
+// As `phi_functions`: Taylor's series of φ_order, the recurrence down from it, and as many doublings as each lane
+// needs, of e^A − I.
 template <class Block>
 [[gnu::always_inline]] inline void lane_phi_functions(const Block& A, const Lanes& size, int order, Block* phi) {
   constexpr int terms = 16;  // of an A below ½ with order ≥ 1: the next is below 1e-21

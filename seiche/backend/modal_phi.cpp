@@ -261,8 +261,8 @@ class ModalPhi final : public PhiEvaluator {
     }
   }
 
-  // Damping and sym(S) must leave alone what V depends on for Q to be quadratic. Q ⪰ 0 is judged mode by mode: damping may
-  // differ by many orders of magnitude from one to another.
+  // Damping and sym(S) must leave alone what V depends on for Q to be quadratic. Q ⪰ 0 is judged mode by mode: damping
+  // may differ by many orders of magnitude from one to another.
   void judge_dissipation() {
     dissipation_ = {true, true, true};
     for (Index k = 0; k < symbols_.modes.count(); ++k) {

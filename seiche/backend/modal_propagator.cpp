@@ -92,7 +92,8 @@ std::unique_ptr<Propagator> make(const ModalExtent& extent, const ModalMetric& m
   return std::make_unique<FusedPropagator<S>>(extent, metric, std::move(maps));
 }
 
-// One field; second-order equations (u, v), with V of u and M the identity on v or not; pairs of fields, with V of both.
+// One field; second-order equations (u, v), with V of u and M the identity on v or not; pairs of fields, with V of
+// both.
 template <ModeLayout layout>
 Make find_in(Index fields, Index first, Index count, unsigned unit) {
   if (first != 0) return nullptr;

@@ -66,7 +66,8 @@ class ModalTransform final : public FieldTransform {
 
   double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const override {
     if (from.data() != slots.data()) {
-      // On all threads: one alone would draw into its cache what the passes over the modes have left in those of others.
+      // On all threads: one alone would draw into its cache what the passes over the modes have left in those of
+      // others.
       for_blocks(batch_count_, threads_, [&](Index batch) {
         const Index begin = row(batch) * rows_->slots();
         std::copy_n(from.data() + begin, rows_in(batch) * rows_->slots(), slots.data() + begin);

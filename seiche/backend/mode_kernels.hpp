@@ -9,8 +9,8 @@
 
 namespace seiche::mode_kernels {
 
-// Which fields there are: `fields` of z, of which V depends on `count` from `first` on. M is diagonal, with one factor per
-// mode and field, but for the fields of `unit` (bits) on which it is the identity.
+// Which fields there are: `fields` of z, of which V depends on `count` from `first` on. M is diagonal, with one factor
+// per mode and field, but for the fields of `unit` (bits) on which it is the identity.
 template <ModeLayout layout_, int fields_, int first_, int count_, unsigned unit_>
 struct Shape {
   static constexpr ModeLayout layout = layout_;

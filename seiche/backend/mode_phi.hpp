@@ -40,8 +40,8 @@ struct PhiColumn {
   Index field;
 };
 
-// Can the sums be filled in this way? Blocks of up to 2 × 2, and φ-functions of orders that are in use; complex 2 × 2 blocks where hL is
-// not large, since the moduli of two eigenvalues are not known from the determinant.
+// Can the sums be filled in this way? Blocks of up to 2 × 2, and φ-functions of orders that are in use; complex 2 × 2
+// blocks where hL is not large, since the moduli of two eigenvalues are not known from the determinant.
 bool fits_lanes(const ModeBlockArrays& blocks, const PhiRows& rows, double h);
 
 // Row i · count + f of the table: component first + f of rows.rows[i].

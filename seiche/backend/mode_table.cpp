@@ -15,7 +15,8 @@ constexpr Index max_columns = 40;         // the inputs of eight slots wait in t
 constexpr int unrolled_columns = 8;
 constexpr std::size_t max_forms = 4;
 
-// The first `count` lanes from memory, 0 < count < lane_count, and zeros. Copies of a size known to the compiler are no calls.
+// The first `count` lanes from memory, 0 < count < lane_count, and zeros. Copies of a size known to the compiler are no
+// calls.
 template <int count = lane_count - 1>
 [[gnu::always_inline]] inline void load_some(const double* from, Index wanted, Lanes& x) {
   if (wanted == count) {
@@ -134,8 +135,8 @@ void with_layout(ModeLayout layout, const Body& body) {
 
 Index blocks_of(const ModeFactors& factors) { return (factors.chunks() + chunks_per_block - 1) / chunks_per_block; }
 
-// body<known>() with the number of columns, where its loops are unrolled: one or two fields of state and those of up to four
-// forces, or of eight forces alone.
+// body<known>() with the number of columns, where its loops are unrolled: one or two fields of state and those of up to
+// four forces, or of eight forces alone.
 template <int known = unrolled_columns, class Body>
 void with_columns(Index columns, const Body& body) {
   if (columns == known) return body.template operator()<known>();

@@ -10,14 +10,14 @@
 
 namespace seiche {
 
-// So many factors per mode in the order in which a pass reads them: eight slots are taken at a time, and their factors lie
-// side by side. One stream through memory, however many factors there are.
+// So many factors per mode in the order in which a pass reads them: eight slots are taken at a time, and their factors
+// lie side by side. One stream through memory, however many factors there are.
 class ModeFactors {
  public:
   ModeFactors(ModeLayout layout, Index modes, Index per_mode);
   void set(Index mode, Index which, std::complex<double> factor);
-  // Of eight modes from `first` on, a multiple of eight; what lies beyond the last mode is ignored. Imaginary parts where factors
-  // are complex.
+  // Of eight modes from `first` on, a multiple of eight; what lies beyond the last mode is ignored. Imaginary parts
+  // where factors are complex.
   [[gnu::always_inline]] inline void set_eight(Index first, Index which, const Lanes& re, const Lanes& im);
 
   ModeLayout layout() const { return layout_; }

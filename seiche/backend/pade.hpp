@@ -10,8 +10,8 @@
 namespace seiche {
 
 // y = F c for F ≈ hφ₁(hSM)S, where every factor (A + p)(A − p)⁻¹ of r(A), A = hSM, is a map y ↦ r y + (…)c of its own
-// that keeps the contract F + Fᵀ + FᵀMF = 0 (⪯ 0) to round-off, whatever q: accuracy is a matter of q, the energy law is
-// not. With partial fractions instead the contract would lose a digit per degree.
+// that keeps the contract F + Fᵀ + FᵀMF = 0 (⪯ 0) to round-off, whatever q: accuracy is a matter of q, the energy law
+// is not. With partial fractions instead the contract would lose a digit per degree.
 class PadeForce {
  public:
   PadeForce(const SparseMatrix& S, const SparseMatrix& M, const ResolventFactory& factory, double h, PadePlan plan);

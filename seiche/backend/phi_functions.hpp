@@ -17,7 +17,8 @@
 
 namespace seiche {
 
-// What e^{sA} takes from ½|y|² over 0 ≤ s ≤ 1, y the first `rank` components: Iᵣ − EᴴIᵣE = W with W the integral of e^{sA}ᴴPe^{sA}.
+// What e^{sA} takes from ½|y|² over 0 ≤ s ≤ 1, y the first `rank` components: Iᵣ − EᴴIᵣE = W with W the integral of
+// e^{sA}ᴴPe^{sA}.
 template <class Matrix>
 struct FlowLoss {
   Matrix rate;  // P = −(IᵣA + AᴴIᵣ); empty: E is not to be corrected
@@ -26,7 +27,8 @@ struct FlowLoss {
 
 namespace phi_detail {
 
-// e^{2ʲA} − I by j doublings of the increment, X ← 2X + X²: I + X would lose the digits of what moves slowly beside fast motion.
+// e^{2ʲA} − I by j doublings of the increment, X ← 2X + X²: I + X would lose the digits of what moves slowly beside
+// fast motion.
 template <class Matrix>
 class FlowDoubling {
  public:
@@ -81,8 +83,8 @@ class FlowDoubling {
 }  // namespace phi_detail
 
 // phi[k] ← φ_k(A) for k = 0 … order, by Taylor's series of φ_order at A/2ʲ, the recurrence φ_k = Aφ_{k+1} + I/k! down
-// from it, and j doublings: φ_k(2A) = 2^{−k} [φ₀(A)φ_k(A) + Σ_{l=1}^{k} φ_l(A)/(k−l)!]. No division by A anywhere. With a loss, the
-// length of what φ₀ turns is that of the equation, not of j doublings.
+// from it, and j doublings: φ_k(2A) = 2^{−k} [φ₀(A)φ_k(A) + Σ_{l=1}^{k} φ_l(A)/(k−l)!]. No division by A anywhere. With
+// a loss, the length of what φ₀ turns is that of the equation, not of j doublings.
 template <class Matrix>
 void phi_functions(const Matrix& A, Index order, std::vector<Matrix>& phi, const FlowLoss<Matrix>& loss = {}) {
   const Matrix I = Matrix::Identity(A.rows(), A.cols());
@@ -94,7 +96,8 @@ void phi_functions(const Matrix& A, Index order, std::vector<Matrix>& phi, const
   phi.resize(count);
   double factorial = 1;  // of k
   for (Index k = 2; k <= top; ++k) factorial *= static_cast<double>(k);
-  // Σ_i Aⁱ/(top + i)! up to i = 19, four powers at a time (Paterson and Stockmeyer): seven products instead of nineteen.
+  // Σ_i Aⁱ/(top + i)! up to i = 19, four powers at a time (Paterson and Stockmeyer): seven products instead of
+  // nineteen.
   constexpr Index groups = 5;
   const Matrix A2 = small * small;
   const Matrix A3 = A2 * small;
@@ -137,8 +140,8 @@ struct LinearBlocks {
   Matrix L() const { return S * M - D0; }
 };
 
-// The matrices of one row: blocks[0] of z, then one for each force, with S folded into those of gradients. Where hL is large, φ-functions
-// are taken in coordinates of energy, if there are any.
+// The matrices of one row: blocks[0] of z, then one for each force, with S folded into those of gradients. Where hL is
+// large, φ-functions are taken in coordinates of energy, if there are any.
 template <class Matrix>
 class PhiRowBlocks {
  public:

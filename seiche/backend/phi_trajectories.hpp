@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// u(σ) of u' = θhLu + h Σ_j Σ_k W_jk σᵏ/k! n_j, u(0) = z, is the sum of a row with the weights σ^{k+1} W_jk at σθ. Rows of
-// collocation, with the weights k! θ^{k+1} C_kj, all lie on the trajectory of the last of them.
+// u(σ) of u' = θhLu + h Σ_j Σ_k W_jk σᵏ/k! n_j, u(0) = z, is the sum of a row with the weights σ^{k+1} W_jk at σθ. Rows
+// of collocation, with the weights k! θ^{k+1} C_kj, all lie on the trajectory of the last of them.
 struct PhiTrajectory {
   double theta;
   Eigen::MatrixXd weights;        // W, forces × order

@@ -9,7 +9,8 @@
 
 namespace seiche {
 
-// S = [[0, I], [−I, −G]] and M = diag(K, W) with G and K symmetric and W diagonal and positive: equations of second order.
+// S = [[0, I], [−I, −G]] and M = diag(K, W) with G and K symmetric and W diagonal and positive: equations of second
+// order.
 struct WaveStructure {
   SparseMatrix K, G;
   Vector inverse_W;

@@ -11,9 +11,10 @@
 namespace seiche {
 namespace {
 
-// One split of S_k = 2 Σ_{0<j<N} x_j sin(πjk/N), with M = N/2. Sines of even k are those of length M of x_j − x_{N−j}. Of odd k,
-// with s_j = x_j + x_{N−j} and s_M = x_M, they are a Fourier sum of length M:
-//   S_{4n+1} = v_n,  S_{4n+3} = −v_{M−1−n},  v_n = Σ_k V_k e^{2πikn/M},  V_0 = 2s_M,  V_k = e^{iπk/2M} (s_{M−k} − i s_k).
+// One split of S_k = 2 Σ_{0<j<N} x_j sin(πjk/N), with M = N/2. Sines of even k are those of length M of x_j − x_{N−j}.
+// Of odd k, with s_j = x_j + x_{N−j} and s_M = x_M, they are a Fourier sum of length M:
+//   S_{4n+1} = v_n,  S_{4n+3} = −v_{M−1−n},  v_n = Σ_k V_k e^{2πikn/M},  V_0 = 2s_M,  V_k = e^{iπk/2M} (s_{M−k} − i
+//   s_k).
 class Split {
  public:
   Split(Index half, bool measure)
@@ -77,9 +78,9 @@ class Split {
   FftwPlan plan_;
 };
 
-// Half of the numbers leave with each split; the sines of what is left are the Fourier transform of its odd continuation, of
-// twice the length. On the whole line that would take twice the time, and FFTW's own sine transform still more, except on the
-// longest lines (docs/performance.md).
+// Half of the numbers leave with each split; the sines of what is left are the Fourier transform of its odd
+// continuation, of twice the length. On the whole line that would take twice the time, and FFTW's own sine transform
+// still more, except on the longest lines (docs/performance.md).
 class SineRows final : public RowTransform {
  public:
   SineRows(Index intervals, bool measure) : intervals_(intervals), rest_(intervals) {

@@ -10,7 +10,8 @@
 
 namespace seiche {
 
-// Krylov substeps of one exponential of hL, for the spectral radius ρ of L: each reaches about as far as its dimension lets it.
+// Krylov substeps of one exponential of hL, for the spectral radius ρ of L: each reaches about as far as its dimension
+// lets it.
 inline double krylov_substeps(double h_rho) { return std::max(1.0, h_rho / 10); }
 inline constexpr double most_krylov_substeps = 1e6;
 

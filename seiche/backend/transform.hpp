@@ -27,8 +27,8 @@ class FieldTransform {
   virtual void to_values(std::span<double> slots, std::span<double> values) const = 0;
 
   // slots ← to_slots(f(to_values(from))), where f overwrites the values of some points and returns a number; the sum of
-  // these. f must treat every point alike and alone. Blocks of points pass through the cache, on several threads. `from`
-  // has as many coordinates as `slots`, and is the same array or apart from it; then it is kept.
+  // these. f must treat every point alike and alone. Blocks of points pass through the cache, on several threads.
+  // `from` has as many coordinates as `slots`, and is the same array or apart from it; then it is kept.
   using Pointwise = std::function<double(std::span<double> values)>;
   virtual double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const = 0;
 };
@@ -40,8 +40,8 @@ struct TransformOptions {
   int threads = 1;
 };
 
-// Fourier on grids that are periodic along every axis, in the order of Modes: pairs of slots (Re â, Im â). Sines, cosines
-// and half-complex Fourier coefficients, axis by axis, on the others: one slot per unknown.
+// Fourier on grids that are periodic along every axis, in the order of Modes: pairs of slots (Re â, Im â). Sines,
+// cosines and half-complex Fourier coefficients, axis by axis, on the others: one slot per unknown.
 std::unique_ptr<FieldTransform> modal_transform(const Grid& grid, const TransformOptions& options = {});
 
 }  // namespace seiche

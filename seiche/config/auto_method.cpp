@@ -60,8 +60,8 @@ bool stays(const MethodRequest& request, const ProblemRates& rates) {
   return rates.damping == 0 || (request.t_end > 0 && rates.damping * request.t_end <= faded);
 }
 
-// Do kicks by all forces cost less than exact flows? The size of a step of one size is the user's, and may be beyond what is
-// stable.
+// Do kicks by all forces cost less than exact flows? The size of a step of one size is the user's, and may be beyond
+// what is stable.
 bool should_kick(const Problem& problem, const System& system, const MethodRequest& request,
                  const ProblemRates& rates) {
   if (!request.by_kicks || request.tolerance <= 0 || !damps_momenta_alike(problem)) return false;

@@ -14,8 +14,9 @@ namespace seiche {
 // What a case file holds. Throws Error where it cannot be read.
 std::string case_text(const std::filesystem::path& file);
 
-// `overrides` are those of --set: "method.h=1/64". They replace what the file says and are checked the same way. Where `methods`
-// will take the place of the one in the case, each option of [method] must suit one of them, and need not suit that one.
+// `overrides` are those of --set: "method.h=1/64". They replace what the file says and are checked the same way. Where
+// `methods` will take the place of the one in the case, each option of [method] must suit one of them, and need not
+// suit that one.
 RunSpec read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                   const std::vector<std::string>& methods = {});
 

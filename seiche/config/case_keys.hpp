@@ -13,8 +13,8 @@ std::vector<std::string> case_sections();
 // Of one section; `problem` has its own, and null is a problem that nobody knows yet.
 std::vector<std::string> case_keys(const std::string& section, const ProblemEntry* problem);
 
-// Sentences for what stands where it means nothing. What a word means in other programs comes before what it looks like: dt is h,
-// and rtol the tolerance.
+// Sentences for what stands where it means nothing. What a word means in other programs comes before what it looks
+// like: dt is h, and rtol the tolerance.
 std::string key_outside_sections(const std::string& key, const ProblemEntry* problem);
 std::string unknown_key(const std::string& section, const std::string& key, const ProblemEntry* problem);
 

@@ -15,7 +15,8 @@ namespace seiche {
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
                    const std::filesystem::path& folder = {});
 
-// A formula in t and as many of x, y, z as it names, which asks the grid for so many axes. Throws Error that names the key.
+// A formula in t and as many of x, y, z as it names, which asks the grid for so many axes. Throws Error that names the
+// key.
 SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text,
                                     const FormulaConstants& constants = {}, const NameAdvice& advice = {});
 // The same, and where it names t alone a rate for all points.

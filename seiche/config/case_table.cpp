@@ -122,7 +122,8 @@ CaseValue empty_table() {
   return table;
 }
 
-// Puts `value` at the end of `path`, key by key, into the table `into`, which `so_far` calls; tables that are not there are made.
+// Puts `value` at the end of `path`, key by key, into the table `into`, which `so_far` calls; tables that are not there
+// are made.
 void put_into(CaseValue& into, const std::string& so_far, std::string_view path, const CaseValue& value) {
   if (into.kind != Kind::table) {
     const std::string whole = value.kind == Kind::text ? toml_string(value.text) : value.shown();

@@ -21,12 +21,12 @@ const std::vector<std::string>& custom_keys();
 // Puts the value of one of these keys into `custom`. S, M and D want `fields` and `parameters` read before.
 void read_custom_key(CustomProblem& custom, const std::string& key, const CaseValue& value);
 
-// As one of the list of problems: its parameters are those of a grid, where there is one, and the user's own with their values
-// as defaults; its initial state is zero.
+// As one of the list of problems: its parameters are those of a grid, where there is one, and the user's own with their
+// values as defaults; its initial state is zero.
 ProblemEntry custom_entry(const CustomProblem& custom, bool has_grid);
 
-// Are all formulas, with these values of the parameters and tried on a small grid, what they should be? Throws as custom_problem
-// does.
+// Are all formulas, with these values of the parameters and tried on a small grid, what they should be? Throws as
+// custom_problem does.
 void try_formulas(const CustomProblem& custom, const ParameterValues& values);
 
 // The keys as a case file has them; `texts` are the values of the user's parameters as written.

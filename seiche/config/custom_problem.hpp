@@ -20,7 +20,8 @@ struct CustomProblem {
   // The energy of a point, in the fields, their derivatives u_x and u_xx, the place x, y, z, and on a line differences
   // du = u_{j+1} − u_j between neighbours. Quadratic terms with constant coefficients become ½zᵀMz, the others V.
   std::string H = {};
-  // Or both apart: M by entries of numbers and derivatives (d_x, d_x^2, laplacian), and V in fields, place and differences.
+  // Or both apart: M by entries of numbers and derivatives (d_x, d_x^2, laplacian), and V in fields, place and
+  // differences.
   FormulaTable M = {};
   std::string V = {};
   FormulaTable S = {};    // entries as for M; empty: [[0, I], [−I, 0]]
@@ -32,8 +33,9 @@ struct CustomProblem {
 // The fields, where none are given too. Throws Error for names that formulas could not tell apart.
 std::vector<std::string> field_names(const CustomProblem& custom);
 
-// Its first note says the split into ½zᵀMz and V. Throws Error with the place in the formula where one cannot be read, where
-// the tables do not fit the fields, where no M ⪰ 0 can be found, or where V has no finite force at the initial state.
+// Its first note says the split into ½zᵀMz and V. Throws Error with the place in the formula where one cannot be read,
+// where the tables do not fit the fields, where no M ⪰ 0 can be found, or where V has no finite force at the initial
+// state.
 Problem custom_problem(const CustomProblem& custom);
 
 }  // namespace seiche

@@ -20,8 +20,8 @@ class CustomTables {
   // Of S or M, which are constant. Throws Error with the key and the place in the formula.
   BlockStencil block(const char* name, const FormulaTable& entries) const;
 
-  // Of D. A rate on the diagonal acts exactly on its fields, and apart from derivatives. Throws Error also for rates off the
-  // diagonal, and for two that differ.
+  // Of D. A rate on the diagonal acts exactly on its fields, and apart from derivatives. Throws Error also for rates
+  // off the diagonal, and for two that differ.
   LinearDamping damping(const FormulaTable& entries) const;
   void require_finite_rates(const LinearDamping& damping) const;  // at t = 0; throws Error with the point
 

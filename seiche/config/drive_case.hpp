@@ -25,14 +25,16 @@ struct DriveSpec {
   bool operator==(const DriveSpec&) const = default;
 };
 
-// { kind = "…", … }. Formulas may name `constants`, and the fields of `problem` where these are one coordinate and its momentum. Throws Error with a sentence that names the key, the value and what is allowed.
+// { kind = "…", … }. Formulas may name `constants`, and the fields of `problem` where these are one coordinate and its
+// momentum. Throws Error with a sentence that names the key, the value and what is allowed.
 FrictionSpec read_friction(const std::string& key, const CaseValue& value, const ProblemEntry& problem,
                            const FormulaConstants& constants);
 // A formula or number, or one for each of some fields.
 std::map<std::string, std::string> read_forces(const std::string& key, const CaseValue& value,
                                                const ProblemEntry& problem, const FormulaConstants& constants);
 
-// Adds them to a problem. Throws Error where the problem has no velocities, or a formula names an axis that is not there.
+// Adds them to a problem. Throws Error where the problem has no velocities, or a formula names an axis that is not
+// there.
 void add_drives(const DriveSpec& spec, Problem& problem, const FormulaConstants& constants);
 
 std::string write_drives(const DriveSpec& spec);  // the lines of [problem], "" for none

@@ -20,8 +20,8 @@ struct NamedFactor {
   Factor factor;
 };
 
-// Fields, places, derivatives and bonds: one name for each variable of the formula. Places that are not there have names that
-// nobody can write.
+// Fields, places, derivatives and bonds: one name for each variable of the formula. Places that are not there have
+// names that nobody can write.
 struct Layout {
   std::vector<std::string> variables;
   std::vector<NamedFactor> factors;  // beside the fields
@@ -83,8 +83,8 @@ class Splitter {
     }
   }
 
-  // Term by term. What is a polynomial about the origin is multiplied out, as long as that ends, and whole before any term of
-  // it is placed: what one bracket holds another may cancel. The rest stays as it was written.
+  // Term by term. What is a polynomial about the origin is multiplied out, as long as that ends, and whole before any
+  // term of it is placed: what one bracket holds another may cancel. The rest stays as it was written.
   void sort(const Expression& expression) {
     if (GiNaC::is_a<GiNaC::add>(expression)) {
       for (const Expression& term : expression) sort(term);

@@ -12,8 +12,8 @@
 
 namespace seiche {
 
-// What a formula may name beside constants: the fields; x, y, z of a grid; derivatives u_x, u_xx; and du, the difference
-// u_{j+1} − u_j, on a line.
+// What a formula may name beside constants: the fields; x, y, z of a grid; derivatives u_x, u_xx; and du, the
+// difference u_{j+1} − u_j, on a line.
 struct EnergyNames {
   std::vector<std::string> fields;
   Index axes = 0;  // of the grid; 0: there is no place
@@ -49,14 +49,15 @@ struct EnergySplit {
   std::string left_out_text;              // what moves nothing, where there is no V to count it with
 };
 
-// Which quadratic terms go into ½zᵀMz: all with constant coefficients but those of the given pairs of fields (i ≤ j), or none.
+// Which quadratic terms go into ½zᵀMz: all with constant coefficients but those of the given pairs of fields (i ≤ j),
+// or none.
 struct QuadraticTerms {
   bool found = true;
   std::set<std::pair<Index, Index>> left_in_V = {};
 };
 
-// `key` is how errors call the formula. Throws Error where it cannot be read, with the place in it, and where it is no energy:
-// derivatives that are not squared, bonds mixed with points.
+// `key` is how errors call the formula. Throws Error where it cannot be read, with the place in it, and where it is no
+// energy: derivatives that are not squared, bonds mixed with points.
 EnergySplit split_energy(const std::string& key, const std::string& text, const EnergyNames& names,
                          const FormulaConstants& constants, const QuadraticTerms& quadratic);
 

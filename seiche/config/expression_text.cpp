@@ -1,4 +1,5 @@
-// Expressions as a reader would write them, and in one order: computer algebra keeps its terms in another one every run.
+// Expressions as a reader would write them, and in one order: computer algebra keeps its terms in another one every
+// run.
 #include <seiche/config/algebra_functions.hpp>
 #include <seiche/config/formula_expression.hpp>
 

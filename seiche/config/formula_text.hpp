@@ -27,11 +27,12 @@ struct FormulaToken {
 // "formula, column 2: a multiplication sign is missing: write 2*u", then the text and a caret below the place.
 Error formula_error(std::string_view text, std::size_t position, std::string_view sentence);
 
-// Of u[j+1] and u(j+1): which of `names` stands for the difference to the next point, or for a derivative; "" where none does.
+// Of u[j+1] and u(j+1): which of `names` stands for the difference to the next point, or for a derivative; "" where
+// none does.
 std::string hint_on_neighbours(std::string_view name, const std::vector<std::string>& names);
 
-// The tokens, an `end` last; they look into `text`, which must outlive them. Throws Error at the first bad character; of `names`
-// it gives that hint.
+// The tokens, an `end` last; they look into `text`, which must outlive them. Throws Error at the first bad character;
+// of `names` it gives that hint.
 std::vector<FormulaToken> tokenise_formula(std::string_view text, const std::vector<std::string>& names = {});
 
 }  // namespace seiche

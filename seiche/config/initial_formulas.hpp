@@ -17,7 +17,8 @@ std::vector<std::string> place_variables(Index axes);
 Vector initial_from_formulas(const std::map<std::string, std::string>& formulas, const FormulaConstants& constants,
                              const Problem& problem);
 
-// " at x = 0.1, y = 0.3 (j = 4)"; where points lie nowhere " at j = 4", and nothing for the only one of a few degrees of freedom.
+// " at x = 0.1, y = 0.3 (j = 4)"; where points lie nowhere " at j = 4", and nothing for the only one of a few degrees
+// of freedom.
 std::string place_text(const Grid& grid, Index point);
 
 }  // namespace seiche

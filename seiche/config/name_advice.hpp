@@ -1,5 +1,5 @@
-// What is said of a name that a formula does not know: where it does stand, or how one makes it known. The nearest name is no
-// help for names of one letter.
+// What is said of a name that a formula does not know: where it does stand, or how one makes it known. The nearest name
+// is no help for names of one letter.
 #pragma once
 
 #include <seiche/core/vector.hpp>
@@ -11,7 +11,8 @@
 
 namespace seiche {
 
-// A sentence about the name, or "" where there is nothing to say but which names there are, or the one that it is near to.
+// A sentence about the name, or "" where there is nothing to say but which names there are, or the one that it is near
+// to.
 using NameAdvice = std::function<std::string(std::string_view name, bool is_near_another)>;
 
 struct FormulaContext {

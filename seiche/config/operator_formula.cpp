@@ -61,7 +61,8 @@ class OperatorReader {
   }
 
  private:
-  // min, max and sign are not known to the algebra that sorts the terms. In a rate of its own, and of numbers, they may stand.
+  // min, max and sign are not known to the algebra that sorts the terms. In a rate of its own, and of numbers, they may
+  // stand.
   void refuse_kinks(const FormulaProgram& program, bool may_vary) const {
     for (const Instruction& instruction : program)
       if (instruction.kind == Instruction::Kind::call && !instruction.function->differentiable)

@@ -160,8 +160,8 @@ class Look {
     return !GiNaC::is_a<GiNaC::mul>(rest) && convex(rest);
   }
 
-  // Σ aᵢⱼuᵢuⱼ/b with coefficients in other symbols, as the kinetic energy of a double pendulum: then u·∇ is twice it. Not negative where
-  // that holds with every |aᵢⱼ| as large, and every aᵢᵢ as small, as their bounds allow.
+  // Σ aᵢⱼuᵢuⱼ/b with coefficients in other symbols, as the kinetic energy of a double pendulum: then u·∇ is twice it.
+  // Not negative where that holds with every |aᵢⱼ| as large, and every aᵢᵢ as small, as their bounds allow.
   bool is_nonnegative_form(const Expression& e) const {
     constexpr std::size_t most_terms = 64;
     if (terms(e) > most_terms || is_number(e)) return false;

@@ -6,8 +6,8 @@
 namespace seiche {
 namespace {
 
-// Collocation in doubles per unknown: two forces a stage and some vectors, and for each step size that is kept the blocks of
-// stages, end and forms; with variable steps also those of the extension.
+// Collocation in doubles per unknown: two forces a stage and some vectors, and for each step size that is kept the
+// blocks of stages, end and forms; with variable steps also those of the extension.
 double doubles_of_collocation(int order, Index size, bool variable_steps, double slots) {
   const double s = 0.5 * order;
   const double blocks = s * (2 + s) + 2 * (2 + s) + (2 + s) * (3 + s) + 4;  // per mode, of two fields
@@ -16,8 +16,8 @@ double doubles_of_collocation(int order, Index size, bool variable_steps, double
   return 2 * s + 14 + step_sizes * (blocks + (variable_steps ? of_extension : 0)) / (2 * slots);
 }
 
-// The same for one-step methods: their forces or what a splitting works with, and of each step size the blocks of stages, end and
-// forms, or of the linear flows.
+// The same for one-step methods: their forces or what a splitting works with, and of each step size the blocks of
+// stages, end and forms, or of the linear flows.
 double doubles_of_one_step(int order, Index size, bool variable_steps, double slots) {
   const double s = order;
   const double blocks = 2 * (2 + 0.5 * s) * s + 2 * (2 + s) + (2 + s) * (3 + s) + 4;
@@ -46,8 +46,8 @@ double doubles_per_unknown(const MethodEntry& method, Index size, bool variable_
   return 27;
 }
 
-// Friction, forces and what of S changes with z work on values at the points; and where such things stand, the forces of
-// collocation are states instead of gradients, with tables to match (measured: 1.6 times as much).
+// Friction, forces and what of S changes with z work on values at the points; and where such things stand, the forces
+// of collocation are states instead of gradients, with tables to match (measured: 1.6 times as much).
 double doubles_of_drives(const MethodEntry& method, const Problem& problem, double without) {
   double doubles = 0;
   if (problem.friction) doubles += 4;
@@ -56,8 +56,8 @@ double doubles_of_drives(const MethodEntry& method, const Problem& problem, doub
   return doubles + (doubles > 0 && method.closure == ClosureKind::none ? 0.7 * without : 0);
 }
 
-// Measured with lines of 10⁵ points and planes of 300². Matrices are stored by rows and by columns, in pieces and with what
-// assembles them; a factor of the Padé propagators has complex entries, on planes some 8 log₂ n of them in a row.
+// Measured with lines of 10⁵ points and planes of 300². Matrices are stored by rows and by columns, in pieces and with
+// what assembles them; a factor of the Padé propagators has complex entries, on planes some 8 log₂ n of them in a row.
 double bytes_of_sparse(const MethodEntry& method, const Problem& problem) {
   constexpr double of_entry = 240, of_factor_entry = 20;
   const auto points = static_cast<double>(problem.grid.unknowns());

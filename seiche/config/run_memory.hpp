@@ -8,8 +8,8 @@
 
 namespace seiche {
 
-// Bytes of a run, all told (docs/performance.md): on the modal backend, or with the matrices of the sparse one and the factors that
-// its propagators keep.
+// Bytes of a run, all told (docs/performance.md): on the modal backend, or with the matrices of the sparse one and the
+// factors that its propagators keep.
 double run_bytes(const MethodEntry& method, const Problem& problem, bool variable_steps = false,
                  std::string_view backend = "modal");
 

@@ -83,8 +83,9 @@ SimulationOptions simulation_options(const RunSpec& spec);
 // Where the method is "auto": what Simulation chooses for the case takes its place, with the reason among the notes.
 void settle_method(RunSpec& spec);
 
-// Where there is a tolerance and no word about snapshots: as many as make a smooth picture, by an interval that divides the run.
-// 1024 of up to 16 unknowns, whose pictures are curves; else 512, or fewer, so that all have about 2²⁴ numbers; 16 at least.
+// Where there is a tolerance and no word about snapshots: as many as make a smooth picture, by an interval that divides
+// the run. 1024 of up to 16 unknowns, whose pictures are curves; else 512, or fewer, so that all have about 2²⁴
+// numbers; 16 at least.
 void settle_snapshots(RunSpec& spec, const Problem& problem);
 
 }  // namespace seiche

@@ -32,7 +32,8 @@ const BackendEntry& choose_backend(const SimulationOptions& options, const Probl
 
 bool is_sparse(const std::string& backend) { return backend == "sparse"; }
 
-// Is there a backend for kicks that "auto" may take, or is it the one in use? It runs on one thread, and keeps matrices.
+// Is there a backend for kicks that "auto" may take, or is it the one in use? It runs on one thread, and keeps
+// matrices.
 bool may_choose_kicks(const SimulationOptions& options, const Problem& problem, const std::string& backend) {
   constexpr Index most_unknowns = Index{1} << 23;
   if (is_sparse(backend)) return kicks_suit(options);

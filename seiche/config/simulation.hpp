@@ -20,8 +20,8 @@ struct SimulationOptions {
   double t_end = 0.0;           // likewise
 };
 
-// Throws Error where the method does not apply to the problem, with the reason, and where the gradient of an own potential is not
-// that of V.
+// Throws Error where the method does not apply to the problem, with the reason, and where the gradient of an own
+// potential is not that of V.
 class Simulation {
  public:
   explicit Simulation(const Problem& problem, const SimulationOptions& options = {});

@@ -7,8 +7,8 @@
 
 namespace seiche {
 
-// What to say before a run by steps of one size h whose exponentials take time in proportion to h times the fastest rate, where that is
-// large; else "".
+// What to say before a run by steps of one size h whose exponentials take time in proportion to h times the fastest
+// rate, where that is large; else "".
 std::string work_of_exponentials(const Simulation& simulation, const SparseOptions& options, double h, double t_end);
 
 }  // namespace seiche

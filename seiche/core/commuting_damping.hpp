@@ -5,8 +5,8 @@
 
 namespace seiche {
 
-// P projects on fields: it commutes with the constant part unless that couples a field of P with one that is none. Then the
-// flow of D(t) is the product of the flows of its parts, in any order. True where one of them is missing.
+// P projects on fields: it commutes with the constant part unless that couples a field of P with one that is none. Then
+// the flow of D(t) is the product of the flows of its parts, in any order. True where one of them is missing.
 bool rate_commutes(const Problem& problem);
 
 }  // namespace seiche

@@ -15,8 +15,8 @@ class Damping {
   virtual bool is_zero() const = 0;
   virtual bool touches_potential() const = 0;      // does it move a component that V depends on?
   virtual bool is_linear() const { return true; }  // R = 0
-  // z ← Ψ(t, t+h) z: exp(−∫ₜᵗ⁺ʰ D) z, or with R a symmetric composition of its flow and that one. The length h is passed
-  // instead of the end so that equal steps reuse one matrix.
+  // z ← Ψ(t, t+h) z: exp(−∫ₜᵗ⁺ʰ D) z, or with R a symmetric composition of its flow and that one. The length h is
+  // passed instead of the end so that equal steps reuse one matrix.
   virtual void flow(double t, double h, Vector& z) const = 0;
   virtual void apply(double t, const Vector& z, Vector& out) const = 0;  // D(t)z + R(t, z)
   // γ(t) where D(t)z + R(t, z) = γ(t)z for every z, and nothing where damping is no multiple of the state.
@@ -25,8 +25,8 @@ class Damping {
   virtual bool is_frozen() const = 0;
   virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀)z + R(t, z)
   virtual void apply_frozen(const Vector& z, Vector& out) const = 0;          // D₀z
-  // out += (∫ₜᵗ⁺ʰ D(s) ds − h Σ wᵢD(t + cᵢh)) z: what a quadrature with these nodes and weights does not see of the linear part,
-  // and what its integral does not see of jumps at the ends (BlindEnds).
+  // out += (∫ₜᵗ⁺ʰ D(s) ds − h Σ wᵢD(t + cᵢh)) z: what a quadrature with these nodes and weights does not see of the
+  // linear part, and what its integral does not see of jumps at the ends (BlindEnds).
   virtual void add_unseen(double /*t*/, double /*h*/, std::span<const double> /*c*/, std::span<const double> /*w*/,
                           const Vector& /*z*/, Vector& /*out*/) const {}
   virtual std::int64_t corrections() const { return 0; }  // Friction::corrections

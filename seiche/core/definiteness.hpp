@@ -16,8 +16,8 @@ struct NegativeDirection {
   Index largest;  // where |x_i| is largest
 };
 
-// Nothing where A ⪰ 0 up to matrix_round_off ‖A‖: the signs of the pivots of LDLᵀ decide (Sylvester), and a direction found is
-// checked. A: symmetric. Throws Error where A cannot be factorised.
+// Nothing where A ⪰ 0 up to matrix_round_off ‖A‖: the signs of the pivots of LDLᵀ decide (Sylvester), and a direction
+// found is checked. A: symmetric. Throws Error where A cannot be factorised.
 std::optional<NegativeDirection> negative_direction(const SparseMatrix& A);
 
 // ½(A + Aᵀ)

@@ -20,12 +20,12 @@ struct EigenPairs {
   bool has_basis() const { return dual.allFinite(); }
 };
 
-// A: square; `noise` ≥ 0 of the same shape. Throws Error where the iteration does not converge. A matrix without imaginary
-// parts is treated as real: its eigenvalues come as exact conjugate pairs, side by side.
+// A: square; `noise` ≥ 0 of the same shape. Throws Error where the iteration does not converge. A matrix without
+// imaginary parts is treated as real: its eigenvalues come as exact conjugate pairs, side by side.
 EigenPairs eigenpairs(const Eigen::MatrixXcd& A, const Eigen::MatrixXd& noise);
 
-// partner[i]: the pair of `b` that belongs to pair i of `a`, each taken once. Its vector has much of vector i, and its value is
-// near expected[i]; the product of the two decides, best pairs first. All of one size.
+// partner[i]: the pair of `b` that belongs to pair i of `a`, each taken once. Its vector has much of vector i, and its
+// value is near expected[i]; the product of the two decides, best pairs first. All of one size.
 std::vector<Index> partners(const EigenPairs& a, const EigenPairs& b, const Eigen::VectorXcd& expected);
 
 }  // namespace seiche

@@ -20,8 +20,8 @@ class Error : public std::runtime_error {
       : std::runtime_error(fmt::format(format, std::forward<Args>(args)...)) {}
 };
 
-// The name closest to `wanted` by edit distance (transpositions count one), or "" if none is near. To a name of one or two
-// letters only one of the same letters is near: Q to q, xu to ux, hh to h.
+// The name closest to `wanted` by edit distance (transpositions count one), or "" if none is near. To a name of one or
+// two letters only one of the same letters is near: Q to q, xu to ux, hh to h.
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names);
 
 // "unknown method 'seisv'; did you mean 'seisav'? Allowed: avf, sav, …"

@@ -30,8 +30,8 @@ class ExpressionGraph {
   int variables() const { return variables_; }
   std::size_t output(std::size_t program) const { return outputs_[program]; }  // the node of its value
 
-  // Values of all nodes at up to `block` points, block numbers for each. The caller has put in the numbers of the variables;
-  // set_numbers, once, those that stay.
+  // Values of all nodes at up to `block` points, block numbers for each. The caller has put in the numbers of the
+  // variables; set_numbers, once, those that stay.
   std::size_t table_size() const { return nodes_.size() * block; }
   void set_numbers(double* table) const;
   void evaluate(double* table, std::size_t points) const;        // of all programs
@@ -50,18 +50,19 @@ class ExpressionGraph {
   std::size_t first_end_ = 0;  // behind the nodes of the first program
 };
 
-// At up to `block` points, of the first program: s with Σᵥ sᵥ (bᵥ − aᵥ) = f(b) − f(a), without cancellation. The sum and product
-// rules with means in place of values, and mean slopes of functions: ∇f where a = b, symmetric in a and b, and therefore the mean
-// gradient to second order; of one variable it is the mean slope. `a` and `b` are tables as after evaluate. Slopes are taken in
-// the first `directions` variables; slopes holds directions × block numbers for every node.
+// At up to `block` points, of the first program: s with Σᵥ sᵥ (bᵥ − aᵥ) = f(b) − f(a), without cancellation. The sum
+// and product rules with means in place of values, and mean slopes of functions: ∇f where a = b, symmetric in a and b,
+// and therefore the mean gradient to second order; of one variable it is the mean slope. `a` and `b` are tables as
+// after evaluate. Slopes are taken in the first `directions` variables; slopes holds directions × block numbers for
+// every node.
 void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b, int directions, std::size_t points,
                  double* slopes);
 
 // Sizes of the values of a table as after evaluate: |f| with the sizes of the terms of sums.
 void term_sizes(const ExpressionGraph& graph, const double* table, std::size_t points, double* sizes);
 
-// Coefficients of x ↦ f(p + xq) for the first program, a polynomial in the variables where q ≠ 0 of at most `degree`, added to
-// `coefficients`.
+// Coefficients of x ↦ f(p + xq) for the first program, a polynomial in the variables where q ≠ 0 of at most `degree`,
+// added to `coefficients`.
 inline std::size_t taylor_scratch_size(const ExpressionGraph& graph, int degree) {
   return (graph.nodes().size() + 1) * static_cast<std::size_t>(degree + 1);
 }

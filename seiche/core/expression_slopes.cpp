@@ -1,4 +1,5 @@
-// What a graph of operations tells beside its values: mean slopes, sizes of terms, and Taylor coefficients of polynomials.
+// What a graph of operations tells beside its values: mean slopes, sizes of terms, and Taylor coefficients of
+// polynomials.
 #include <seiche/core/expression_graph.hpp>
 
 #include <algorithm>

@@ -18,8 +18,9 @@ double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 double sinhc(double x) { return std::abs(x) < 1e-4 ? 1 + x * x / 6 : std::sinh(x) / x; }
 
-// Where no addition theorem helps: the difference where b − a is no small part of the distance to the next singularity, and
-// else Gauss' rule with four nodes for the mean of the derivative, whose error is that of the eighth power of this part.
+// Where no addition theorem helps: the difference where b − a is no small part of the distance to the next singularity,
+// and else Gauss' rule with four nodes for the mean of the derivative, whose error is that of the eighth power of this
+// part.
 template <class Value, class Derivative>
 double mean_slope(double a, double b, double distance, const Value& value, const Derivative& derivative) {
   constexpr std::array nodes = {0.33998104358485626480, 0.86113631159405257522};

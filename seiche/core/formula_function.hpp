@@ -11,7 +11,8 @@ struct FormulaFunction {
   int arity;
   double (*one)(double);          // arity 1
   double (*two)(double, double);  // arity 2
-  // (f(b) − f(a)) / (b − a), and f'(a) where a = b, without cancellation; NaN where f is not real between them. Arity 1.
+  // (f(b) − f(a)) / (b − a), and f'(a) where a = b, without cancellation; NaN where f is not real between them. Arity
+  // 1.
   double (*mean_slope)(double a, double b);
   bool differentiable = true;  // but for kinks, as that of abs at 0
 };

@@ -28,10 +28,10 @@ WaveVector along(const WaveVector& direction, double size) {
   return {size * direction[0], size * direction[1], size * direction[2]};
 }
 
-// The limit of f(x) for x → 0, x > 0, where f has a power series in x: Romberg's extrapolation from seven values at x, x/2, …, for
-// every x over many octaves. Where x is large f may look like another function, where it is small differences of nearly equal
-// numbers lose all digits: from small x on, the first is taken at which the last two extrapolations agree, and better ones next
-// to it.
+// The limit of f(x) for x → 0, x > 0, where f has a power series in x: Romberg's extrapolation from seven values at x,
+// x/2, …, for every x over many octaves. Where x is large f may look like another function, where it is small
+// differences of nearly equal numbers lose all digits: from small x on, the first is taken at which the last two
+// extrapolations agree, and better ones next to it.
 constexpr double settled = 1e-9;
 struct Limit {
   double value = 0, uncertainty = std::numeric_limits<double>::infinity();  // the latter relative to f there

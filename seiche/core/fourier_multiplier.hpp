@@ -1,4 +1,5 @@
-// Operators that multiply every mode of a grid by a function of its wave vector: dispersion relations as they are written down.
+// Operators that multiply every mode of a grid by a function of its wave vector: dispersion relations as they are
+// written down.
 #pragma once
 
 #include <seiche/core/grid.hpp>
@@ -24,10 +25,11 @@ enum class Parity {
 
 class FourierMultiplier {
  public:
-  // Where f is not finite at κ = 0 and even, its limit there is taken, which must be the same from every side (axes, diagonals and some
-  // directions between them are looked at). On modes of the
-  // highest wave number that a grid tells apart, ±κ_a are one mode: f is its mean over both. Throws Error with the wave vector
-  // where f is not finite or not of this parity; an axis with ends needs f(…, −κ_a, …) = f(…, κ_a, …), and odd symbols none.
+  // Where f is not finite at κ = 0 and even, its limit there is taken, which must be the same from every side (axes,
+  // diagonals and some directions between them are looked at). On modes of the
+  // highest wave number that a grid tells apart, ±κ_a are one mode: f is its mean over both. Throws Error with the wave
+  // vector where f is not finite or not of this parity; an axis with ends needs f(…, −κ_a, …) = f(…, κ_a, …), and odd
+  // symbols none.
   FourierMultiplier(const Grid& grid, WaveFunction f, Parity parity);
 
   Parity parity() const { return parity_; }

@@ -33,8 +33,8 @@ struct Grid {
   // Points that lie on no grid: the one axis only numbers them. They are at `nodes`, or nowhere if there are none.
   bool only_numbers = false;
   std::vector<Place> nodes = {};
-  // What stands between nodes, for pictures: both ends of every bar, as numbers of `nodes` and behind them of `supports`, which
-  // do not move.
+  // What stands between nodes, for pictures: both ends of every bar, as numbers of `nodes` and behind them of
+  // `supports`, which do not move.
   std::vector<Place> supports = {};
   std::vector<std::array<Index, 2>> bars = {};
 

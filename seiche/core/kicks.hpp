@@ -7,8 +7,8 @@
 
 namespace seiche {
 
-// Kicks and drifts of q̇ = p, ṗ = −F(q) − γp with F(q) = Kq + ∇V(q) and z = (q, p), where a backend has a way to make them in fewer
-// passes over memory than products with its matrices would need.
+// Kicks and drifts of q̇ = p, ṗ = −F(q) − γp with F(q) = Kq + ∇V(q) and z = (q, p), where a backend has a way to make
+// them in fewer passes over memory than products with its matrices would need.
 class Kicks {
  public:
   virtual ~Kicks() = default;

@@ -10,8 +10,8 @@
 
 namespace seiche {
 
-// Pointers to the first row of panels with one row per value; `gradient` must not overlap `u`. Each lane has a potential
-// of its own, or all have the same.
+// Pointers to the first row of panels with one row per value; `gradient` must not overlap `u`. Each lane has a
+// potential of its own, or all have the same.
 class LanePotential {
  public:
   virtual ~LanePotential() = default;

@@ -1,4 +1,5 @@
-// Eight numbers that are computed together: one AVX-512 register, two of AVX2, four of SSE2. Plain C++ of GCC and Clang.
+// Eight numbers that are computed together: one AVX-512 register, two of AVX2, four of SSE2. Plain C++ of GCC and
+// Clang.
 #pragma once
 
 #include <cstring>

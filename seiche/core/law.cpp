@@ -87,8 +87,8 @@ struct TimeSpan {
   double begin, length;
 };
 
-// A short part of a span in which a rate is infinite. `exists`: of its integral over a span; where it does so on all parts of
-// one, that was merely too long for the quadrature.
+// A short part of a span in which a rate is infinite. `exists`: of its integral over a span; where it does so on all
+// parts of one, that was merely too long for the quadrature.
 template <class Exists>
 std::optional<TimeSpan> around_pole(const Exists& exists, TimeSpan span) {
   constexpr int halvings = 10;

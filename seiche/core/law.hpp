@@ -16,8 +16,8 @@ LawPromise promise_energy_law(const Problem& problem, double t_end);
 // The same from what was seen before: the one place where findings become a promise.
 LawPromise promise_energy_law(const Problem& problem, double t_end, const OperatorFindings& findings);
 
-// Throws Error where a rate is infinite at some time of [t_start, t_end], which is named: damping has no flow across it, and
-// stages that straddle that time see nothing of it.
+// Throws Error where a rate is infinite at some time of [t_start, t_end], which is named: damping has no flow across
+// it, and stages that straddle that time see nothing of it.
 void require_finite_rates(const Problem& problem, double t_start, double t_end);
 
 // Why the promise is withdrawn after the run, or "": γ ≥ 0 was sampled before it, and the run itself looks closer.

@@ -22,8 +22,8 @@ std::optional<double> multiple_of_identity(const SparseMatrix& D, Index first, I
   return diagonal[0];
 }
 
-// Of the fields that V depends on, the first that damping moves, where those before it rest and all from there on are damped by one
-// rate for all points, and by nothing else. Counted from the first field of V.
+// Of the fields that V depends on, the first that damping moves, where those before it rest and all from there on are
+// damped by one rate for all points, and by nothing else. Counted from the first field of V.
 std::optional<Index> shrinks_together_from(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
   if (damping.field_rate) return std::nullopt;

@@ -7,8 +7,8 @@
 
 namespace seiche {
 
-// z = (q, p) with q̇ = ∂H/∂p = v = wp and ṗ = −∂H/∂q: the second half of the fields, with w times the identity for their block
-// of M and S = [[0, I], [−I, 0]].
+// z = (q, p) with q̇ = ∂H/∂p = v = wp and ṗ = −∂H/∂q: the second half of the fields, with w times the identity for
+// their block of M and S = [[0, I], [−I, 0]].
 struct Momenta {
   Index first = 0;            // field of p
   Index count = 0;            // fields of p, and of q

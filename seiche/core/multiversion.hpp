@@ -1,8 +1,8 @@
 #pragma once
 
-// SEICHE_MULTIVERSION before a function compiles it once for each of three instruction sets (AVX-512, AVX2 with FMA, the
-// baseline) and chooses when the program starts: what is installed runs on every machine of the architecture, and hot
-// loops still use the widest vectors. Templates and lambdas called inside must be inlined into it to profit.
+// SEICHE_MULTIVERSION before a function compiles it once for each of three instruction sets (AVX-512, AVX2 with FMA,
+// the baseline) and chooses when the program starts: what is installed runs on every machine of the architecture, and
+// hot loops still use the widest vectors. Templates and lambdas called inside must be inlined into it to profit.
 
 #include <cstddef>  // defines __GLIBC__ where there is one
 

@@ -36,7 +36,8 @@ class Scan {
     if (fields_ == 1) {
       values_.push_back(a(0, 0).real());
     } else if (fields_ == 2) {
-      // mean ∓ √(half difference² + |off|²); the smaller in size from the determinant, which loses nothing where it vanishes
+      // mean ∓ √(half difference² + |off|²); the smaller in size from the determinant, which loses nothing where it
+      // vanishes
       const double p = a(0, 0).real(), q = a(1, 1).real();
       const double off = std::norm(0.5 * (a(0, 1) + std::conj(a(1, 0))));
       const double mean = 0.5 * (p + q);
@@ -76,7 +77,8 @@ class Scan {
   AnyBlock block_;
 };
 
-// Is D = D₀ + γP one constant matrix whose flow is that of its parts, in any order? Then one part may make up for the other.
+// Is D = D₀ + γP one constant matrix whose flow is that of its parts, in any order? Then one part may make up for the
+// other.
 bool is_one_damping(const Problem& problem) {
   const LinearDamping& damping = problem.damping;
   return problem.has_constant_damping() && damping.rate && damping.rate->is_constant() && !damping.field_rate &&

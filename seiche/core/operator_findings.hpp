@@ -1,4 +1,5 @@
-// What the energy laws ask of S, M and D, looked at once: mode by mode on grids, by factorisation where there are matrices.
+// What the energy laws ask of S, M and D, looked at once: mode by mode on grids, by factorisation where there are
+// matrices.
 #pragma once
 
 #include <seiche/core/definiteness.hpp>
@@ -33,12 +34,13 @@ struct OperatorFindings {
   Semidefiniteness M;
   Semidefiniteness minus_S;  // −½(S + Sᵀ)
   bool S_is_skew = false;    // S + Sᵀ = 0 exactly
-  // Of ½(MD + DᵀM), for the constant part of D and for the projector of its rate; nothing where there is no such part. A rate that is
-  // constant and commutes with that part is looked at as a piece of it.
+  // Of ½(MD + DᵀM), for the constant part of D and for the projector of its rate; nothing where there is no such part.
+  // A rate that is constant and commutes with that part is looked at as a piece of it.
   std::optional<Semidefiniteness> MD_constant, MD_rate;
 };
 
-// One pass over the modes of a grid; closed forms for one and two fields. Throws Error where a matrix cannot be factorised.
+// One pass over the modes of a grid; closed forms for one and two fields. Throws Error where a matrix cannot be
+// factorised.
 OperatorFindings look_at_operators(const Problem& problem);
 
 }  // namespace seiche

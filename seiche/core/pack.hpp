@@ -5,9 +5,9 @@
 
 namespace seiche {
 
-// 32 bytes are one register from AVX2 on, and half of one of AVX-512, which loses little: GCC keeps vectors that are wider
-// than a register in memory, so 64 bytes would be far slower wherever AVX-512 is not. Where loops are compiled only once,
-// for the baseline, 16 bytes are what every architecture has.
+// 32 bytes are one register from AVX2 on, and half of one of AVX-512, which loses little: GCC keeps vectors that are
+// wider than a register in memory, so 64 bytes would be far slower wherever AVX-512 is not. Where loops are compiled
+// only once, for the baseline, 16 bytes are what every architecture has.
 #ifdef SEICHE_MULTIVERSION_IS_ON
 inline constexpr int pack_size = 4;
 #else

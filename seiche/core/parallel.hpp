@@ -10,8 +10,8 @@
 namespace seiche {
 
 // Blocks are cut by the caller and never by the number of threads, so that sums taken block by block, in order, do not
-// depend on it. body(block, thread): thread is 0 … threads − 1 among those of this loop, whatever region of the caller's own
-// it stands in.
+// depend on it. body(block, thread): thread is 0 … threads − 1 among those of this loop, whatever region of the
+// caller's own it stands in.
 template <class Body>
 void for_blocks_by_thread(Index blocks, [[maybe_unused]] int threads, const Body& body) {
 #ifdef _OPENMP

@@ -55,8 +55,8 @@ class PhiEvaluator {
   };
 
   virtual ~PhiEvaluator() = default;
-  // Are maps tables, so that to apply one costs no more than a gradient of V or two? Where each is a Krylov space, methods must
-  // ask for as few as they can.
+  // Are maps tables, so that to apply one costs no more than a gradient of V or two? Where each is a Krylov space,
+  // methods must ask for as few as they can.
   virtual bool has_tables() const { return false; }
   virtual std::unique_ptr<PhiMap> map(const PhiRows& rows, double h) const = 0;
   // Forms of the same forces and order. Only where the dissipation is quadratic.

@@ -54,17 +54,17 @@ class PointwisePotential {
   virtual int homogeneity() const { return 0; }
   // True if u·∇V(u) ≥ 0 for every u by the form of V: then damping that acts on u cannot raise V.
   virtual bool grows_outward() const = 0;
-  // The same of the fields from this one on, whatever those before it are: Σ_{i ≥ first} uᵢ·∂V/∂uᵢ ≥ 0. A kinetic energy
-  // ½pᵀA(q)p does so with A ⪰ 0.
+  // The same of the fields from this one on, whatever those before it are: Σ_{i ≥ first} uᵢ·∂V/∂uᵢ ≥ 0. A kinetic
+  // energy ½pᵀA(q)p does so with A ⪰ 0.
   virtual bool grows_outward_from(Index first) const { return first == 0 && grows_outward(); }
-  // `members`, of which this is one, side by side in the lanes of panels with `rows` values each; one after the other where
-  // that is not written for the potential.
+  // `members`, of which this is one, side by side in the lanes of panels with `rows` values each; one after the other
+  // where that is not written for the potential.
   virtual std::unique_ptr<LanePotential> for_lanes(std::span<const std::shared_ptr<const PointwisePotential>> members,
                                                    Index rows) const;
 };
 
-// V in the coordinates of State::z. Gradients are gradients in the inner product of Space. They vanish outside support(),
-// and so does every vector that is passed for one: only the components of the support are written.
+// V in the coordinates of State::z. Gradients are gradients in the inner product of Space. They vanish outside
+// support(), and so does every vector that is passed for one: only the components of the support are written.
 class Potential {
  public:
   struct Support {  // the components of z that V depends on

@@ -1,5 +1,5 @@
-// An equation ż = S(z)∇H(z) − D(t)z − R(t, z) + f(t), stated by stencils on a grid or by sparse matrices, a potential and
-// z₀; it knows no backend.
+// An equation ż = S(z)∇H(z) − D(t)z − R(t, z) + f(t), stated by stencils on a grid or by sparse matrices, a potential
+// and z₀; it knows no backend.
 #pragma once
 
 #include <seiche/core/friction.hpp>
@@ -34,8 +34,8 @@ struct Problem {
   std::vector<FieldRatePointer> forces = {};  // f(x, t) of every field, null for none; empty: none at all
   StructurePointer structure = nullptr;       // S(z) − S; null: the structure matrix is S
   Stencil derivative = {};                    // ∂, where `structure` asks for it
-  // Where coefficients change from point to point: S, M and the constant part of D as matrices. S, M and damping.constant
-  // above are then zero blocks, and `grid` only counts and places the points.
+  // Where coefficients change from point to point: S, M and the constant part of D as matrices. S, M and
+  // damping.constant above are then zero blocks, and `grid` only counts and places the points.
   std::shared_ptr<const SparseOperators> matrices;
   std::shared_ptr<const PointwisePotential> potential;
   Index potential_field = 0;       // the first of the potential->fields() consecutive fields that V depends on
@@ -52,13 +52,13 @@ struct Problem {
   bool damping_moves_potential() const;   // does V?
 };
 
-// P of LinearDamping, ones on the diagonal in the rows of `rate_fields`: as a matrix of all unknowns, and as the block of
-// every mode.
+// P of LinearDamping, ones on the diagonal in the rows of `rate_fields`: as a matrix of all unknowns, and as the block
+// of every mode.
 SparseMatrix rate_matrix(const Problem& problem);
 Eigen::MatrixXcd rate_symbol(const Problem& problem);
 
-// D₀, the constant damping that stands in for D(t) in the exponentials of L = SM − D₀: the constant part, γ(0) and the mean
-// of γ(x, 0). What D(t) has beyond it, if anything, acts as a force.
+// D₀, the constant damping that stands in for D(t) in the exponentials of L = SM − D₀: the constant part, γ(0) and the
+// mean of γ(x, 0). What D(t) has beyond it, if anything, acts as a force.
 double frozen_rate(const Problem& problem);                  // γ(0) + mean γ(x, 0), the factor of P
 BlockStencil frozen_damping(const Problem& problem);         // D₀; not for problems stated by matrices
 SparseMatrix frozen_damping_matrix(const Problem& problem);  // D₀; for problems stated by matrices

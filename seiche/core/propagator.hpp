@@ -28,8 +28,8 @@ class Propagator {
   // carried out on the way. No numbers: Λ = I.
   using FieldFactors = std::span<const double>;
 
-  // ẑ, a second-order approximation at the midpoint, from z⁻ and ∇V(z⁻): the components that V depends on, and no others
-  // are written. z_mid may be the gradient.
+  // ẑ, a second-order approximation at the midpoint, from z⁻ and ∇V(z⁻): the components that V depends on, and no
+  // others are written. z_mid may be the gradient.
   virtual void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before = {}) const = 0;
 
   struct Powers {

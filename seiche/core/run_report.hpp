@@ -65,8 +65,8 @@ struct RunReport {
   std::int64_t scalar_iterations = 0;
   std::int64_t fallbacks = 0;  // times a solver left its first choice; most of them cost no accuracy
   ReplacedSteps replaced;
-  // Steps in which h does not resolve the linear flow and the energy interval was widened for it (beyond round-off in E*), and steps
-  // that were taken in parts.
+  // Steps in which h does not resolve the linear flow and the energy interval was widened for it (beyond round-off in
+  // E*), and steps that were taken in parts.
   std::int64_t widened = 0, halved = 0;
   std::int64_t unresolved = 0;
   std::int64_t rejected = 0;        // steps tried and taken back, with variable steps
@@ -75,7 +75,8 @@ struct RunReport {
 
   // Steps that were replaced: how many, why, what that means and what helps; "" where there are none.
   std::string remark_on_replaced() const;
-  // More than one step in ten was replaced, or one by next to nothing: what has come out is no solution of the equation.
+  // More than one step in ten was replaced, or one by next to nothing: what has come out is no solution of the
+  // equation.
   bool lacks_solution() const { return replaced.ruinous || 10 * replaced.count > steps; }
   void judge_replaced();                  // puts that remark into `message`; a run that lacks a solution has failed
   std::string remark_on_widened() const;  // what h does not resolve of the linear flow, which costs no accuracy; or ""

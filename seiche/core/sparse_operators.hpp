@@ -24,8 +24,9 @@ struct SparseOperators {
 
   bool damping_moves(Index begin, Index size) const;  // has D an entry in these rows?
 
-  // Throws Error, with the entries or the direction that show it, where a matrix is not square, has another size than M,
-  // or holds a number that is not finite, and where M is not symmetric or M ⪰ 0 fails. An S that feeds is a problem without a law.
+  // Throws Error, with the entries or the direction that show it, where a matrix is not square, has another size than
+  // M, or holds a number that is not finite, and where M is not symmetric or M ⪰ 0 fails. An S that feeds is a problem
+  // without a law.
   void validate() const;
 };
 

@@ -6,8 +6,8 @@
 
 namespace seiche {
 
-// By power iteration, from below. `apply` replaces a state by its image; by two of them at a time, since the eigenvalues of SM − D come
-// in pairs ±iω.
+// By power iteration, from below. `apply` replaces a state by its image; by two of them at a time, since the
+// eigenvalues of SM − D come in pairs ±iω.
 double spectral_radius(const Space& space, FunctionRef<void(Vector& z)> apply);
 
 // Of L = SM − D₀: the fastest rate of the linear flow.

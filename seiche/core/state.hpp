@@ -16,7 +16,8 @@ struct State {
   double r_squared = 0.0;
   double shift = 0.0;  // C
   double energy_scale = 0.0;
-  // Methods that keep the law by projection, and multiplier closures where nothing changes H: what H(z) is to be, which it is to round-off.
+  // Methods that keep the law by projection, and multiplier closures where nothing changes H: what H(z) is to be, which
+  // it is to round-off.
   double energy = 0.0;
   double energy_terms = 0.0;  // the sizes of the terms of H(z), to which its round-off is relative
   // Collocation: the forces at the nodes of the last step, whose length was history_h; none after a start or restart.

@@ -49,7 +49,8 @@ struct Reflected {
   double sign;
 };
 
-// Which unknown stands for point i of the continued field, and with which sign; sign 0: an end where the field vanishes.
+// Which unknown stands for point i of the continued field, and with which sign; sign 0: an end where the field
+// vanishes.
 Reflected locate(Index i, const GridAxis& axis) {
   const Index n = axis.intervals;
   const auto wrap = [](Index j, Index period) { return ((j % period) + period) % period; };

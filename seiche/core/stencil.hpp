@@ -18,8 +18,9 @@ namespace seiche {
 // How derivatives are taken: central differences of order two or four, or exactly on the modes of the grid.
 enum class Discretisation { fd2, fd4, spectral };
 
-// A multiple of the identity, plus derivatives of order one to four along the axes, plus functions of the wave vector. Beyond a Dirichlet end a field is
-// continued as an odd function, beyond a Neumann end as an even one; odd derivatives need periodic axes.
+// A multiple of the identity, plus derivatives of order one to four along the axes, plus functions of the wave vector.
+// Beyond a Dirichlet end a field is continued as an odd function, beyond a Neumann end as an even one; odd derivatives
+// need periodic axes.
 class Stencil {
  public:
   Stencil() = default;  // the zero operator

@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// For how many step sizes tables of φ-functions are kept, of states with so many components: sixteen, or as many as take some
-// hundreds of megabytes.
+// For how many step sizes tables of φ-functions are kept, of states with so many components: sixteen, or as many as
+// take some hundreds of megabytes.
 inline std::size_t cached_step_sizes(std::ptrdiff_t size) {
   return static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>((std::ptrdiff_t{1} << 20) / std::max<std::ptrdiff_t>(size, 1), 3, 16));

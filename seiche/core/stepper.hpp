@@ -43,8 +43,8 @@ struct StepReport {
   int scalar_iterations = 0;  // Newton or fixed-point sweeps
   int fallbacks = 0;          // times a solver left its first choice
   int unresolved = 0;         // scalar equations whose root was not found (plain Newton only)
-  // 1 where h does not resolve the linear flow, and the energy interval, widened for that, decided; 1 where the step was taken in
-  // parts, since the whole of it found no solution.
+  // 1 where h does not resolve the linear flow, and the energy interval, widened for that, decided; 1 where the step
+  // was taken in parts, since the whole of it found no solution.
   int widened = 0, halved = 0;
   ReplacedSteps replaced = {};  // itself, where that is so in some part of it
   std::string message = {};     // set on failure: what, with the numbers
@@ -71,11 +71,11 @@ class Stepper {
   virtual StepReport step(State& state, double h) = 0;  // from t to t + h
   virtual EnergyReading energy(const State& state) const = 0;
   virtual bool has_modified_energy() const = 0;
-  // From now on every step fills the ledger of its report, at the price of a few energies; the bits of a solution may change,
-  // since what is fused otherwise is done part by part.
+  // From now on every step fills the ledger of its report, at the price of a few energies; the bits of a solution may
+  // change, since what is fused otherwise is done part by part.
   virtual void keep_ledger() = 0;
-  // From now on a step is taken to be accurate where its error is at most this, in the max norm of physical values and per unit of
-  // time: an auxiliary variable then has to be no worse.
+  // From now on a step is taken to be accurate where its error is at most this, in the max norm of physical values and
+  // per unit of time: an auxiliary variable then has to be no worse.
   virtual void expect(double /*error_rate*/) {}
 };
 
@@ -85,11 +85,11 @@ class AdaptiveStepper : public Stepper {
   virtual int order() const = 0;
   // As `step`, but where a step cannot be taken, or not be trusted, it fails: a shorter one is to be tried.
   virtual StepReport attempt(State& state, double h) = 0;
-  // Of the last attempt that succeeded: an estimate of its local error, in the max norm of physical values. Nothing where
-  // the method needs one more step to know.
+  // Of the last attempt that succeeded: an estimate of its local error, in the max norm of physical values. Nothing
+  // where the method needs one more step to know.
   virtual std::optional<double> error(const State& state) = 0;
-  // Of the same attempt: the part of that error by what D(t) and f(t) do between the times at which the method looks at them, known
-  // without one more step. 0 for methods that take their integrals.
+  // Of the same attempt: the part of that error by what D(t) and f(t) do between the times at which the method looks at
+  // them, known without one more step. 0 for methods that take their integrals.
   virtual double unseen(const State& /*state*/) { return 0; }
   virtual void undo(State& state) = 0;                                    // takes that attempt back, once
   virtual void interpolate(const State& state, double t, Vector& z) = 0;  // the solution at a time inside it

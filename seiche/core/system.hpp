@@ -22,8 +22,8 @@ namespace seiche {
 struct EnergyTerms {
   ValueAndMagnitude quadratic, potential;
   double sum() const { return quadratic.value + potential.value; }
-  // 50ε times the sizes of the terms of H, and the least normal number, below which there are no relative errors: no energy
-  // computed in double precision means more than this.
+  // 50ε times the sizes of the terms of H, and the least normal number, below which there are no relative errors: no
+  // energy computed in double precision means more than this.
   double round_off() const {
     return 50 * epsilon * (2 * quadratic.magnitude + potential.magnitude) + std::numeric_limits<double>::min();
   }
@@ -45,7 +45,8 @@ struct System {
   double energy(const Vector& z) const { return linear->quadratic_energy(z) + potential->value(z); }
   EnergyTerms energy_terms(const Vector& z) const;
   void gradient(const Vector& z, Vector& out) const;  // ∇H
-  // −dH/dt = ∇Hᵀ(Dz + R) − ∇HᵀS∇H − ∇Hᵀf, from ∇V(z), which may be left zero where neither damping nor sym(S) nor f sees it.
+  // −dH/dt = ∇Hᵀ(Dz + R) − ∇HᵀS∇H − ∇Hᵀf, from ∇V(z), which may be left zero where neither damping nor sym(S) nor f
+  // sees it.
   struct Dissipation {
     double rate = 0.0;
     double work = 0.0;       // ∇Hᵀf, which `rate` holds with a minus

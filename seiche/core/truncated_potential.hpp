@@ -10,8 +10,8 @@
 
 namespace seiche {
 
-// |k| < N/3 along every axis: products of two such modes then fold back onto none of them, and a quadratic force is free of
-// aliases; a cubic one is rid of most.
+// |k| < N/3 along every axis: products of two such modes then fold back onto none of them, and a quadratic force is
+// free of aliases; a cubic one is rid of most.
 bool is_kept(const Mode& mode);
 
 // As the gradient of V∘P, the force P∇V(Pu) obeys every energy law that ∇V does. Physical values, N multiplications per

@@ -6,8 +6,8 @@
 
 namespace seiche {
 
-// A formula of the variables t, x, y, z, of which it may use t and the first `axes` coordinates (1 to 3), and t only if it
-// is not `constant_in_time`. Where it has a pole its values are not finite; the caller checks.
+// A formula of the variables t, x, y, z, of which it may use t and the first `axes` coordinates (1 to 3), and t only if
+// it is not `constant_in_time`. Where it has a pole its values are not finite; the caller checks.
 SpaceRatePointer formula_space_rate(FormulaPointer formula, Index axes, bool constant_in_time);
 
 // γ(t) at every point.

@@ -29,7 +29,8 @@ std::vector<double> sizes_to_try(bool matters, int per_decade) {
   return sizes;
 }
 
-// An x where f is not ≥ 0: 0, which says most to a reader, one of the rising `places`, or between two of them where f dips; nothing where none is found.
+// An x where f is not ≥ 0: 0, which says most to a reader, one of the rising `places`, or between two of them where f
+// dips; nothing where none is found.
 template <class F>
 std::optional<double> find_negative(const std::vector<double>& places, const F& f) {
   constexpr int bits = 24;
@@ -174,8 +175,8 @@ class VelocityFriction final : public FormulaFriction {
  private:
   double rate(double t, double u, double v, const Place& place) const override { return formula(t, u, v, place); }
 
-  // The root m of g(m) = m − v + s r(m): between 0 and v where r opposes v. Elsewhere it is looked for on the side of v to which
-  // g falls in size, within |g(v)| where r rises.
+  // The root m of g(m) = m − v + s r(m): between 0 and v where r opposes v. Elsewhere it is looked for on the side of v
+  // to which g falls in size, within |g(v)| where r rises.
   template <class R>
   static double midpoint(double v, double s, const R& r) {
     const auto g = [&](double m) { return (m - v) + s * r(m); };

@@ -16,8 +16,8 @@ FrictionPointer dry_friction(double c);                       // c sgn(v), with 
 // c|v|v with |v| the Euclidean length of the velocity at a point, over so many components.
 FrictionPointer isotropic_friction(double c, std::size_t components);
 
-// A law given by functions: R, and its flow as in Friction::flow. Neither looks at coordinates unless it is said so. Where the
-// flow raises Σv² it is scaled back to what it was, and counted.
+// A law given by functions: R, and its flow as in Friction::flow. Neither looks at coordinates unless it is said so.
+// Where the flow raises Σv² it is scaled back to what it was, and counted.
 struct OwnFriction {
   std::function<void(double t, std::span<const double> q, std::span<const double> v, std::span<double> r)> force;
   std::function<void(double t, double h, double w, std::span<const double> q, std::span<double> v)> flow;

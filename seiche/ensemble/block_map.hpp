@@ -23,7 +23,8 @@ class BlockMap {
   // Pointers to the first row of panels; `out` must not overlap `in`.
   void apply(const double* in, double* out) const;                       // out = A in
   void add_to(const double* base, const double* in, double* out) const;  // out = base + A in; base may be in
-  // out = factor (base + A in) with a factor for every row and lane; `lost` is NaN in lanes where that is no finite number.
+  // out = factor (base + A in) with a factor for every row and lane; `lost` is NaN in lanes where that is no finite
+  // number.
   void finish(const double* base, const double* in, const double* const* factors, double* out, LaneValues& lost) const;
   void dot(const double* left, const double* in, LaneValues& sum) const;  // leftᵀ A in, for each lane
 

@@ -142,7 +142,8 @@ class Run {
     if (took.count() > 2 * seconds) batch_steps_ = std::max<std::int64_t>(1, batch_steps_ / 2);
   }
 
-  // The steps of the next batch at which energies are recorded, after step `last` (−1: from the start); the batch begins at n.
+  // The steps of the next batch at which energies are recorded, after step `last` (−1: from the start); the batch
+  // begins at n.
   Records next_records(std::int64_t last, std::int64_t n) const {
     constexpr Index most_values = 1 << 16;  // in memory at once
     const auto most = static_cast<std::size_t>(std::max<Index>(1, most_values / count()));

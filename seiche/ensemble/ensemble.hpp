@@ -48,9 +48,9 @@ struct EnsembleResult {
   double wall_seconds = 0.0;
 };
 
-// Every member runs as it would alone, from t = 0 to t_end, by fixed steps of which the last is shortened; one that fails
-// stops with its message, and the others go on. Throws Error where no member can start, with the reason of the first, where
-// members differ in their number of unknowns, and where it is stopped before they are set up.
+// Every member runs as it would alone, from t = 0 to t_end, by fixed steps of which the last is shortened; one that
+// fails stops with its message, and the others go on. Throws Error where no member can start, with the reason of the
+// first, where members differ in their number of unknowns, and where it is stopped before they are set up.
 EnsembleResult run_ensemble(std::span<const EnsembleMember> members, const EnsembleOptions& options);
 
 }  // namespace seiche

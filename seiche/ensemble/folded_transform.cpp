@@ -93,8 +93,8 @@ Index partner(const Pairs& pairs, Index row) {
   return -1;
 }
 
-// Turns round the pairs of differences of the second fold that do not follow those of their sums: which of two rows holds
-// their sum is free, and rows that are folded alike can be folded together.
+// Turns round the pairs of differences of the second fold that do not follow those of their sums: which of two rows
+// holds their sum is free, and rows that are folded alike can be folded together.
 void align(const Pairs& one, Pairs& two) {
   for (const auto& [a, c] : Pairs(two)) {
     const auto crossed = std::find(two.begin(), two.end(), std::pair(partner(one, c), partner(one, a)));

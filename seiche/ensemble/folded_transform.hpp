@@ -22,8 +22,8 @@ class FoldedTransform {
   void inverse(const double* coordinates, double* values) const;  // by the transposed
 
  private:
-  // (a, b) become (a + b, a − b), for rows that mirror each other; offsets into panels. Two folds one after the other, and
-  // what of them goes in one pass over four rows.
+  // (a, b) become (a + b, a − b), for rows that mirror each other; offsets into panels. Two folds one after the other,
+  // and what of them goes in one pass over four rows.
   struct TwoFolds {
     TwoFolds(std::vector<std::pair<Index, Index>> one, std::vector<std::pair<Index, Index>> two);
     std::vector<std::array<std::size_t, 2>> first, second;

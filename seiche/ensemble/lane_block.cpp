@@ -12,7 +12,8 @@ bool may_take_lanes(const Problem& problem, const MethodEntry& method) {
          problem.grid.unknowns() <= most_lane_points;
 }
 
-// Lanczos iteration is no fixed matrix that could be read off: what it makes of z depends on z, and on the force beside it.
+// Lanczos iteration is no fixed matrix that could be read off: what it makes of z depends on z, and on the force beside
+// it.
 bool may_iterate(const SimulationOptions& options) {
   return options.backend_options.sparse.exponential == ExponentialKind::lanczos &&
          (options.backend == "sparse" || options.backend == "auto") &&

@@ -9,9 +9,9 @@
 
 namespace seiche {
 
-// Steps that a lane cannot take (V(ẑ) + C ≤ 0, a fixed point that does not contract, a number that is none) are handed to
-// the ordinary stepper of that member, which finds the way or says why there is none. Where a member has no propagator for
-// the step, the ordinary steppers take over the whole block.
+// Steps that a lane cannot take (V(ẑ) + C ≤ 0, a fixed point that does not contract, a number that is none) are handed
+// to the ordinary stepper of that member, which finds the way or says why there is none. Where a member has no
+// propagator for the step, the ordinary steppers take over the whole block.
 class LaneBlock final : public MemberBlock {
  private:
   friend std::unique_ptr<MemberBlock> make_block(std::span<const EnsembleMember>, const SimulationOptions&);

@@ -16,8 +16,8 @@ struct Force {
   LaneValues factor{}, rise{}, trouble{};  // of Fĝ; of C and r²; ≠ 0 where V(ẑ) + C ≤ 0 or is no number
 };
 
-// r̄ = (r + ¼gᵀFMz) / (1 − ¼gᵀFg) with the guard that lifts C and r² where V + C or r² has become small, as in method/sav.cpp.
-// Without branches, so that lanes are computed together.
+// r̄ = (r + ¼gᵀFMz) / (1 − ¼gᵀFg) with the guard that lifts C and r² where V + C or r² has become small, as in
+// method/sav.cpp. Without branches, so that lanes are computed together.
 SEICHE_MULTIVERSION void take_force(const Powers& __restrict powers, bool guarded, LaneState& __restrict next,
                                     Force& __restrict force) {
   const double allowed = guarded ? 1.0 : 0.0;

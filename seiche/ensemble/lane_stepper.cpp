@@ -74,8 +74,8 @@ RowFactors LaneStepper::factors(Decay& decay, double t, double h) {
   return decay.of_row.data();
 }
 
-// Where a half-flow is nothing but a factor for every field, it is made on the way: the first with the copy that keeps the
-// state before the step, the second with the sum that makes the new one.
+// Where a half-flow is nothing but a factor for every field, it is made on the way: the first with the copy that keeps
+// the state before the step, the second with the sum that makes the new one.
 void LaneStepper::step(double t, double h, LaneReport& report) {
   report = LaneReport{};
   step_size_ = h;

@@ -45,8 +45,8 @@ class LaneStepper {
   void energy(std::array<EnergyReading, lanes>& readings);
 
  protected:
-  // next = Λ(Hamiltonian substep of s), with Λ a factor for every row: a half-flow on the way. Lanes with numbers that are not
-  // finite are in trouble.
+  // next = Λ(Hamiltonian substep of s), with Λ a factor for every row: a half-flow on the way. Lanes with numbers that
+  // are not finite are in trouble.
   virtual void advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) = 0;
   // A half-flow with what the closure carries beside z; where `damps_z_only`, that is nothing.
   virtual void damp(LaneState& s, double t, double h) { flow(s, t, h); }

@@ -94,7 +94,8 @@ LaneSystem::LaneSystem(LaneSimulations members, PropagatorKind kind)
     members_.resize(1);
 }
 
-// The orthonormal matrix by which the backend takes each field to coordinates, the same for all; without its rows of zeros.
+// The orthonormal matrix by which the backend takes each field to coordinates, the same for all; without its rows of
+// zeros.
 bool LaneSystem::find_transform() {
   const Problem& problem = lanes_.front()->problem();
   const Space& space = *lanes_.front()->system().space;

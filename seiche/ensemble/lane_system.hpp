@@ -35,8 +35,8 @@ struct LaneStep {
   LaneQuadratic force;  // g → gᵀFg
   BlockMap step;        // (z, g) → FMz + Fg
   BlockMap all_forces;  // g → Fg
-  // The constant part of a half-flow, e^{−hD/2}; e^{−hD/4}, to be applied twice, where the rates do not commute with it. No
-  // rows if there is none.
+  // The constant part of a half-flow, e^{−hD/2}; e^{−hD/4}, to be applied twice, where the rates do not commute with
+  // it. No rows if there is none.
   BlockMap flow;
 };
 

@@ -41,8 +41,8 @@ class MemberBlock {
   // As it is integrated; null for a member whose problem never started.
   const Simulation* simulation(Index member) const { return simulations_[static_cast<std::size_t>(member)]; }
 
-  // Step number n of all that run, from t to t + h, which the time grid calls t_after. A member that fails stays where it
-  // was, and the others go on.
+  // Step number n of all that run, from t to t + h, which the time grid calls t_after. A member that fails stays where
+  // it was, and the others go on.
   void step(std::int64_t n, double t, double h, double t_after);
   // How far a member has come.
   std::int64_t steps(Index member) const { return status(member).running ? steps_ : status(member).steps; }

@@ -80,7 +80,8 @@ void require_memory(const RunSpec& spec) {
 }  // namespace
 
 double ensemble_bytes(const RunSpec& spec) {
-  // Measured with seisav on grids of 20 to 120 points: what does not grow with the unknowns, and doubles for each of them.
+  // Measured with seisav on grids of 20 to 120 points: what does not grow with the unknowns, and doubles for each of
+  // them.
   constexpr double of_member = 1700, of_simulation = 13'000;
   constexpr double doubles_of_member = 17, doubles_beside_run = 12;  // states and panels; the problem and its matrices
   const Problem problem = make_problem(spec);

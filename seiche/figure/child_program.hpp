@@ -1,4 +1,5 @@
-// Another program, run as a child process: its input from a text, what it prints kept for the error. Never through a shell.
+// Another program, run as a child process: its input from a text, what it prints kept for the error. Never through a
+// shell.
 #pragma once
 
 #include <sys/types.h>

@@ -8,8 +8,8 @@
 
 namespace seiche {
 
-// Indices of series that lie within a line's width of each other, all with all, but for a tenth of their points at most;
-// only groups of two or more.
+// Indices of series that lie within a line's width of each other, all with all, but for a tenth of their points at
+// most; only groups of two or more.
 std::vector<std::vector<std::size_t>> coinciding_series(const Plot& plot);
 
 // "All or nearly all the way these coincide within the width of a line: SEAVF and SEILM.", or "".

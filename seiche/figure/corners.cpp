@@ -9,8 +9,8 @@
 namespace seiche {
 namespace {
 
-// The mean angle between one state and the next along a curve, as it is seen, in radians: long pieces count more, so that a
-// state at rest, whose pieces are round-off, has no say.
+// The mean angle between one state and the next along a curve, as it is seen, in radians: long pieces count more, so
+// that a state at rest, whose pieces are round-off, has no say.
 double mean_corner(const Series& curve, const Axis& x, const Axis& y) {
   double sum = 0, weights = 0;
   for (std::size_t i = 1; i + 1 < curve.x.size(); ++i) {

@@ -1,5 +1,5 @@
-// The film of a run in the plane, on light and on dark ground: one PNG per time, and an MP4 or WebM of them where ffmpeg is
-// there.
+// The film of a run in the plane, on light and on dark ground: one PNG per time, and an MP4 or WebM of them where
+// ffmpeg is there.
 #pragma once
 
 #include <seiche/output/solution_reader.hpp>
@@ -12,8 +12,8 @@ namespace seiche {
 struct Film {
   std::string field;       // its name
   std::size_t frames = 0;  // figures/film/u_0001.png and u_0001_dark.png …; none where the solution is not of the plane
-  std::string file,
-      dark_file;  // "figures/film_u.mp4", "figures/film_u_dark.mp4" or .webm, from the folder of the run; "" without ffmpeg
+  // "figures/film_u.mp4", "figures/film_u_dark.mp4" or .webm, from the folder of the run; "" without ffmpeg
+  std::string file, dark_file;
   std::string remark;  // of its scale of colours, or ""
   std::string note;    // why there is no file
 };

@@ -1,5 +1,6 @@
-// Ticks of a linear axis whose numbers would be too long, or all alike: of very large or very small values, and of small
-// differences between large ones. What the numbers leave out stands in the label of the axis: "(u − 1000) / 10⁻⁶".
+// Ticks of a linear axis whose numbers would be too long, or all alike: of very large or very small values, and of
+// small differences between large ones. What the numbers leave out stands in the label of the axis: "(u − 1000) /
+// 10⁻⁶".
 #pragma once
 
 #include <string>

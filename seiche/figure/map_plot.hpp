@@ -30,8 +30,8 @@ struct MapPanel {
 // From `low` to `high`: from both sides of zero where they lie on both, and of one length then.
 ColourScale colour_scale(double low, double high);
 
-// A scale for several pictures: that of all their values, but where a few large ones would leave everything else pale, it
-// ends where it covers 98 per cent of each picture.
+// A scale for several pictures: that of all their values, but where a few large ones would leave everything else pale,
+// it ends where it covers 98 per cent of each picture.
 class CommonScale {
  public:
   void add(std::vector<double> values);
@@ -42,8 +42,9 @@ class CommonScale {
   bool empty_ = true;
 };
 
-// One scale for all panels; but where the largest sizes in the panels differ by more than a factor of four, one for each, so
-// that a wave that has died down is not shown as nothing. Panels that are zero but for round-off take no part in this.
+// One scale for all panels; but where the largest sizes in the panels differ by more than a factor of four, one for
+// each, so that a wave that has died down is not shown as nothing. Panels that are zero but for round-off take no part
+// in this.
 ColourScale choose_scales(std::vector<MapPanel>& panels);
 
 struct MapPlot {

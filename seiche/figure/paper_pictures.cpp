@@ -82,7 +82,8 @@ std::vector<Series> series_of_curves(const std::vector<Curve>& curves) {
   return all;
 }
 
-// Without the series that have no point to show, which would only fill the legend; coinciding ones told apart and named.
+// Without the series that have no point to show, which would only fill the legend; coinciding ones told apart and
+// named.
 CurvePicture finished(std::string caption, Plot plot) {
   std::erase_if(plot.series, [&](const Series& series) {
     for (std::size_t i = 0; i < series.x.size(); ++i) {

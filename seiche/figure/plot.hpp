@@ -48,8 +48,8 @@ struct Plot {
 // Draws <stem>.png and <stem>.pdf in the working directory, or what else is asked for.
 std::string plot_script(Plot plot, const Rendering& rendering = {});
 
-// What pictures of all kinds share: frame, ticks and grid in the colours of the theme; range and ticks of an axis x or y; a title
-// with its warning above the left end of the axes of a picture, and the room that they take; inches.
+// What pictures of all kinds share: frame, ticks and grid in the colours of the theme; range and ticks of an axis x or
+// y; a title with its warning above the left end of the axes of a picture, and the room that they take; inches.
 std::string frame_script(const Theme& theme);
 std::string axis_script(char name, const Axis& axis);
 std::string title_script(const std::string& title, const std::string& warning, double width, double height,

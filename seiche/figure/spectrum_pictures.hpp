@@ -7,7 +7,8 @@
 
 namespace seiche {
 
-// Draws spectrum_decay and spectrum_phase, .png and .pdf each, in `directory`. Throws Error if gnuplot is missing or fails.
+// Draws spectrum_decay and spectrum_phase, .png and .pdf each, in `directory`. Throws Error if gnuplot is missing or
+// fails.
 void draw_spectrum(const Spectrum& spectrum, const std::filesystem::path& directory);
 
 }  // namespace seiche

@@ -56,8 +56,8 @@ bool AvfClosure::sweep_to_fixed_point(const Vector& z, const Propagator& propaga
   return false;
 }
 
-// With f = ḡ(z, z⁺) the energy of z' = Ez + Ff changes by the dissipation of S, and that of z⁺ by the work of ∇H on z⁺ − z'
-// beside it:  (½M(z⁺ + z') + f)ᵀ(z⁺ − z').
+// With f = ḡ(z, z⁺) the energy of z' = Ez + Ff changes by the dissipation of S, and that of z⁺ by the work of ∇H on z⁺
+// − z' beside it:  (½M(z⁺ + z') + f)ᵀ(z⁺ − z').
 double AvfClosure::residual(const Vector& z, const Propagator& propagator) {
   sweep(z, start_.z_plus, propagator, next_);
   q_ = 0.5 * (start_.z_plus + next_);

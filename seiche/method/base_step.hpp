@@ -11,8 +11,8 @@
 
 namespace seiche {
 
-// May ẑ be a solution? `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN; a solution that has
-// faded until its square underflows is one.
+// May ẑ be a solution? `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN; a
+// solution that has faded until its square underflows is one.
 inline bool may_be_solution(const Vector& z, double size) {
   constexpr double gross_growth = 1e3;
   const double grown = squared_norm(z);
@@ -28,8 +28,8 @@ class BaseStep {
   virtual std::string_view failure() const = 0;  // what has happened then; a literal
   virtual std::string_view remedy() const { return "a smaller h"; }
 
-  // Of the step just computed, where a projection is a part of it: how often that found nothing better than bisection, and did
-  // it move anything far?
+  // Of the step just computed, where a projection is a part of it: how often that found nothing better than bisection,
+  // and did it move anything far?
   virtual int fallbacks() const { return 0; }
   virtual bool moved_far() const { return false; }
 

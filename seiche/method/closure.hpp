@@ -30,7 +30,8 @@ class Closure {
   virtual StepReport advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows);
   EnergyReading energy(const State& s) const;
   virtual bool has_modified_energy() const { return false; }
-  // From now on `advance` fills `scalar` of the ledger in its report: what its energy changes beside the dissipation of S.
+  // From now on `advance` fills `scalar` of the ledger in its report: what its energy changes beside the dissipation of
+  // S.
   virtual void keep_ledger() { keeps_ledger_ = true; }
   virtual void expect(double /*error_rate*/) {}  // as Stepper::expect
 

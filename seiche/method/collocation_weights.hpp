@@ -7,8 +7,8 @@
 
 namespace seiche {
 
-// ż = Lz + Σ_k a_k (t/h)ᵏ with a_k = Σ_j C_kj n_j has the solution φ₀(θhL)z + h Σ_k k! θ^{k+1} φ_{k+1}(θhL) a_k at t = θh: the
-// weights k! θ^{k+1} C_kj of PhiRow, for C with a row for each power and a column for each force.
+// ż = Lz + Σ_k a_k (t/h)ᵏ with a_k = Σ_j C_kj n_j has the solution φ₀(θhL)z + h Σ_k k! θ^{k+1} φ_{k+1}(θhL) a_k at t =
+// θh: the weights k! θ^{k+1} C_kj of PhiRow, for C with a row for each power and a column for each force.
 inline std::vector<double> collocation_weights(const Eigen::MatrixXd& C, double theta) {
   std::vector<double> weights;
   for (Eigen::Index j = 0; j < C.cols(); ++j) {

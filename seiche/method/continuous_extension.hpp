@@ -10,12 +10,14 @@
 
 namespace seiche {
 
-// The collocation polynomial of the forces has degree s − 1, and the solution it gives inside the step the order s + 1. The
-// polynomial of degree 2s − 1 through the forces of this step and of the one before has errors of the order of the method,
-// 2s, everywhere; what it gives at the end beyond the collocation step is of the size of the local error, O(h^{2s+1}).
+// The collocation polynomial of the forces has degree s − 1, and the solution it gives inside the step the order s + 1.
+// The polynomial of degree 2s − 1 through the forces of this step and of the one before has errors of the order of the
+// method, 2s, everywhere; what it gives at the end beyond the collocation step is of the size of the local error,
+// O(h^{2s+1}).
 class ContinuousExtension {
  public:
-  // Of a step of length h after one of length history_h; 0: no step before, and inside the step order s + 1 is all there is.
+  // Of a step of length h after one of length history_h; 0: no step before, and inside the step order s + 1 is all
+  // there is.
   struct Step {
     double h = 0.0, history_h = 0.0;
   };
@@ -30,8 +32,8 @@ class ContinuousExtension {
   void prepare(double h) { defect_maps({h, h}); }
   // The difference at the end, in the coordinates of the state; a reference to scratch. history_h must not be 0.
   const Vector& defect(const Step& step, std::span<const Vector> forces_before, std::span<const Vector> forces);
-  // m ← h²∫₀¹ (1 − θ)d(θ) dθ of the difference d of the two polynomials, as a force. With L = 0 the defect above is none, since Gauss's
-  // rule integrates d, which vanishes at its nodes, exactly: what is left of the error is N′m.
+  // m ← h²∫₀¹ (1 − θ)d(θ) dθ of the difference d of the two polynomials, as a force. With L = 0 the defect above is
+  // none, since Gauss's rule integrates d, which vanishes at its nodes, exactly: what is left of the error is N′m.
   void moment(const Step& step, std::span<const Vector> forces_before, std::span<const Vector> forces, Vector& m);
 
  private:

@@ -70,8 +70,8 @@ class OneByOne : public Nystrom {
 
  protected:
   virtual void prepare(double h) = 0;
-  // A solution that has faded: backward flows of its damping overflow in long steps, and kicks are nothing beside it. Then all flows
-  // are one, forward. False where that is not so.
+  // A solution that has faded: backward flows of its damping overflow in long steps, and kicks are nothing beside it.
+  // Then all flows are one, forward. False where that is not so.
   virtual bool flow_alone(const State& /*s*/, double /*h*/, Vector& /*z*/) { return false; }
   // The i-th A-flow of a step; returns what the damping takes from H in it, where it takes any.
   virtual double flow(std::size_t i, Vector& z) = 0;

@@ -79,8 +79,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     const double of_linear_flow = physical_.lpNorm<Eigen::Infinity>();
     const double of_polynomial = std::max({of_linear_flow, of_nonlinear_part(s, of_linear_flow), unseen});
     const double of_forces = std::max(of_polynomial, unsolved(s, of_polynomial));
-    // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is not,
-    // the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
+    // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is
+    // not, the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
     const double displacement = projected_.last().displacement - projected_.last().blur;
     if (displacement <= of_forces) return of_forces;
     system_.space->to_physical(s.z, physical_);
@@ -117,7 +117,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     projected_.undo(s);
   }
 
-  // The extension is moved by θ^p times what it misses at the end, so that the solution is continuous from step to step.
+  // The extension is moved by θ^p times what it misses at the end, so that the solution is continuous from step to
+  // step.
   void interpolate(const State& s, double t, Vector& z) override {
     const auto extended = [&](double theta, Vector& out) {
       extension_.evaluate(last_, theta, projected_.before(), forces_, s.history, out);
@@ -145,8 +146,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   void keep_ledger() override { projected_.keep_ledger(); }
 
  private:
-  // N′m, where m is the first moment of the defect: all there is to the error where L = 0. Two values of N, and only where L has little
-  // part in the error; 0 where a force does not move what it depends on.
+  // N′m, where m is the first moment of the defect: all there is to the error where L = 0. Two values of N, and only
+  // where L has little part in the error; 0 where a force does not move what it depends on.
   double of_nonlinear_part(const State& s, double of_linear_flow) {
     if (!moves_itself_) return 0;
     extension_.moment(last_, forces_, s.history, moment_);
@@ -181,8 +182,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   int stages() const { return static_cast<int>(forces_.size()); }
 
-  // Of the last step: what more sweeps would change, which no polynomial of its forces tells. The last change times the rate at which
-  // sweeps converge, calibrated, or something of at most `enough`.
+  // Of the last step: what more sweeps would change, which no polynomial of its forces tells. The last change times the
+  // rate at which sweeps converge, calibrated, or something of at most `enough`.
   double unsolved(const State& s, double enough) {
     constexpr double calibration = 1.0 / 16;  // the force at the last node changes most
     change_.setZero();
@@ -217,7 +218,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     return output_.kind == PhiRows::Forces::states || dissipation_.kind() == StepDissipation::Kind::general;
   }
 
-  // First guess of the forces: those of the last step, extrapolated; or N(zⁿ) throughout. Returns the largest of their norms.
+  // First guess of the forces: those of the last step, extrapolated; or N(zⁿ) throughout. Returns the largest of their
+  // norms.
   double predict(const State& s, double t, double h) {
     if (s.history_h == 0) {
       forces_[0] = s.z;
@@ -233,8 +235,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     return combine(extrapolation, s.history, of_forces_.begin, of_forces_.size, forces_);
   }
 
-  // The collocation equations F_i = N(Z_i), by sweeps. The force at the last node, which follows from all the others, stands for
-  // what a sweep changes.
+  // The collocation equations F_i = N(Z_i), by sweeps. The force at the last node, which follows from all the others,
+  // stands for what a sweep changes.
   void sweep(const State& s, double t, double h, const PhiMap& nodes) {
     SweepControl control(stages(), s.history_h != 0, may_save_sweeps_);
     double change = 0, change_before = 0;

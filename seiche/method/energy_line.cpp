@@ -3,7 +3,8 @@
 namespace seiche {
 namespace {
 
-// d = z without its linear Casimirs, or where S changes with z without the means that solutions keep; false: there are none.
+// d = z without its linear Casimirs, or where S changes with z without the means that solutions keep; false: there are
+// none.
 bool without_casimirs(const System& system, const PhiEvaluator& phi, const Vector& z, Vector& d) {
   return system.structure ? system.structure->without_means(z, d) : phi.without_casimirs(z, d);
 }

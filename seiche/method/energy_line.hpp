@@ -16,8 +16,8 @@ struct EnergyLineScratch {
   std::vector<double> V;  // coefficients of x ↦ V(xz), where V is a polynomial
 };
 
-// λ ↦ H(z + λd). On the ray d = z it is known in powers of 1 + λ, all of one sign where V has one power only; on other lines
-// it is evaluated at z + λd itself, since the terms of a polynomial in λ may be far larger than H.
+// λ ↦ H(z + λd). On the ray d = z it is known in powers of 1 + λ, all of one sign where V has one power only; on other
+// lines it is evaluated at z + λd itself, since the terms of a polynomial in λ may be far larger than H.
 class EnergyLine {
  public:
   enum class Direction {

@@ -13,8 +13,8 @@ constexpr int max_bisections = 60;
 constexpr double blurred = 1e-13;     // moves relative to z that round-off in H may ask for
 constexpr double least_slope = 0.05;  // relative to its terms: below, H hardly changes along the line
 
-// By how much H may pass the cap: its round-off at a point, but for points whose energies have grown beyond reason. The terms alone may
-// grow by much, where a mean drifts and ½zᵀMz sees none of it.
+// By how much H may pass the cap: its round-off at a point, but for points whose energies have grown beyond reason. The
+// terms alone may grow by much, where a mean drifts and ½zᵀMz sees none of it.
 double slack(const EnergyLine::Parts& parts, const EnergyTarget& aim) {
   const double most = EnergyProjection::gross_growth * aim.terms;
   const bool grown = most > 0 && !(parts.values() <= most);  // at rest nothing has a size yet
@@ -83,7 +83,8 @@ bool EnergyProjection::moved_far(const Outcome& outcome, const Vector& z) const 
   return squared_norm(z) < square(10 * outcome.displacement);
 }
 
-// z from `here` on its line to where H is what it should be; false, with z as it was, if the secant iteration does not find it.
+// z from `here` on its line to where H is what it should be; false, with z as it was, if the secant iteration does not
+// find it.
 bool EnergyProjection::solve(EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z,
                              Outcome& outcome) {
   const auto miss = [&](const EnergyLine::Parts& p) { return std::abs(p.H() - aim.H); };
@@ -107,7 +108,8 @@ bool EnergyProjection::solve(EnergyLine& line, EnergyLine::Parts here, const Ene
   return true;
 }
 
-// z towards the origin of the line, λ = −1, to a point with H ≤ goal; false, with z as it was, if H is above it even there.
+// z towards the origin of the line, λ = −1, to a point with H ≤ goal; false, with z as it was, if H is above it even
+// there.
 bool EnergyProjection::bisect(const EnergyLine& line, double goal, Vector& z, Outcome& outcome) {
   EnergyLine::Parts low = line.at(-1);
   double high = 0;

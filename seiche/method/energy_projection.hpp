@@ -7,8 +7,9 @@
 
 namespace seiche {
 
-// Moves along z(λ) = z + λd with d = z − Πz, where Π projects on the linear Casimirs, which therefore stay: dH/dλ = dᵀ∇H is
-// positive under the energy-compatible damping condition with D = I, so that the equation H(z(λ)) = E is well conditioned.
+// Moves along z(λ) = z + λd with d = z − Πz, where Π projects on the linear Casimirs, which therefore stay: dH/dλ =
+// dᵀ∇H is positive under the energy-compatible damping condition with D = I, so that the equation H(z(λ)) = E is well
+// conditioned.
 class EnergyProjection {
  public:
   // Of the terms of H in one step: by so much no solution grows that the step resolves.
@@ -31,13 +32,14 @@ class EnergyProjection {
     double terms = 0;         // the sizes of the terms of H, of the z that came out
   };
   using Wanted = FunctionRef<EnergyTarget(double computed)>;
-  // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned: then z
-  // stays as it is if target < cap and H(z) ≤ cap, for the cap is the law; and otherwise it moves along ∇H. If no iteration
-  // converges, to a point with H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if H(0) > cap and
-  // H(z) > cap. H ≤ cap is meant up to round-off: of the terms of H at z, or where |½zᵀMz| + |V| has grown by more than `gross_growth`
-  // over target.terms, those before the step, of so many of these.
+  // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned:
+  // then z stays as it is if target < cap and H(z) ≤ cap, for the cap is the law; and otherwise it moves along ∇H. If
+  // no iteration converges, to a point with H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if
+  // H(0) > cap and H(z) > cap. H ≤ cap is meant up to round-off: of the terms of H at z, or where |½zᵀMz| + |V| has
+  // grown by more than `gross_growth` over target.terms, those before the step, of so many of these.
   Outcome project(Vector& z, Wanted wanted);
-  // Was z, which came out of it, moved by more than a tenth of its length? Moves of accurate steps are of the size of their error.
+  // Was z, which came out of it, moved by more than a tenth of its length? Moves of accurate steps are of the size of
+  // their error.
   bool moved_far(const Outcome& outcome, const Vector& z) const;
 
  private:

@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// out[i] ← Σ_j weights(i, j) in[j] in the components begin … begin + size − 1, with a square matrix of weights. Returns the
-// largest of the Euclidean norms ‖out[i]‖ there.
+// out[i] ← Σ_j weights(i, j) in[j] in the components begin … begin + size − 1, with a square matrix of weights. Returns
+// the largest of the Euclidean norms ‖out[i]‖ there.
 double combine(const Eigen::MatrixXd& weights, std::span<const Vector> in, Index begin, Index size,
                std::span<Vector> out);
 

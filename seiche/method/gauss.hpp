@@ -12,10 +12,12 @@ struct GaussRule {
   Eigen::VectorXd weights;
 };
 
-// Gauss's rule of s ≤ 4 nodes inside a finer one, which has both ends, all these nodes and s − 1 more: where the ends are known,
-// as few as a second opinion takes, since with less it is that of Gauss. The more are the zeros of the polynomial e with
+// Gauss's rule of s ≤ 4 nodes inside a finer one, which has both ends, all these nodes and s − 1 more: where the ends
+// are known, as few as a second opinion takes, since with less it is that of Gauss. The more are the zeros of the
+// polynomial e with
 //   ∫₀¹ P_s(θ) θ(θ − 1) e(θ) θᵏ dθ = 0,  k = 0 … s − 2
-// (Kronrod's condition with the ends prescribed), so that the finer rule is exact to degree 3s − 1, or 3s where s is odd.
+// (Kronrod's condition with the ends prescribed), so that the finer rule is exact to degree 3s − 1, or 3s where s is
+// odd.
 struct NestedRules {
   explicit NestedRules(int s);
   GaussRule coarse;

@@ -11,7 +11,8 @@ class LmClosure final : public Closure {
  public:
   LmClosure(const System& system, const MethodOptions& options)
       : Closure(system),
-        // Frozen is the printed scheme: the fallbacks of the robust solver measure V elsewhere and would be another one.
+        // Frozen is the printed scheme: the fallbacks of the robust solver measure V elsewhere and would be another
+        // one.
         solver_(options.auxiliary == AuxiliaryMode::frozen ? ScalarSolver::newton : options.scalar_solver),
         frozen_(options.auxiliary == AuxiliaryMode::frozen && system.damping->touches_potential()),
         start_(system.space->size()),

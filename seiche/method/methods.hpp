@@ -1,5 +1,5 @@
-// The list of methods: closure × propagator × composition, and those that end their steps with a projection. One row is one
-// method.
+// The list of methods: closure × propagator × composition, and those that end their steps with a projection. One row is
+// one method.
 #pragma once
 
 #include <seiche/core/stepper.hpp>

@@ -7,8 +7,8 @@
 
 namespace seiche {
 
-// Asked of the operators themselves: each statement "A maps this part into that one" is tried on one vector without a zero, for
-// which another A would have to be made.
+// Asked of the operators themselves: each statement "A maps this part into that one" is tried on one vector without a
+// zero, for which another A would have to be made.
 struct MomentumForm {
   Potential::Support
       positions;           // those that V depends on; the first half of z where that makes a separable form or V = 0

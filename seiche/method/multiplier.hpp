@@ -49,8 +49,8 @@ class MultiplierEquation {
   MultiplierEquation(const Potential& potential, Index size);
   // The vectors of the line must live and keep their values for as long as the equation is evaluated.
   void set(const Line& line, const MeasuredAt* measured_at = nullptr);
-  // What the steps before have left of the law, F is to make up for: F(x) + left = 0, until the next `set`. No more than F is solved
-  // to: that outweighs what each step leaves, and the equation has a root wherever it had one.
+  // What the steps before have left of the law, F is to make up for: F(x) + left = 0, until the next `set`. No more
+  // than F is solved to: that outweighs what each step leaves, and the equation has a root wherever it had one.
   void make_up_for(double left) {
     const double most = 4 * epsilon * scales_[0];
     left_ = std::clamp(left, -most, most);

@@ -6,7 +6,8 @@
 
 namespace seiche {
 
-// N(t, z) = S∇V − (D(t) − D₀)z − R(t, z) + f(t) + (S(z) − S)∇H; or, where that is S∇V, only ∇V(z): then φ-maps multiply by S.
+// N(t, z) = S∇V − (D(t) − D₀)z − R(t, z) + f(t) + (S(z) − S)∇H; or, where that is S∇V, only ∇V(z): then φ-maps multiply
+// by S.
 class NonlinearForce {
  public:
   explicit NonlinearForce(const System& system);               // which outlives it

@@ -6,7 +6,8 @@
 namespace seiche {
 namespace {
 
-// The first halves, without the last b, which makes the sum of all b one; the same for a with the number of flows known.
+// The first halves, without the last b, which makes the sum of all b one; the same for a with the number of flows
+// known.
 NystromScheme palindrome(std::vector<double> a, std::vector<double> b, std::size_t flows) {
   NystromScheme scheme;
   double rest = 1;

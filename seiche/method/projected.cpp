@@ -129,7 +129,8 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   if (resolved) {
     outcome = projection_.project(z_, [&](double computed) {
       if (asked && kind != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, computed);
-      // What is looked at node by node may be missed where steps do not resolve the flow. Gains below round-off H cannot show.
+      // What is looked at node by node may be missed where steps do not resolve the flow. Gains below round-off H
+      // cannot show.
       amount.negative = feeds_ || (amount.negative && amount.gain > 16 * epsilon * s.energy_terms);
       EnergyTarget target = energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount, kind,
                                           [&] { return base_.flow_missed(s, h); });
@@ -166,8 +167,8 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   return Taken::whole;
 }
 
-// Are |½ẑᵀMẑ| and |V(ẑ)| more than the terms of Hⁿ and what the force N gives z from rest within the step explain? s is still as it was
-// before the step.
+// Are |½ẑᵀMẑ| and |V(ẑ)| more than the terms of Hⁿ and what the force N gives z from rest within the step explain? s is
+// still as it was before the step.
 bool Projected::has_grown_beyond_reason(const EnergyProjection::Outcome& outcome, const State& s, double t, double h) {
   constexpr double growth = EnergyProjection::gross_growth;
   if (outcome.values <= growth * s.energy_terms) return false;

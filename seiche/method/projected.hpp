@@ -12,9 +12,9 @@
 
 namespace seiche {
 
-// ẑ of a base step, moved to the energy of energy_target. Nothing about ẑ enters the proof of the law, so it holds for every h:
-// where ẑ is no solution, e^{hL}z takes its place, if it leaves nothing but ∇V out; where it would, and where no point near ẑ
-// has an energy that the law allows, the step is taken in halves.
+// ẑ of a base step, moved to the energy of energy_target. Nothing about ẑ enters the proof of the law, so it holds for
+// every h: where ẑ is no solution, e^{hL}z takes its place, if it leaves nothing but ∇V out; where it would, and where
+// no point near ẑ has an energy that the law allows, the step is taken in halves.
 class Projected {
  public:
   // All outlive it.

@@ -85,9 +85,9 @@ StepReport left_the_numbers(double v_mid, double t, double h) {
                                  number_text(v_mid), t, h)};
 }
 
-// The errors of all steps are left in r² − (V + C) = δ, and the force is r/√(V + C) ≈ 1 + δ/(2(V + C)) times what it should be:
-// an error per unit of time that no step size lowers, and a larger C does. Returns the V + C from which on it is a small share of
-// what steps may have, for ĝ in g_; or something smaller than `margin`, if that is enough.
+// The errors of all steps are left in r² − (V + C) = δ, and the force is r/√(V + C) ≈ 1 + δ/(2(V + C)) times what it
+// should be: an error per unit of time that no step size lowers, and a larger C does. Returns the V + C from which on
+// it is a small share of what steps may have, for ĝ in g_; or something smaller than `margin`, if that is enough.
 double SavClosure::margin_against_drift(double drift, double margin) {
   constexpr double share = 0.1;
   system().linear->apply_S(g_, pushed_);
@@ -97,8 +97,9 @@ double SavClosure::margin_against_drift(double drift, double margin) {
   return wanted * physical_.lpNorm<Eigen::Infinity>();
 }
 
-// Where V + C or r² has become small against the energy, or drifts too far apart, C and r² rise together: H̃ does not change. A
-// large positive V(ẑ) is no reason to: at steps far too long ẑ is meaningless, and a C to match it would drown H̃ in round-off.
+// Where V + C or r² has become small against the energy, or drifts too far apart, C and r² rise together: H̃ does not
+// change. A large positive V(ẑ) is no reason to: at steps far too long ẑ is meaningless, and a C to match it would
+// drown H̃ in round-off.
 bool SavClosure::keep_margin(State& s, double quadratic_energy, double v_mid, double against_drift) const {
   if (auxiliary_ == AuxiliaryMode::frozen) return false;
   constexpr double tiny = 1e-300;
@@ -114,7 +115,8 @@ bool SavClosure::keep_margin(State& s, double quadratic_energy, double v_mid, do
   return true;
 }
 
-//   z⁺ = Ez⁻ + F r̄g,   r⁺ − r = ½ gᵀ(z⁺ − z⁻),   r̄ = ½(r⁺ + r),   g = ĝ/√(V(ẑ) + C),   ĝ = ∇V(ẑ)           (3.1), (4.2)
+//   z⁺ = Ez⁻ + F r̄g,   r⁺ − r = ½ gᵀ(z⁺ − z⁻),   r̄ = ½(r⁺ + r),   g = ĝ/√(V(ẑ) + C),   ĝ = ∇V(ẑ)           (3.1),
+//   (4.2)
 StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) {
   StepReport report;
   const Propagator& propagator = propagators.at(h);

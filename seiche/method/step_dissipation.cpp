@@ -133,7 +133,8 @@ void StepDissipation::prepare_flow(double h) {
   if (flow_) flow_->prepare(h);
 }
 
-// The polynomial through the forces takes the value Σ_j C_0j n_j at θ = 0, and weights(1) begins with C_0j for each force.
+// The polynomial through the forces takes the value Σ_j C_0j n_j at θ = 0, and weights(1) begins with C_0j for each
+// force.
 double StepDissipation::flow_missed(double h, const Vector& z, std::span<const Vector> forces) {
   if (!flow_ || flow_->resolves(h)) return 0;
   const bool gradients = output_.kind == PhiRows::Forces::gradients;

@@ -1,4 +1,5 @@
-// What leaves H over one step, ∫(Q − ∇Hᵀf) dt with Q = ∇Hᵀ(Dz + R − S∇H), by two quadratures on the dense output of a method.
+// What leaves H over one step, ∫(Q − ∇Hᵀf) dt with Q = ∇Hᵀ(Dz + R − S∇H), by two quadratures on the dense output of a
+// method.
 #pragma once
 
 #include <seiche/core/step_cache.hpp>
@@ -29,8 +30,8 @@ class StepDissipation {
     GaussRule coarse, fine;
     NestedRules nested;  // where Q is known from energies
   };
-  // Where Q depends on ∇V the coarser rule looks at `coarse`: a dense output that is less accurate than the end of the step errs in ∫Q by
-  // more than two rules on it differ by. `system` and `phi` outlive it.
+  // Where Q depends on ∇V the coarser rule looks at `coarse`: a dense output that is less accurate than the end of the
+  // step errs in ∫Q by more than two rules on it differ by. `system` and `phi` outlive it.
   StepDissipation(const System& system, const PhiEvaluator& phi, StepOutput output, StepOutput coarse, Rules rules);
 
   // How Q can be known.
@@ -45,7 +46,8 @@ class StepDissipation {
   struct Sum {
     double taken = 0.0;  // ∫Q − ∫∇Hᵀf
     double work = 0.0;   // ∫∇Hᵀf, what external forces give
-    // Is some integrand beyond round-off below zero? Then the energy-compatible damping condition fails, or a force feeds: so much.
+    // Is some integrand beyond round-off below zero? Then the energy-compatible damping condition fails, or a force
+    // feeds: so much.
     bool negative = false;
     double gain = 0.0;
     void add(double weight, const System::Dissipation& q);
@@ -70,12 +72,13 @@ class StepDissipation {
     double K = 0.0, V = 0.0;
   };
   Energies energies(const Vector& z, double H) const;  // of a state with this H
-  // As above, from the states at both ends and at the coarse nodes of the nested rules, where a method knows these: always or
-  // never.
+  // As above, from the states at both ends and at the coarse nodes of the nested rules, where a method knows these:
+  // always or never.
   Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Energies& before,
                  const Energies& after, std::span<const Energies> at_nodes = {});
 
-  // What the finer quadrature misses of the linear flow from z under the force of the step's start; 0 where it resolves it.
+  // What the finer quadrature misses of the linear flow from z under the force of the step's start; 0 where it resolves
+  // it.
   double flow_missed(double h, const Vector& z, std::span<const Vector> forces);
   void prepare_flow(double h);  // so that this allocates nothing
 

@@ -8,9 +8,9 @@
 
 namespace seiche {
 
-// e^{hL/2}, ż = N(z) for h, e^{hL/2}, with L = SM − D₀ and N(z) = S∇V(z) − (D − D₀)z, D taken at the middle of the step: order two.
-// The flow of N is a kick where S∇V moves momenta alone and D is D₀, and the explicit midpoint rule elsewhere. `system` and
-// `phi` outlive it.
+// e^{hL/2}, ż = N(z) for h, e^{hL/2}, with L = SM − D₀ and N(z) = S∇V(z) − (D − D₀)z, D taken at the middle of the
+// step: order two. The flow of N is a kick where S∇V moves momenta alone and D is D₀, and the explicit midpoint rule
+// elsewhere. `system` and `phi` outlive it.
 std::unique_ptr<BaseStep> strang_exact(const System& system, const PhiEvaluator& phi);
 
 }  // namespace seiche

@@ -3,13 +3,13 @@
 
 namespace seiche {
 
-// A sweep changes the solution by δ₁, the next by δ₂, …, and δₖ₊₁ ≈ δₖ²/δₖ₋₁ or less is what k sweeps leave. That need only be
-// small beside the error of the collocation step itself: s sweeps are enough, and of three or more fewer where the nonlinearity
-// is weak.
+// A sweep changes the solution by δ₁, the next by δ₂, …, and δₖ₊₁ ≈ δₖ²/δₖ₋₁ or less is what k sweeps leave. That need
+// only be small beside the error of the collocation step itself: s sweeps are enough, and of three or more fewer where
+// the nonlinearity is weak.
 class SweepControl {
  public:
-  // `from_history`: the first guess extrapolates the forces of the step before. Otherwise 2s sweeps are made. `may_save`: is
-  // error() below to be asked for at all?
+  // `from_history`: the first guess extrapolates the forces of the step before. Otherwise 2s sweeps are made.
+  // `may_save`: is error() below to be asked for at all?
   SweepControl(int stages, bool from_history, bool may_save)
       : stages_(stages), from_history_(from_history), may_save_(from_history && may_save && stages > 2) {}
 

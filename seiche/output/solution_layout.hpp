@@ -27,10 +27,11 @@ struct SolutionLayout {
   bool on_grid() const { return !axes.empty() && axes.front().name != "point"; }
   Hdf5Shape shape() const;  // of one field at one time, in the order of C
   std::uint64_t points() const;
-  // The data set that lists the points one by one: "mesh/points", or "mesh/numbers" where they lie nowhere and stand in a
-  // row; "" where a line or a single point needs none.
+  // The data set that lists the points one by one: "mesh/points", or "mesh/numbers" where they lie nowhere and stand in
+  // a row; "" where a line or a single point needs none.
   std::string mesh() const;
-  // Chunks of t and space: whole rows of about half a megabyte, fewer points where one row is more, and no more than 1024 rows.
+  // Chunks of t and space: whole rows of about half a megabyte, fewer points where one row is more, and no more than
+  // 1024 rows.
   Hdf5Shape chunk() const;
 };
 

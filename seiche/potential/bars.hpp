@@ -1,4 +1,5 @@
-// V(u) = Σ_bars W(n·(u_b − u_a)): bars between the nodes of a truss in the plane, by the part of the displacement along them.
+// V(u) = Σ_bars W(n·(u_b − u_a)): bars between the nodes of a truss in the plane, by the part of the displacement along
+// them.
 #pragma once
 
 #include <seiche/core/potential.hpp>

@@ -17,8 +17,8 @@ SEICHE_MULTIVERSION double sum_bond_values(const W& w, const double* u, std::siz
   return between + local.value(u[0]) + local.value(-u[n - 1]);
 }
 
-// With x = in · u: gradient ← out · ∇V(x), which may be u itself; returns V(x). Point j is pulled by the bond before it and by
-// the one after it, W'_{j−1} − W'_j, so that one slope goes from each point to the next.
+// With x = in · u: gradient ← out · ∇V(x), which may be u itself; returns V(x). Point j is pulled by the bond before it
+// and by the one after it, W'_{j−1} − W'_j, so that one slope goes from each point to the next.
 template <class W>
 SEICHE_MULTIVERSION double bond_gradient(const W& w, double in, double out, const double* u, double* gradient,
                                          std::size_t n, bool is_ring) {

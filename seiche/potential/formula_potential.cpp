@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t block = ExpressionGraph::block;
 constexpr std::size_t axes = 3;
 
-// Each thread has one, which grows to what the largest formula asks for in the worst case: later calls find it large enough.
+// Each thread has one, which grows to what the largest formula asks for in the worst case: later calls find it large
+// enough.
 std::span<double> scratch_of(std::size_t size) {
   thread_local std::vector<double> memory;
   if (memory.size() < size) memory.resize(size);

@@ -10,7 +10,8 @@
 
 namespace seiche {
 
-// W with its derivatives, all of them functions of the fields and then x, y, z; and what algebra has found out about it.
+// W with its derivatives, all of them functions of the fields and then x, y, z; and what algebra has found out about
+// it.
 struct PointFormula {
   FormulaPointer value;
   std::vector<FormulaPointer> gradient;  // with respect to each field
@@ -21,8 +22,8 @@ struct PointFormula {
   std::vector<bool> grows_outward_from = {};  // the same of the fields from each one on, whatever the others are
 };
 
-// The mean gradient is ∫₀¹ ∇V(a + s(b − a)) ds for polynomials and for one field, and otherwise the discrete gradient of
-// core/expression_graph.
+// The mean gradient is ∫₀¹ ∇V(a + s(b − a)) ds for polynomials and for one field, and otherwise the discrete gradient
+// of core/expression_graph.
 std::shared_ptr<const PointwisePotential> formula_potential(const PointFormula& w, const Grid& grid);
 
 }  // namespace seiche

@@ -32,9 +32,9 @@ double precision_of(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), is_single) ? std::numeric_limits<float>::epsilon() : epsilon;
 }
 
-// ∂V/∂(direction) at u by differences over ±d and ±2d, with the round-off of that: fourth differences of a smooth V are next to
-// nothing, so that they show how much of V is noise, as of terms that cancel. Noise of single precision may be the same in
-// all values, and is told by their digits.
+// ∂V/∂(direction) at u by differences over ±d and ±2d, with the round-off of that: fourth differences of a smooth V are
+// next to nothing, so that they show how much of V is noise, as of terms that cancel. Noise of single precision may be
+// the same in all values, and is told by their digits.
 struct Slope {
   double value, round_off;
 };

@@ -48,8 +48,8 @@ class LaneW {
   std::vector<W> w_;
 };
 
-// Horner's rule on registers, since GCC does not turn a loop over lanes into them. Row i of `c` holds the coefficients of uⁱ,
-// row i of `d` those of W' times u; where all odd ones are zero, both are polynomials in u².
+// Horner's rule on registers, since GCC does not turn a loop over lanes into them. Row i of `c` holds the coefficients
+// of uⁱ, row i of `d` those of W' times u; where all odd ones are zero, both are polynomials in u².
 template <int degree, bool even>
 struct PolynomialLoops {
   static constexpr int step = even ? 2 : 1;

@@ -13,8 +13,8 @@ namespace seiche {
 
 // The mean gradient is that of Delfour, Fortin and Payne (1981), with ρ = |ψ|²,
 //   (W(ρ_b) − W(ρ_a)) / (ρ_b − ρ_a) · (ψ_a + ψ_b).
-// It keeps the contract as the average along the segment does, and is a real multiple of the mean of ψ at every point: with it
-// Crank–Nicolson keeps Σ|ψ|² as well as H, which the average does not.
+// It keeps the contract as the average along the segment does, and is a real multiple of the mean of ψ at every point:
+// with it Crank–Nicolson keeps Σ|ψ|² as well as H, which the average does not.
 template <PointPotential W>
 class ModulusPotential final : public PointwisePotential {
  public:

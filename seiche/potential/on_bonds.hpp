@@ -8,8 +8,8 @@
 
 namespace seiche {
 
-// Bonds as in potential/bond.hpp, which is faster where W is known at compile time: N of them between N unknowns of a ring, and
-// between fixed ends (Dirichlet) one more than unknowns.
+// Bonds as in potential/bond.hpp, which is faster where W is known at compile time: N of them between N unknowns of a
+// ring, and between fixed ends (Dirichlet) one more than unknowns.
 std::shared_ptr<const PointwisePotential> on_bonds(std::shared_ptr<const PointwisePotential> w, Boundary boundary);
 
 }  // namespace seiche

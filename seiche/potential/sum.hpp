@@ -13,7 +13,8 @@ struct PlacedPotential {
   Index first_field = 0;  // of those it reads
 };
 
-// Of so many fields. None of the parts is a sum itself. One part that reads them all is returned as it is; none gives null.
+// Of so many fields. None of the parts is a sum itself. One part that reads them all is returned as it is; none gives
+// null.
 std::shared_ptr<const PointwisePotential> sum_of(const std::vector<PlacedPotential>& parts, Index fields);
 
 }  // namespace seiche

@@ -1,5 +1,6 @@
 // Masses in a row, with springs and dashpots between neighbours and to the ground:
-//   mü_j = k d_j + k₃ d_j³ − (the same one bond to the left) − g u_j − g₃ u_j³ − mγu̇_j + mν(u̇_{j+1} − 2u̇_j + u̇_{j−1}),
+//   mü_j = k d_j + k₃ d_j³ − (the same one bond to the left) − g u_j − g₃ u_j³ − mγu̇_j + mν(u̇_{j+1} − 2u̇_j +
+//   u̇_{j−1}),
 // with d_j = u_{j+1} − u_j.
 #pragma once
 
@@ -24,9 +25,9 @@ struct Chain {
   double amplitude = 1.0;  // of the initial data: velocity of the kicked mass, or displacement of the first mode
 };
 
-// z = (u, p) with p = mu̇, H = Σ p²/2m + ½uᵀ(gI − kR)u + Σ k₃d⁴/4 + g₃u⁴/4, S = [[0, I], [−I, 0]], D = diag(0, γI − νR),
-// with R the second difference. Starts at rest but for the middle mass (kick), or at rest in the first mode, sin(πj/N)
-// between fixed ends and sin(2πj/N) on a ring. Throws Error for a Neumann end, which the bonds do not know.
+// z = (u, p) with p = mu̇, H = Σ p²/2m + ½uᵀ(gI − kR)u + Σ k₃d⁴/4 + g₃u⁴/4, S = [[0, I], [−I, 0]], D = diag(0, γI −
+// νR), with R the second difference. Starts at rest but for the middle mass (kick), or at rest in the first mode,
+// sin(πj/N) between fixed ends and sin(2πj/N) on a ring. Throws Error for a Neumann end, which the bonds do not know.
 Problem chain(const Chain& options = {});
 
 ProblemEntry chain_entry();

@@ -19,8 +19,8 @@ Boundary boundary_named(const std::string& name) {
   return name == "neumann" ? Boundary::neumann : Boundary::periodic;
 }
 
-// Before anything is allocated: what the leanest method takes for two fields (docs/performance.md). Simulation asks again
-// for the method at hand.
+// Before anything is allocated: what the leanest method takes for two fields (docs/performance.md). Simulation asks
+// again for the method at hand.
 void require_memory(const Grid& grid) {
   constexpr double bytes_per_point = 200;
   double points = 1;

@@ -12,8 +12,8 @@
 
 namespace seiche {
 
-// Along one axis of a case file. Lengths in FFTW and indices in sparse matrices are ints, which must count the entries of
-// several fields. Whether the memory suffices is asked by make_grid.
+// Along one axis of a case file. Lengths in FFTW and indices in sparse matrices are ints, which must count the entries
+// of several fields. Whether the memory suffices is asked by make_grid.
 inline constexpr Index most_intervals = Index{1} << 26;
 
 struct GridOptions {
@@ -24,8 +24,8 @@ struct GridOptions {
   bool two_thirds = false;  // V sees the modes with |k| < N/3 only; needs periodic axes and spectral derivatives
 };
 
-// Throws Error where the lists have different lengths (other than one), a length is not a finite number > 0, an axis has no
-// unknown, or the grid would not fit into the memory of this machine.
+// Throws Error where the lists have different lengths (other than one), a length is not a finite number > 0, an axis
+// has no unknown, or the grid would not fit into the memory of this machine.
 Grid make_grid(const GridOptions& options);
 
 // V as the options ask for it: V(u), or V(Pu) by the two-thirds rule. Throws Error where that rule has no meaning.

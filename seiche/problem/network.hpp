@@ -9,7 +9,8 @@
 namespace seiche {
 
 // A ring where each of `count` nodes is joined to its `neighbours` next ones, and `shortcuts` more edges between nodes
-// drawn by a generator of its own from `seed`: the same graph on every machine (Newman and Watts 1999). Adjacency matrix.
+// drawn by a generator of its own from `seed`: the same graph on every machine (Newman and Watts 1999). Adjacency
+// matrix.
 SparseMatrix small_world(Index count, Index neighbours, Index shortcuts, std::uint64_t seed);
 
 struct Network {
@@ -20,8 +21,8 @@ struct Network {
   DampingRate gamma = nullptr;
 };
 
-// H = ½vᵀv + ½uᵀ(ω²I + κL)u + α/4 Σu⁴ with the graph's Laplacian L; at rest, with node 1 displaced by 1. Throws Error where
-// the graph has no node, or a weight is negative or has no counterpart.
+// H = ½vᵀv + ½uᵀ(ω²I + κL)u + α/4 Σu⁴ with the graph's Laplacian L; at rest, with node 1 displaced by 1. Throws Error
+// where the graph has no node, or a weight is negative or has no counterpart.
 Problem network(const Network& options = {});
 
 ProblemEntry network_entry();

@@ -12,8 +12,8 @@ struct RigidBody {
   DampingRate gamma = nullptr;                      // 1/time; null: none
 };
 
-// z = L, the angular momentum in the frame of the body; H = ½LᵀI⁻¹L, S(L)w = L × w, D = γI. With γ = 0 also |L|² stays. It
-// starts near the middle axis, around which rotation is unstable.
+// z = L, the angular momentum in the frame of the body; H = ½LᵀI⁻¹L, S(L)w = L × w, D = γI. With γ = 0 also |L|² stays.
+// It starts near the middle axis, around which rotation is unstable.
 Problem rigid_body(const RigidBody& options = {});
 
 ProblemEntry rigid_body_entry();

@@ -15,8 +15,8 @@ struct Entry {
 // n × n; entries at the same place add up.
 SparseMatrix assembled(Index n, const std::vector<Entry>& entries);
 
-// M = diag(stiffness, W), D = diag(0, CW) for z = (q, p), where p = W⁻¹q̇. `dashpots` is C, empty for none. q may be several
-// fields of `grid`, as many as p; z₀ = 0.
+// M = diag(stiffness, W), D = diag(0, CW) for z = (q, p), where p = W⁻¹q̇. `dashpots` is C, empty for none. q may be
+// several fields of `grid`, as many as p; z₀ = 0.
 struct Masses {
   std::vector<std::string> fields = {"u", "v"};
   double inverse_mass = 1.0;   // W

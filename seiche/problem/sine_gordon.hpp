@@ -14,8 +14,8 @@ struct SineGordon {
   double breather_frequency = 0.5;  // of the initial breather, in (0, 1), for κ = α = 1
 };
 
-// H = ½vᵀv − ½κ uᵀRu + α Σ(1 − cos u). Starts as the breather u = 4 atan(√(1−ω²)/ω · sin ωt / cosh(√(1−ω²)(x − L/2))) at
-// t = 0 where u = 0; sine_gordon_breather is the exact solution on the line without damping. Throws Error where the
+// H = ½vᵀv − ½κ uᵀRu + α Σ(1 − cos u). Starts as the breather u = 4 atan(√(1−ω²)/ω · sin ωt / cosh(√(1−ω²)(x − L/2)))
+// at t = 0 where u = 0; sine_gordon_breather is the exact solution on the line without damping. Throws Error where the
 // frequency is outside (0, 1).
 Problem sine_gordon(const SineGordon& options = {});
 double sine_gordon_breather(double frequency, double x, double t);  // centred at x = 0

@@ -14,8 +14,8 @@ struct SparseSystem {
   DampingRate gamma = nullptr;  // of the last field
 };
 
-// z₀ = 0 but for a bump in the middle of u. Throws Error where there are other than one or two fields, M has no row, the
-// matrices do not fit together, or they break a hypothesis of the energy law (SparseOperators::validate).
+// z₀ = 0 but for a bump in the middle of u. Throws Error where there are other than one or two fields, M has no row,
+// the matrices do not fit together, or they break a hypothesis of the energy law (SparseOperators::validate).
 Problem sparse_problem(SparseSystem options);
 
 ProblemEntry sparse_entry();

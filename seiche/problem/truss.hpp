@@ -19,7 +19,8 @@ struct Truss {
   double amplitude = 0.1;       // of the initial deflection, half a sine
 };
 
-// z = (x, y, px, py). With e = n·(u_b − u_a) for each bar: H = ½Σ|p|²/m + ½Σ(EA/ℓ)e² + ΣW(e), ṗ = −∂H/∂q − Σ c n nᵀ(v_b − v_a).
+// z = (x, y, px, py). With e = n·(u_b − u_a) for each bar: H = ½Σ|p|²/m + ½Σ(EA/ℓ)e² + ΣW(e), ṗ = −∂H/∂q − Σ c n nᵀ(v_b
+// − v_a).
 Problem truss(const Truss& options = {});
 
 ProblemEntry truss_entry();

@@ -21,8 +21,8 @@ struct VariableWave {
 };
 
 // H = ½vᵀv + ½uᵀ(m²I − ∇·c²∇)u + α/4 Σu⁴, S = [[0, I], [−I, 0]], D = diag(0, γI); at rest, with a bump at a quarter of
-// the first axis. Throws Error where c is not positive, and where the grid asks for a discretisation other than fd2 or for
-// the two-thirds rule.
+// the first axis. Throws Error where c is not positive, and where the grid asks for a discretisation other than fd2 or
+// for the two-thirds rule.
 Problem variable_wave(const VariableWave& options = {});
 
 ProblemEntry variable_wave_entry();

@@ -69,7 +69,8 @@ class AdaptiveLoop {
   }
 
  private:
-  // Before the method knows its error: a step that changes little, and leaves two of its kind before the next asked time.
+  // Before the method knows its error: a step that changes little, and leaves two of its kind before the next asked
+  // time.
   void start() {
     backup_ = state_;
     controller_.reset();
@@ -126,8 +127,8 @@ class AdaptiveLoop {
     return accept();
   }
 
-  // The first step of a method with history: the next one tells its error. It must not hold an event, since what follows one
-  // would have to be taken back too.
+  // The first step of a method with history: the next one tells its error. It must not hold an event, since what
+  // follows one would have to be taken back too.
   bool hold_back(double h, const StepReport& step) {
     const auto inside = [this](double t, Vector& z) { stepper_.interpolate(state_, t, z); };
     if (h > least_step() * 1e3 && events_.any_crossing(state_, inside)) {

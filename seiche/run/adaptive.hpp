@@ -22,13 +22,13 @@ struct AdaptiveOptions {
   std::span<const Event> events = {};
 };
 
-// As `integrate`, with steps whose errors fit the tolerance. Times that observers ask for do not shorten steps. Throws Error
-// for a tolerance or times that make no sense; never for numerical reasons.
+// As `integrate`, with steps whose errors fit the tolerance. Times that observers ask for do not shorten steps. Throws
+// Error for a tolerance or times that make no sense; never for numerical reasons.
 RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, State& state,
                              const AdaptiveOptions& options, std::span<Observer* const> observers = {});
 
-// Steps of variable size by `adaptive`; or, where that is null, of the one size options.first_h by `stepper`: what belongs to a
-// tolerance is then not looked at.
+// Steps of variable size by `adaptive`; or, where that is null, of the one size options.first_h by `stepper`: what
+// belongs to a tolerance is then not looked at.
 RunReport integrate_either(const System& system, Stepper& stepper, AdaptiveStepper* adaptive, State& state,
                            const AdaptiveOptions& options, std::span<Observer* const> observers = {});
 

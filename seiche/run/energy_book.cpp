@@ -19,7 +19,8 @@ void advance(EnergySummary& summary, double increase, double value, bool first_i
 // By how much no solution multiplies the terms of an energy in so many steps.
 double grossest_growth(double steps) { return std::min(std::pow(1e6, steps), 1e30); }
 
-// Both ends of a difference carry round-off, so the larger counts; but a rise is not excused by terms that came with it.
+// Both ends of a difference carry round-off, so the larger counts; but a rise is not excused by terms that came with
+// it.
 double round_off(double before, double after, double growth) {
   return std::max(before, std::min(after, growth * before));
 }
@@ -53,8 +54,8 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
         steps * (has_modified_energy_ ? round_off(last_.modified_round_off, reading.modified_round_off, growth)
                                       : round_off(last_.round_off, reading.round_off, growth));
     if (increase > allowed && !violation_.found) violation_ = {t, increase, allowed, true};
-    // Round-off explains it, and would explain more than all there was at the start: nobody can tell any more. But in the first step
-    // it is that rise itself which takes all there was.
+    // Round-off explains it, and would explain more than all there was at the start: nobody can tell any more. But in
+    // the first step it is that rise itself which takes all there was.
     if (increase > size_ && increase <= allowed) {
       if (first && !violation_.found) violation_ = {t, increase, last_.round_off, true};
       if (!first && !drowned_.found) drowned_ = {t, allowed, size_, true};
@@ -65,8 +66,8 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
   last_n_ = n;
 }
 
-// At rest where V = 0 nothing has a size yet: the largest of the first records then stands for the start. Below the squares of
-// what is next to the least number, terms are no more than at rest.
+// At rest where V = 0 nothing has a size yet: the largest of the first records then stands for the start. Below the
+// squares of what is next to the least number, terms are no more than at rest.
 void EnergyBook::take_size(const EnergyReading& reading) {
   constexpr int first_records = 100;
   constexpr double nothing = 1e-290;
@@ -86,8 +87,8 @@ void EnergyBook::follow(const EnergyReading& reading, double t) {
     parting_ = {.from = reading.modified, .to = reading.H, .t = t, .is_damped = false, .is_parting = true};
 }
 
-// H near zero may be a difference of large terms, of which every method misses a little. The terms count ½zᵀMz twice: half of them
-// are about H where none of it cancels.
+// H near zero may be a difference of large terms, of which every method misses a little. The terms count ½zᵀMz twice:
+// half of them are about H where none of it cancels.
 std::optional<EnergyDrift> EnergyBook::drift() const {
   if (!promise_.never_grows && !promise_.never_changes) return {};
   if (promise_.promised && (violation_.found || drowned_.found)) return {};

@@ -60,7 +60,8 @@ void EventFinder::start(const State& state) {
   happened_.clear();
 }
 
-// A ball that touches the ground again within a step is seen to be above it in between, unless it is back in a 64th of the step.
+// A ball that touches the ground again within a step is seen to be above it in between, unless it is back in a 64th of
+// the step.
 void EventFinder::leave_surfaces(const State& state, Inside inside) {
   constexpr double soon = 1.0 / 64;
   for (std::size_t i = 0; i < events_.size(); ++i) {

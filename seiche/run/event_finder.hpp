@@ -22,8 +22,8 @@ class EventFinder {
   // The events that the run begins with: those whose g is 0, in the direction that it then takes. As in SciPy.
   Found begin(const State& state, Rate rate);
 
-  // The values from which signs change. The state stands on the surface of events that have just happened, on either side by
-  // round-off: for them the sign counts that g has a little later, inside the next step.
+  // The values from which signs change. The state stands on the surface of events that have just happened, on either
+  // side by round-off: for them the sign counts that g has a little later, inside the next step.
   void start(const State& state);
 
   using Inside = FunctionRef<void(double t, Vector& z)>;  // z ← the solution at a time inside the last step

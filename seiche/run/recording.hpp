@@ -1,4 +1,5 @@
-// What every time loop does beside stepping: judge energies, show states to observers, keep the last good one, and report.
+// What every time loop does beside stepping: judge energies, show states to observers, keep the last good one, and
+// report.
 #pragma once
 
 #include <seiche/core/observer.hpp>

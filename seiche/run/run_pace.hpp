@@ -9,16 +9,18 @@
 
 namespace seiche {
 
-// Where a solution blows up, or a method cannot have the error it is asked for, steps shrink or stay so short that a run never
-// ends, and none of them fails. Three signs, looked at whenever the number of attempts has doubled, so that layers, pulses and
-// near collisions, which are over in a share of the run, are none (docs/decisions/0004-when-a-run-ends.md):
+// Where a solution blows up, or a method cannot have the error it is asked for, steps shrink or stay so short that a
+// run never ends, and none of them fails. Three signs, looked at whenever the number of attempts has doubled, so that
+// layers, pulses and near collisions, which are over in a share of the run, are none
+// (docs/decisions/0004-when-a-run-ends.md):
 //   runaway    doublings of the work lead less and less far, to a sum that ends before t_end;
 //   collapse   three quarters of the work led nowhere beside the first quarter;
 //   endless    steps do not grow, and what is left takes most of a day.
 class RunPace {
  public:
   RunPace(double t_start, double t_end, Index unknowns);
-  // After every attempt, accepted or not, with the length of the last step: why the run will not come to its end; "" else.
+  // After every attempt, accepted or not, with the length of the last step: why the run will not come to its end; ""
+  // else.
   std::string objection(const State& s, double h);
 
  private:

@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// t₀ + k h, k = 0 … steps; the last one is t_end, and its step is shortened where h does not divide the time. Throws Error
-// for an h that is not finite and > 0, a t_end before the start, or more than 10¹⁵ steps.
+// t₀ + k h, k = 0 … steps; the last one is t_end, and its step is shortened where h does not divide the time. Throws
+// Error for an h that is not finite and > 0, a t_end before the start, or more than 10¹⁵ steps.
 struct TimeGrid {
   double start, h, end;
   std::int64_t steps = 0;

@@ -11,14 +11,16 @@
 
 namespace seiche {
 
-// States inside steps that were taken: with variable steps on the solution that the method has there, found by taking the
-// step again; with steps of one size, and where the method has a modified energy, by a shorter step from its left end.
+// States inside steps that were taken: with variable steps on the solution that the method has there, found by taking
+// the step again; with steps of one size, and where the method has a modified energy, by a shorter step from its left
+// end.
 class StepReplay {
  public:
   // `adaptive` is the same stepper, or null for steps of one size.
   StepReplay(Stepper& stepper, AdaptiveStepper* adaptive) : stepper_(stepper), adaptive_(adaptive) {}
 
-  // `t` must not lie before the step. Several times in one step, one after the other, take it once. Throws Error where it fails.
+  // `t` must not lie before the step. Several times in one step, one after the other, take it once. Throws Error where
+  // it fails.
   State at(const TakenStep& step, double t);
 
  private:
@@ -40,8 +42,8 @@ class DenseOutput {
   double t_end() const { return end_.t; }
   Index size() const;  // of a state: fields × points
 
-  // Physical values, one state of size() after the other. At the time of an event it is the state behind it. Throws Error
-  // for a time outside the run.
+  // Physical values, one state of size() after the other. At the time of an event it is the state behind it. Throws
+  // Error for a time outside the run.
   void evaluate(std::span<const double> times, std::span<double> values) const;
 
  private:

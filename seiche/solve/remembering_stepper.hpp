@@ -13,8 +13,8 @@ struct TakenStep {
   double h = 0.0;
 };
 
-// Passes everything on to `stepper`, and notes the steps that stand. Of what was taken back nothing is left: a step begins
-// where an earlier one ended, or takes its place.
+// Passes everything on to `stepper`, and notes the steps that stand. Of what was taken back nothing is left: a step
+// begins where an earlier one ended, or takes its place.
 class RememberingStepper final : public AdaptiveStepper {
  public:
   enum class Keeps { none, last, all };

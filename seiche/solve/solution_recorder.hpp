@@ -6,8 +6,8 @@
 
 namespace seiche {
 
-// With variable steps, times that are asked for come from the loop (next_time); with steps of one size, and where the method
-// has a modified energy, it finds the state there itself.
+// With variable steps, times that are asked for come from the loop (next_time); with steps of one size, and where the
+// method has a modified energy, it finds the state there itself.
 class SolutionRecorder final : public Observer {
  public:
   // All outlive it. `stop` is set where the options ask for an end.

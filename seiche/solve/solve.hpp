@@ -18,7 +18,8 @@
 
 namespace seiche {
 
-// A sign change of g(t, z) from one step to the next, z in physical values: fields × points. The method starts anew behind it.
+// A sign change of g(t, z) from one step to the next, z in physical values: fields × points. The method starts anew
+// behind it.
 struct SolveEvent {
   std::function<double(double t, const Vector& z)> g;
   Event::Direction direction = Event::Direction::any;
@@ -78,9 +79,9 @@ struct Solution {
   bool success() const { return report.status == RunReport::Status::success; }
 };
 
-// Throws Error for set-up mistakes: sizes and times that do not fit, a method that does not apply, neither h nor tolerance.
-// A computation that fails is a status in the report, with what was computed before; what a callback throws, but for Error,
-// comes out of `solve`.
+// Throws Error for set-up mistakes: sizes and times that do not fit, a method that does not apply, neither h nor
+// tolerance. A computation that fails is a status in the report, with what was computed before; what a callback throws,
+// but for Error, comes out of `solve`.
 Solution solve(const Problem& problem, const SolveOptions& options);
 
 }  // namespace seiche

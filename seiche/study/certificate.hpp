@@ -28,8 +28,9 @@ struct CertificateOptions {
 };
 
 // Nothing here is taken from the numbers that a method computes with: operators are looked at mode by mode or by
-// factorisation, and what can only be sampled is sampled along a solution of its own, by collocation with tolerance 1e-5.
-// Throws Error where the method does not apply to the problem, and where a rate of damping is infinite before t_end.
+// factorisation, and what can only be sampled is sampled along a solution of its own, by collocation with tolerance
+// 1e-5. Throws Error where the method does not apply to the problem, and where a rate of damping is infinite before
+// t_end.
 Certificate certify(const Problem& problem, const CertificateOptions& options);
 
 // {"hypotheses": […], "law": {…}}, as `seiche check --json` and summary.json have it.

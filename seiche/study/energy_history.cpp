@@ -9,7 +9,8 @@
 namespace seiche {
 namespace {
 
-// A curve that halves itself: of each stretch of rows its extremes are kept, and stretches double when there are too many.
+// A curve that halves itself: of each stretch of rows its extremes are kept, and stretches double when there are too
+// many.
 class Extremes {
  public:
   void add(double t, double value) {

@@ -13,13 +13,14 @@ namespace seiche {
 struct EnergyHistory {
   Curve H;
   std::optional<Curve> modified;
-  // By cause, as the columns of the ledger name them: the sum of all changes up to t. Empty where the run kept no ledger.
+  // By cause, as the columns of the ledger name them: the sum of all changes up to t. Empty where the run kept no
+  // ledger.
   std::vector<Curve> causes;
   std::int64_t rows = 0;
 };
 
-// Of each of some thousand stretches of time the rows with the smallest and the largest value, and the first and the last row.
-// Throws Error where the file is missing or no table of energies.
+// Of each of some thousand stretches of time the rows with the smallest and the largest value, and the first and the
+// last row. Throws Error where the file is missing or no table of energies.
 EnergyHistory read_energy_history(const std::filesystem::path& file);
 
 }  // namespace seiche

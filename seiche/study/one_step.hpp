@@ -14,7 +14,8 @@ class OneStep {
  public:
   OneStep(const Problem& linear, const SimulationOptions& options, double h, const std::atomic<bool>* stop = nullptr)
       : simulation_(linear, options), h_(h), stop_(stop) {}
-  // z⁺, from t = 0. Throws std::runtime_error, with the method's sentence, where the step fails, and Error where it is to stop.
+  // z⁺, from t = 0. Throws std::runtime_error, with the method's sentence, where the step fails, and Error where it is
+  // to stop.
   Vector operator()(const Vector& z);
   Vector derivative(const Vector& z) const;  // SMz − D(0)z
   void go_on() const;                        // throws Error where it is to stop

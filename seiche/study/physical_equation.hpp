@@ -1,5 +1,5 @@
-// ż = S(z)∇H(z) − D(t)z − R(t, z) + f(t) on physical values, straight from the stencils or matrices: it shares no operator, propagator or transform
-// with backend/ and method/, so that a reference computed with it can judge them.
+// ż = S(z)∇H(z) − D(t)z − R(t, z) + f(t) on physical values, straight from the stencils or matrices: it shares no
+// operator, propagator or transform with backend/ and method/, so that a reference computed with it can judge them.
 #pragma once
 
 #include <seiche/core/problem.hpp>

@@ -43,7 +43,8 @@ class Reference {
 // The times k h (k = 0, 1, …; the last one t_end) of all step sizes, merged.
 std::vector<double> sample_times(std::span<const double> step_sizes, double t_end);
 
-// Throws Error where the solution is no longer finite, does not fit into memory, or needs more steps than will ever end.
+// Throws Error where the solution is no longer finite, does not fit into memory, or needs more steps than will ever
+// end.
 Reference make_reference(const Problem& problem, const std::vector<double>& times,
                          const ReferenceOptions& options = {});
 

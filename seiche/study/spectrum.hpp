@@ -12,7 +12,8 @@
 
 namespace seiche {
 
-// One mode: a pair of conjugate eigenvalues, or a single one. With λ of L = SM − D and ρ of the step z ↦ Rz of length h,
+// One mode: a pair of conjugate eigenvalues, or a single one. With λ of L = SM − D and ρ of the step z ↦ Rz of length
+// h,
 //   exact     decay −Re λ,        frequency |Im λ|
 //   numerical decay −ln|ρ| / h,   frequency arg ρ / h, of the branch next to the exact one
 struct SpectrumRow {
@@ -44,8 +45,9 @@ struct Spectrum {
 inline constexpr Index spectrum_matrix_limit = 2048;
 inline constexpr Index spectrum_single_mode_limit = 16384;
 
-// Throws Error where the method does not apply to `problem`, and above these limits; std::runtime_error where a step fails.
-// `stop` ends it with an Error, between two modes or steps; the eigenvectors of a full matrix are found without a look at it.
+// Throws Error where the method does not apply to `problem`, and above these limits; std::runtime_error where a step
+// fails. `stop` ends it with an Error, between two modes or steps; the eigenvectors of a full matrix are found without
+// a look at it.
 Spectrum spectrum(const Problem& problem, const SimulationOptions& options, double h,
                   const std::atomic<bool>* stop = nullptr);
 

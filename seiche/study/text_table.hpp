@@ -1,4 +1,5 @@
-// Tables of text and numbers with a header line: CSV (RFC 4180), whose quoted cells may hold commas, quotes and new lines.
+// Tables of text and numbers with a header line: CSV (RFC 4180), whose quoted cells may hold commas, quotes and new
+// lines.
 #pragma once
 
 #include <filesystem>

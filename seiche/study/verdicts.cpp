@@ -94,8 +94,8 @@ std::string Judge::why_times_differ(const ExampleResult& of) const {
   return text + ".";
 }
 
-// The paper solves for η by plain Newton and Seiche by its robust solver: a claim about SEILM's efficiency is refuted only
-// where both refute it.
+// The paper solves for η by plain Newton and Seiche by its robust solver: a claim about SEILM's efficiency is refuted
+// only where both refute it.
 Finding Judge::efficient_with_either_solver(const ExampleResult& of,
                                             const std::vector<std::pair<std::string, std::string>>& pairs,
                                             double factor, Quantifier quantifier) const {

@@ -4,8 +4,8 @@
 
 namespace seiche::test {
 
-/// Where this build finds what it tests. Only paths.cpp is compiled with these paths inside, so a compiler cache serves the other
-/// tests to a clone in any folder.
+/// Where this build finds what it tests. Only paths.cpp is compiled with these paths inside, so a compiler cache serves
+//the other / tests to a clone in any folder.
 std::string source_directory();
 std::string test_data_directory();
 std::string program_path();

@@ -7,8 +7,8 @@
 
 namespace seiche::test {
 
-// std::max(x, NaN) is x, and so may be Eigen's largest entry: a test of either passes on results that are no numbers. Here
-// NaN is the worst there is.
+// std::max(x, NaN) is x, and so may be Eigen's largest entry: a test of either passes on results that are no numbers.
+// Here NaN is the worst there is.
 inline double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 // The largest |a_ij|.
