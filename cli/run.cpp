@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/initial_file.hpp>
-#include <seiche/config/kick_stability.hpp>
 #include <seiche/config/simulation.hpp>
 #include <seiche/config/sparse_work.hpp>
 #include <seiche/core/error.hpp>
@@ -159,10 +158,8 @@ ExitCode run(const RunArguments& arguments) {
   Simulation simulation(problem, simulation_with);
   // Cheap beside a run: what structure leaves open is not looked at here.
   if (!spec.tolerance)
-    for (const std::string& beyond :
-         {beyond_stability(simulation, spec.h), beyond_rate(simulation, spec.h, spec.t_end),
-          beyond_splitting(simulation, spec.h), work_of_exponentials(simulation, spec.sparse, spec.h, spec.t_end)})
-      if (!beyond.empty()) spec.notes.push_back(beyond);
+    for (const std::string& note : notes_on_step_size(simulation, spec.sparse, spec.h, spec.t_end))
+      spec.notes.push_back(note);
   if (std::holds_alternative<FileData>(spec.initial))
     if (const std::string lost = lost_between_runs(simulation); !lost.empty()) spec.notes.push_back(lost);
   Certificate certificate = certify(problem, {.method = spec.method,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <seiche/config/case_file.hpp>
+#include <seiche/config/sparse_work.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/ensemble/ensemble.hpp>
@@ -271,7 +272,12 @@ std::vector<std::string> notes_on(const Members& members, const RunSpec& spec) {
   Problem first = *members.list.front().problem;
   if (!members.parameters.empty())
     for (std::string& note : first.notes) note.insert(0, "of member 1: ");
-  return notes(spec, first);
+  std::vector<std::string> all = notes(spec, first);
+  if (spec.tolerance) return all;
+  const Simulation simulation(first, simulation_options(spec));
+  const std::vector<std::string> on_h = notes_on_step_size(simulation, spec.sparse, spec.h, spec.t_end);
+  all.insert(all.end(), on_h.begin(), on_h.end());
+  return all;
 }
 
 }  // namespace

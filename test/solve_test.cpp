@@ -264,5 +264,14 @@ TEST(Solve, MistakesAreOneSentenceWithBothValues) {
               testing::HasSubstr("give h instead of a tolerance"));
 }
 
+TEST(Solve, SaysWhereHDoesNotResolveTheDamping) {
+  const Problem overdamped = duffing_case(1000.0);
+  const Solution split = solve(overdamped, {.method = "seisav", .h = 0.1, .t_end = 1});
+  ASSERT_EQ(split.notes.size(), 1);
+  EXPECT_NE(split.notes[0].find("seisav splits the damping"), std::string::npos) << split.notes[0];
+  EXPECT_NE(split.report.message.find(split.notes[0]), std::string::npos) << split.report.message;
+  EXPECT_TRUE(solve(overdamped, {.method = "egc4", .h = 0.1, .t_end = 1}).notes.empty());
+}
+
 }  // namespace
 }  // namespace seiche::test

@@ -58,6 +58,7 @@ class Solution:
     law_reason: str
     method: str
     method_reason: str
+    notes: list[str]
     backend: str
     has_sol: bool
     sol_span: tuple[float, float]

@@ -174,6 +174,7 @@ def solve(
     notes = [*case.notes, *stated.notes]
     if case.h_is_default:
         notes.insert(0, f"h is not given: steps of {case.h:g}, as in the problem's example")
+    notes += solution.notes
     if solution.method_reason:
         notes.append(f'method = "auto": {solution.method_reason}')
     return result_of(solution, stated, notes=notes, has_events=events is not None, has_ledger=with_ledger)

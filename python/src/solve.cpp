@@ -175,6 +175,7 @@ void bind_solve(py::module_& module) {
       .def_property_readonly("law_reason", [](const HeldSolution& s) { return s.solution->report.law_reason; })
       .def_property_readonly("method", [](const HeldSolution& s) { return s.solution->method; })
       .def_property_readonly("method_reason", [](const HeldSolution& s) { return s.solution->method_reason; })
+      .def_property_readonly("notes", [](const HeldSolution& s) { return s.solution->notes; })
       .def_property_readonly("backend", [](const HeldSolution& s) { return s.solution->backend; })
       .def_property_readonly("has_sol", [](const HeldSolution& s) { return s.solution->sol != nullptr; })
       .def_property_readonly("sol_span",

@@ -1,3 +1,4 @@
+#include <seiche/config/sparse_work.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/core/physical_memory.hpp>
@@ -121,6 +122,8 @@ class Run {
     solution_.method = simulation_->method().name;
     solution_.backend = simulation_->backend();
     solution_.method_reason = simulation_->reason();
+    if (!options.tolerance)
+      solution_.notes = notes_on_step_size(*simulation_, options.backend_options.sparse, options.h, options.t_end);
     solution_.certificate = certify(problem_, {.method = solution_.method,
                                                .method_options = simulation_->method_options(),
                                                .t_start = options.t_start,
@@ -137,6 +140,7 @@ class Run {
     if (solution_.ended_by_event)
       solution_.report.message =
           fmt::format("an event ended the run at t = {:.9g}; {}", solution_.report.t, solution_.report.message);
+    for (const std::string& note : solution_.notes) solution_.report.message += "; " + note;
     if (options_.dense_output)
       solution_.sol = std::make_shared<DenseOutput>(simulation_, options_.tolerance.has_value(),
                                                     steps_.release(simulation_->state().t), simulation_->state());

@@ -74,6 +74,7 @@ struct Solution {
   Certificate certificate;                 // the hypotheses of the law, and what they promise
   std::string method, backend;             // as taken
   std::string method_reason;               // why "auto" took it; else ""
+  std::vector<std::string> notes;          // what there is to say of this h; they stand in report.message too
   std::shared_ptr<const DenseOutput> sol;  // z(t) at every time of the run, where asked for
 
   bool success() const { return report.status == RunReport::Status::success; }
