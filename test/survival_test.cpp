@@ -23,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -97,6 +98,22 @@ TEST_F(Survival, WhicheverWriteFailsTheRowsBeforeItAreReadable) {
     }
   }
   EXPECT_GT(most, whole.count() / 2) << "late writes failed too";
+}
+
+// Repeated, it would never end.
+TEST_F(Survival, AWriteThatWritesNothingIsAFullDisk) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  for (const int n : {2, 40, 100}) {
+    fs::remove_all(directory / "out");
+    const Result result =
+        seiche(short_run, fmt::format("LD_PRELOAD='{}' SEICHE_FAIL_AT={} SEICHE_FAIL_WITH=0 timeout 60",
+                                      failing_writes_path(), n));
+    EXPECT_THAT(result.exit, AnyOf(1, 2)) << n << result.err;
+    EXPECT_THAT(result.err, HasSubstr(std::strerror(ENOSPC))) << n;
+  }
 }
 
 TEST_F(Survival, ARunThatWasKilledIsNotErasedByTheNextOne) {

@@ -99,8 +99,10 @@ void AtomicFile::flush() {
   std::size_t written = 0;
   while (failure_ == 0 && written < waiting_.size()) {
     const ::ssize_t size = ::write(file_, waiting_.data() + written, waiting_.size() - written);
-    if (size >= 0) {
+    if (size > 0) {
       written += static_cast<std::size_t>(size);
+    } else if (size == 0) {
+      failure_ = ENOSPC;  // nothing was written, and nothing would be if it were tried again
     } else if (errno != EINTR) {
       failure_ = errno;
     }

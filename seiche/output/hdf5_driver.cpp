@@ -142,8 +142,8 @@ class OrderedFile : public H5FD_t {
   bool put(haddr_t at, const char* from, std::size_t count) {
     for (std::size_t done = 0; done < count;) {
       const ::ssize_t size = ::pwrite(file_, from + done, count - done, static_cast<::off_t>(at + done));
-      if (size < 0 && errno != EINTR) {
-        failure_ = errno;
+      if (size == 0 || (size < 0 && errno != EINTR)) {
+        failure_ = size == 0 ? ENOSPC : errno;  // nothing was written, and nothing would be if it were tried again
         return false;
       }
       done += size < 0 ? 0 : static_cast<std::size_t>(size);

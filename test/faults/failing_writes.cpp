@@ -1,6 +1,6 @@
 // To be loaded before a program (LD_PRELOAD): the n-th write to a file that is no standard stream fails, as on a disk
-// that is full or broken. By the environment: SEICHE_FAIL_AT is n, from 1; SEICHE_FAIL_WITH the number of the error;
-// with SEICHE_FAIL_ONCE the writes behind it succeed again.
+// that is full or broken. By the environment: SEICHE_FAIL_AT is n, from 1; SEICHE_FAIL_WITH the number of the error, or
+// 0 for a write that says it wrote nothing; with SEICHE_FAIL_ONCE the writes behind it succeed again.
 #include <dlfcn.h>
 #include <sys/types.h>
 #include <sys/uio.h>
@@ -34,33 +34,35 @@ bool fails(int file) {
   return true;
 }
 
+ssize_t nothing_written() { return errno == 0 ? 0 : -1; }
+
 }  // namespace
 
 extern "C" {
 
 ssize_t write(int file, const void* from, size_t size) {
   static auto* const next = real<ssize_t(int, const void*, size_t)>("write");
-  return fails(file) ? -1 : next(file, from, size);
+  return fails(file) ? nothing_written() : next(file, from, size);
 }
 
 ssize_t pwrite(int file, const void* from, size_t size, off_t at) {
   static auto* const next = real<ssize_t(int, const void*, size_t, off_t)>("pwrite");
-  return fails(file) ? -1 : next(file, from, size, at);
+  return fails(file) ? nothing_written() : next(file, from, size, at);
 }
 
 ssize_t pwrite64(int file, const void* from, size_t size, off64_t at) {
   static auto* const next = real<ssize_t(int, const void*, size_t, off64_t)>("pwrite64");
-  return fails(file) ? -1 : next(file, from, size, at);
+  return fails(file) ? nothing_written() : next(file, from, size, at);
 }
 
 ssize_t writev(int file, const iovec* from, int count) {
   static auto* const next = real<ssize_t(int, const iovec*, int)>("writev");
-  return fails(file) ? -1 : next(file, from, count);
+  return fails(file) ? nothing_written() : next(file, from, count);
 }
 
 ssize_t pwritev(int file, const iovec* from, int count, off_t at) {
   static auto* const next = real<ssize_t(int, const iovec*, int, off_t)>("pwritev");
-  return fails(file) ? -1 : next(file, from, count, at);
+  return fails(file) ? nothing_written() : next(file, from, count, at);
 }
 
 size_t fwrite(const void* from, size_t size, size_t count, FILE* file) {
