@@ -16,7 +16,9 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <new>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -65,7 +67,12 @@ class OrderedFile : public H5FD_t {
   static const OrderedFile& of(const H5FD_t* file) { return *static_cast<const OrderedFile*>(file); }
 
   haddr_t end() const { return end_; }
-  void set_end(haddr_t end) { end_ = end; }
+  // What is behind the new end is of no use to HDF5 any more, and the room may get another use.
+  void set_end(haddr_t end) {
+    end_ = end;
+    held_.erase(held_.lower_bound(end), held_.end());
+    for (auto& [address, piece] : held_) piece.bytes.resize(std::min<haddr_t>(piece.bytes.size(), end - address));
+  }
   haddr_t size() const { return std::max(size_, end_of_held()); }
   const FileIdentity& identity() const { return identity_; }
 
@@ -90,10 +97,19 @@ class OrderedFile : public H5FD_t {
       if (kind != H5FD_MEM_DRAW) hold(kind, at, {from, count});
       return true;
     }
-    if (put(at, from, count)) return true;
+    if (put(at, from, count)) {
+      overlay_held(at, {from, count});
+      return true;
+    }
     // Nothing counts what is behind: let others have the room.
     if (::ftruncate(file_, static_cast<::off_t>(settled_)) == 0) size_ = settled_;
     return said(failure_, "write");
+  }
+
+  // Nothing more is written: what should have been held is lost.
+  bool fail(int reason, const char* what) {
+    if (failure_ == 0) failure_ = reason;
+    return said(failure_, what);
   }
 
   // What was held back is in the file, or as much of it as leaves it whole. HDF5 may have met the failure where it
@@ -126,14 +142,18 @@ class OrderedFile : public H5FD_t {
   }
 
  private:
-  static void overlay(haddr_t address, const std::string& bytes, haddr_t at, char* to, std::size_t count) {
+  static void overlay(haddr_t address, std::string_view bytes, haddr_t at, char* to, std::size_t count) {
     const haddr_t begin = std::max(address, at), finish = std::min(address + bytes.size(), at + count);
     if (begin < finish) std::memcpy(to + (begin - at), bytes.data() + (begin - address), finish - begin);
   }
 
-  // Pieces that share bytes agree about them, in whatever order they are written.
-  void hold(H5FD_mem_t kind, haddr_t at, const std::string& bytes) {
+  // What is held agrees with what was written last, in whatever order its pieces are written.
+  void overlay_held(haddr_t at, std::string_view bytes) {
     for (auto& [address, piece] : held_) overlay(at, bytes, address, piece.bytes.data(), piece.bytes.size());
+  }
+
+  void hold(H5FD_mem_t kind, haddr_t at, const std::string& bytes) {
+    overlay_held(at, bytes);
     Piece& piece = held_[at];
     piece.kind = kind;
     if (piece.bytes.size() <= bytes.size()) piece.bytes = bytes;
@@ -184,20 +204,57 @@ class OrderedFile : public H5FD_t {
   int failure_ = 0;
 };
 
-herr_t status(bool fine) { return fine ? 0 : -1; }
+// HDF5 is C, through which no exception may pass; std::bad_alloc is one to be expected.
+template <class Call>
+herr_t guarded(OrderedFile& file, const char* what, Call call) noexcept {
+  try {
+    return call() ? 0 : -1;
+  } catch (...) {
+    return file.fail(ENOMEM, what) ? 0 : -1;
+  }
+}
 
 H5FD_t* open(const char*, unsigned flags, hid_t access, haddr_t) {
   const auto* given = static_cast<const Access*>(H5Pget_driver_info(access));
   const int file = given != nullptr ? ::fcntl(given->file, F_DUPFD_CLOEXEC, 0) : -1;
+  if (file < 0) return nullptr;
   // Others may read meanwhile, and none may write; file systems without locks are not locked.
-  if (file >= 0) ::flock(file, LOCK_SH | LOCK_NB);
-  return file < 0 ? nullptr : std::make_unique<OrderedFile>(file, (flags & H5F_ACC_TRUNC) != 0).release();
+  ::flock(file, LOCK_SH | LOCK_NB);
+  H5FD_t* const opened = new (std::nothrow) OrderedFile(file, (flags & H5F_ACC_TRUNC) != 0);
+  if (opened == nullptr) ::close(file);
+  return opened;
 }
 
 herr_t close(H5FD_t* file) {
   const std::unique_ptr<OrderedFile> ours(&OrderedFile::of(file));
-  return status(ours->settle(true));
+  return guarded(*ours, "close", [&] { return ours->settle(true); });
 }
+
+herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t count, void* to) {
+  OrderedFile& ours = OrderedFile::of(file);
+  return guarded(ours, "read", [&] { return ours.read(at, static_cast<char*>(to), count); });
+}
+
+herr_t write(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t at, std::size_t count, const void* from) {
+  OrderedFile& ours = OrderedFile::of(file);
+  return guarded(ours, "write", [&] { return ours.write(kind, at, static_cast<const char*>(from), count); });
+}
+
+herr_t flush(H5FD_t* file, hid_t, hbool_t closing) {
+  OrderedFile& ours = OrderedFile::of(file);
+  return guarded(ours, "write", [&] { return ours.settle(closing); });
+}
+
+herr_t set_end(H5FD_t* file, H5FD_mem_t, haddr_t end) {
+  OrderedFile& ours = OrderedFile::of(file);
+  return guarded(ours, "extend", [&] {
+    ours.set_end(end);
+    return true;
+  });
+}
+
+haddr_t end(const H5FD_t* file, H5FD_mem_t) { return OrderedFile::of(file).end(); }
+haddr_t size(const H5FD_t* file, H5FD_mem_t) { return OrderedFile::of(file).size(); }
 
 int compare(const H5FD_t* a, const H5FD_t* b) {
   const FileIdentity &first = OrderedFile::of(a).identity(), &second = OrderedFile::of(b).identity();
@@ -226,19 +283,12 @@ hid_t ordered_driver() {
     driver.close = close;
     driver.cmp = compare;
     driver.query = query;
-    driver.get_eoa = [](const H5FD_t* file, H5FD_mem_t) { return OrderedFile::of(file).end(); };
-    driver.set_eoa = [](H5FD_t* file, H5FD_mem_t, haddr_t end) -> herr_t {
-      OrderedFile::of(file).set_end(end);
-      return 0;
-    };
-    driver.get_eof = [](const H5FD_t* file, H5FD_mem_t) { return OrderedFile::of(file).size(); };
-    driver.read = [](H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t count, void* to) {
-      return status(OrderedFile::of(file).read(at, static_cast<char*>(to), count));
-    };
-    driver.write = [](H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t at, std::size_t count, const void* from) {
-      return status(OrderedFile::of(file).write(kind, at, static_cast<const char*>(from), count));
-    };
-    driver.flush = [](H5FD_t* file, hid_t, hbool_t closing) { return status(OrderedFile::of(file).settle(closing)); };
+    driver.get_eoa = end;
+    driver.set_eoa = set_end;
+    driver.get_eof = size;
+    driver.read = read;
+    driver.write = write;
+    driver.flush = flush;
     const H5FD_mem_t kinds[] = H5FD_FLMAP_DICHOTOMY;
     std::copy(std::begin(kinds), std::end(kinds), driver.fl_map);
     return H5FDregister(&driver);
