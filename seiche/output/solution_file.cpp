@@ -4,12 +4,21 @@
 
 #include <fmt/ranges.h>
 
+#include <cstdlib>
 #include <utility>
 
 namespace seiche {
 namespace {
 
-constexpr auto write_at_least_every = std::chrono::seconds(5);
+// See solution_file.hpp.
+std::chrono::duration<double> write_at_least_every() {
+  constexpr double usual = 5;
+  const char* const given = std::getenv("SEICHE_FLUSH_SECONDS");
+  if (given == nullptr) return std::chrono::duration<double>(usual);
+  char* end = nullptr;
+  const double seconds = std::strtod(given, &end);
+  return std::chrono::duration<double>(end != given && *end == '\0' && seconds >= 0 ? seconds : usual);
+}
 
 std::string meaning_of(const SolutionDescription& description, std::size_t field, const std::string& name) {
   return field < description.meanings.size() ? description.meanings[field] : "field " + name;
@@ -26,6 +35,7 @@ SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const S
       times_(times),
       has_modified_(has_modified_energy),
       most_waiting_(layout_.chunk().front()),
+      write_at_least_every_(write_at_least_every()),
       last_write_(std::chrono::steady_clock::now()),
       values_(space.physical_size()) {
   set_attribute(file_.id(), "Conventions", "CF-1.10");
@@ -140,7 +150,7 @@ void SolutionFile::observe(const State& state, const EnergyReading& energy) {
   if (has_modified_) add(columns_[fields + 1], {&energy.modified, 1});
   add(columns_.back(), {&state.t, 1});
   ++waiting_;
-  const bool is_time = std::chrono::steady_clock::now() - last_write_ > write_at_least_every;
+  const bool is_time = std::chrono::steady_clock::now() - last_write_ > write_at_least_every_;
   if (waiting_ >= most_waiting_ || is_time) write_rows(false);
   broken_ = false;
 }

@@ -33,9 +33,12 @@ struct SnapshotTimes {
   double interval = 0.0;  // > 0: at its multiples, and `schedule` counts for the first and the last state only
 };
 
-// Rows go to the disk chunk by chunk, and at least every few seconds: memory does not grow with the run, and a
+// Rows go to the disk chunk by chunk, and at least every five seconds: memory does not grow with the run, and a
 // program that is killed leaves a readable solution.h5.partial behind. What is once in the file stays readable,
 // whatever fails later: then the file gets its name all the same, with the status "unfinished".
+//
+// For tests, the environment variable SEICHE_FLUSH_SECONDS replaces the five seconds: with 0 every row is written as
+// it comes, so that chunks are written again and again before they are full. Anything but a number ≥ 0 is ignored.
 class SolutionFile : public Observer {
  public:
   // `space` outlives the observer. Throws Error where nothing can be written.
@@ -77,6 +80,7 @@ class SolutionFile : public Observer {
   bool broken_ = false;                     // a row could not be written
   std::size_t waiting_ = 0, most_waiting_;  // rows of the chunk that is not yet full
   std::size_t written_ = 0;                 // of them
+  std::chrono::duration<double> write_at_least_every_;
   std::chrono::steady_clock::time_point last_write_;
   Vector values_;
   std::function<void()> before_writing_;
