@@ -76,7 +76,8 @@ except KeyboardInterrupt:
 CONVERGE = 'seiche.converge(seiche.problem("klein_gordon", points=64), ["seavf"], [2.0**-k for k in range(4, 15)], t_end=50.0)'
 # The damping moves what V depends on, and is sampled along a solution; the longest, which is cut, takes minutes.
 CHECK = 'seiche.check(seiche.problem("gkdv", points=512, mu=1e-6), t_end=1e6)'
-# A step with a projection is not linear, and modes are stepped one at a time, for some seconds.
+# A step with a projection is not linear, and modes are stepped one at a time. A million of them take minutes: 8000 take a
+# second or a few, and on a fast machine the study might end before Ctrl-C comes.
 SPECTRUM = 'seiche.spectrum(seiche.problem("klein_gordon", points=1000000, gamma=0.1), method="egc6", h=8.0)'
 
 
