@@ -201,7 +201,7 @@ TEST_F(Solution, WhatWasComputedIsReadableBeforeTheEnd) {
   for (Index k = 0; k < 100; ++k) observe(solution, problem, k);
   fs::copy(file().string() + ".partial", directory / "killed.h5");  // as a program leaves it that is killed now
   const SolutionReader left(directory / "killed.h5");
-  EXPECT_EQ(left.count(), 96) << "three whole chunks of 32 rows";
+  EXPECT_EQ(left.count(), 96) << "twelve whole chunks of 8 rows";
   EXPECT_EQ(left.text("status"), "unfinished");
 }
 

@@ -10,7 +10,8 @@
 namespace seiche {
 namespace {
 
-constexpr std::uint64_t chunk_values = 1U << 16U;
+constexpr std::uint64_t chunk_values = 1U << 16U;  // of a row that is cut
+constexpr std::uint64_t rows_values = 1U << 14U;   // of several rows: 128 kB, which fits on a disk that is nearly full
 constexpr std::uint64_t most_rows = 1024;
 
 SolutionAxis grid_axis(const GridAxis& axis, const char* name) {
@@ -53,7 +54,7 @@ Hdf5Shape SolutionLayout::chunk() const {
     size = std::clamp<std::uint64_t>(chunk_values / row, 1, size);
     row *= size;
   }
-  sizes.insert(sizes.begin(), std::clamp<std::uint64_t>(chunk_values / row, 1, most_rows));
+  sizes.insert(sizes.begin(), std::clamp<std::uint64_t>(rows_values / row, 1, most_rows));
   return sizes;
 }
 
