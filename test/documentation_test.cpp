@@ -30,8 +30,8 @@ std::string block(const std::string& text, const std::string& language) {
   return text.substr(from, text.find("```", from) - from);
 }
 
-TEST(Documentation, TheProgramOfTheReadmeIsTheOneThatThePackageTestBuilds) {
-  EXPECT_EQ(block(text_of("README.md"), "cpp"), text_of("test/package/main.cpp"));
+TEST(Documentation, TheProgramOfThePageIsTheOneThatThePackageTestBuilds) {
+  EXPECT_EQ(block(text_of("docs/site/tutorials/library.md"), "cpp"), text_of("test/package/main.cpp"));
 }
 
 TEST(Documentation, TheCaseOfTheReadmeRuns) {

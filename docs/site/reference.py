@@ -2,7 +2,7 @@
 """Writes the reference pages from what the program says of itself: reference.py PROGRAM DIRECTORY
 
 Nothing is written twice: methods, problems and backends are those of `seiche list --json`, keys with their defaults, meanings and
-bounds are the comments of `seiche new`, options those of `--help`, exit codes the line of README.md.
+bounds are the comments of `seiche new`, options those of `--help`, exit codes the line of docs/site/overview.md.
 """
 import json
 import pathlib
@@ -130,8 +130,8 @@ def backends(program):
 
 
 def exit_codes():
-    readme = (SOURCE / "README.md").read_text(encoding="utf-8")
-    line = re.search(r"^Exit codes: (.*?)\.\n\n", readme, re.MULTILINE | re.DOTALL).group(1).replace("\n", " ")
+    overview = (SOURCE / "docs/site/overview.md").read_text(encoding="utf-8")
+    line = re.search(r"^Exit codes: (.*?)\.\n\n", overview, re.MULTILINE | re.DOTALL).group(1).replace("\n", " ")
     codes = re.findall(r"(\d+) (.*?)(?:, (?=\d)|$)", line)
     return table(["code", "meaning"], [[code(number), meaning] for number, meaning in codes])
 

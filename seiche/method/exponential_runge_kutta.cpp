@@ -12,8 +12,8 @@ class ExponentialRungeKutta final : public BaseStep {
       : tableau_(tableau),
         phi_(phi),
         force_(system),
-        output_(output_of(tableau, tableau.C)),
-        dissipation_(system, phi, output_, output_of(tableau, tableau.C_coarse),
+        output_(output_of(tableau.C)),
+        dissipation_(system, phi, output_, output_of(tableau.C_coarse),
                      {GaussRule(tableau.coarse), GaussRule(tableau.fine), NestedRules(tableau.nested)}),
         cache_(cached_step_sizes(system.space->size())),
         forces_(tableau.stages.size() + 1, Vector::Zero(system.space->size())) {}
@@ -53,7 +53,7 @@ class ExponentialRungeKutta final : public BaseStep {
     std::unique_ptr<PhiMap> end;
   };
 
-  StepOutput output_of(const ExponentialTableau& tableau, const Eigen::MatrixXd& C) const {
+  StepOutput output_of(const Eigen::MatrixXd& C) const {  // which outlives it
     return {.forces = C.cols(), .order = C.rows(), .kind = force_.kind(), .weights = [&C](double theta) {
               return collocation_weights(C, theta);
             }};
