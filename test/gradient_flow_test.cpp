@@ -71,7 +71,9 @@ TEST(EnergyInterval, CostsNoAccuracyOnGradientFlows) {
                                     .S = {{"-1", "0"}, {"0", "-1"}},
                                     .initial = {{"a", "1.5"}, {"b", "0.2"}}});
   const auto end = [&](const std::string& method, double h, EnergyLaw law) {
-    Simulation simulation(p, {.method = method, .method_options = {.law = law}});
+    MethodOptions options;
+    options.law = law;
+    Simulation simulation(p, {.method = method, .method_options = options});
     for (int n = 0; n < static_cast<int>(3 / h); ++n) EXPECT_TRUE(simulation.step(h).solved());
     return Vector(simulation.physical());
   };
