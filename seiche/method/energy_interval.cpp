@@ -36,9 +36,14 @@ EnergyTarget energy_target(EnergyLaw law, double before, double computed, double
   const double u = dissipated.doubt;
   const double narrow = nearest(before, computed, rest, dissipated, u);
   double target = narrow;
-  if (narrow != computed) target = nearest(before, computed, rest, dissipated, u + margin * std::abs(flow_missed()));
-  // Where steps resolve the flow, what the quadrature misses of it is far less than what the two differ by.
-  const bool widened = std::abs(target - narrow) > u + 16 * epsilon * (std::abs(before) + std::abs(computed));
+  bool widened = false;
+  if (narrow != computed) {
+    if (const double missed = std::abs(flow_missed()); missed > 0) {
+      target = nearest(before, computed, rest, dissipated, u + margin * missed);
+      // Where steps resolve the flow, what the quadrature misses of it is far less than what the two differ by.
+      widened = std::abs(target - narrow) > u + 16 * epsilon * (std::abs(before) + std::abs(computed));
+    }
+  }
   return {target, dissipated.negative ? std::max(before, target) : before, widened};
 }
 

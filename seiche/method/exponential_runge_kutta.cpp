@@ -91,9 +91,9 @@ class ExponentialRungeKutta final : public BaseStep {
 // U₂ = φ₀zⁿ + (h/2)φ₁N₁,  ẑ = φ₀zⁿ + hφ₁N₂.
 const ExponentialTableau& exponential_midpoint() {
   static const ExponentialTableau tableau{.stages = {{.c = 0.5, .order = 1, .weights = {0.5}}},
-                                          .first_used = 0,
-                                          .C = Eigen::RowVector2d(0, 1),
-                                          .C_coarse = Eigen::RowVector2d(1, 0),
+                                          .first_used = 1,
+                                          .C = Eigen::MatrixXd::Ones(1, 1),
+                                          .C_coarse = Eigen::MatrixXd::Ones(1, 1),
                                           .coarse = 1,
                                           .fine = 3,
                                           .nested = 1};

@@ -20,7 +20,7 @@ struct ExponentialTableau {
   std::vector<Stage> stages;  // after the first
   Index first_used;           // forces before this one have no part in z(θ)
   Eigen::MatrixXd C;          // powers of θ × forces from first_used on
-  Eigen::MatrixXd C_coarse;   // the same of an order less, for the coarser quadrature of the dissipation
+  Eigen::MatrixXd C_coarse;   // the same of an order less, if there is one, for the coarser quadrature of ∫Q
   int coarse, fine;           // nodes of the two quadratures of the dissipation
   int nested;                 // and of the coarser one of those that share theirs: half the order of the scheme
 };
