@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <seiche/config/case_file.hpp>
 #include <seiche/config/initial_file.hpp>
+#include <seiche/config/kick_stability.hpp>
 #include <seiche/config/simulation.hpp>
-#include <seiche/config/sparse_work.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/figure/run_report.hpp>

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <seiche/config/case_file.hpp>
-#include <seiche/config/sparse_work.hpp>
+#include <seiche/config/kick_stability.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/ensemble/ensemble.hpp>
@@ -24,6 +24,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace seiche::cli {
@@ -251,15 +252,14 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-// A method that applies to no member leaves no files.
-void require_start(const Members& members, const RunSpec& spec) {
+// Of the first member that starts. A method that applies to no member leaves no files.
+std::unique_ptr<Simulation> first_start(const Members& members, const RunSpec& spec) {
   std::optional<Error> first;
   for (const EnsembleMember& member : members.list) {
     try {
       Problem problem = *member.problem;
       problem.initial = member.initial;
-      const Simulation starts(problem, simulation_options(spec));
-      return;
+      return std::make_unique<Simulation>(problem, simulation_options(spec));
     } catch (const Error& error) {
       if (!first) first = error;
     }
@@ -268,13 +268,12 @@ void require_start(const Members& members, const RunSpec& spec) {
 }
 
 // Where members differ in a parameter, what was made of one problem is not what was made of another.
-std::vector<std::string> notes_on(const Members& members, const RunSpec& spec) {
+std::vector<std::string> notes_on(const Members& members, const Simulation& simulation, const RunSpec& spec) {
   Problem first = *members.list.front().problem;
   if (!members.parameters.empty())
     for (std::string& note : first.notes) note.insert(0, "of member 1: ");
   std::vector<std::string> all = notes(spec, first);
   if (spec.tolerance) return all;
-  const Simulation simulation(first, simulation_options(spec));
   const std::vector<std::string> on_h = notes_on_step_size(simulation, spec.sparse, spec.h, spec.t_end);
   all.insert(all.end(), on_h.begin(), on_h.end());
   return all;
@@ -286,8 +285,8 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
   const Members members = make_members(spec);
   const Problem& problem = *members.list.front().problem;
   const bool has_modified = find_method(spec.method).law == "H_modified";
-  require_start(members, spec);
-  if (!options.quiet) print_notes(notes_on(members, spec));
+  const std::unique_ptr<Simulation> simulation = first_start(members, spec);
+  if (!options.quiet) print_notes(notes_on(members, *simulation, spec));
 
   // Of the first member; each member's own promise is counted in "laws".
   const Certificate certificate = certify(problem, {.method = spec.method,

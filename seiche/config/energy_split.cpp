@@ -244,7 +244,8 @@ class Splitter {
     result.w.uses_place = std::any_of(places, places + most_axes, [&](const Expression& x) { return w.has(x); });
     look_at_powers(w, fields, result);
     result.w.grows_outward = grows_outward(w, fields);
-    for (auto from = fields.begin(); from != fields.end(); ++from)
+    result.w.grows_outward_from = {result.w.grows_outward};
+    for (auto from = fields.begin() + 1; from != fields.end(); ++from)
       result.w.grows_outward_from.push_back(grows_outward(w, Symbols(from, fields.end())));
     return result;
   }

@@ -1,4 +1,5 @@
 #include <seiche/config/initial_file.hpp>
+#include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/error.hpp>
 
 #include <fmt/ranges.h>
@@ -24,9 +25,8 @@ double read_token(const std::string& token, const std::filesystem::path& file, s
 }
 
 bool depends_on_time(const Problem& problem) {
-  const auto changes = [](const auto& rate) { return rate && !rate->is_constant(); };
-  return changes(problem.damping.rate) || changes(problem.damping.field_rate) ||
-         std::any_of(problem.forces.begin(), problem.forces.end(), changes);
+  const auto changes = [](const FieldRatePointer& force) { return force && !force->is_constant(); };
+  return !has_constant_rates(problem.damping) || std::any_of(problem.forces.begin(), problem.forces.end(), changes);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <seiche/config/auto_method.hpp>
 #include <seiche/config/kick_stability.hpp>
+#include <seiche/config/sparse_work.hpp>
 #include <seiche/method/nystrom_scheme.hpp>
 
 #include <fmt/format.h>
@@ -53,15 +54,22 @@ std::string beyond_splitting(const Simulation& simulation, double h) {
   const double length = damped.norm();
   const double rate = length > 0 ? damped_twice.norm() / length : 0;
   if (!(h * rate > 2)) return "";
-  if (composition == Composition::chin)
-    return fmt::format(
-        "{} splits the damping from the forces, and is of order four only where hγ < 2: it is {:.3g} with h = {:.4g} and γ = {:.4g}; take h ≤ "
-        "{:.2g}, or a method with the damping in its exponential (egc4, eisav)",
-        simulation.method().name, h * rate, h, rate, 1 / rate);
+  const bool is_chin = composition == Composition::chin;
   return fmt::format(
-      "{} splits the damping from the forces, and where the two balance, momenta are wrong by the factor hγ/2: it is {:.3g} with h = {:.4g} and "
-      "γ = {:.4g}; take h ≤ {:.2g}, or a method with the damping in its exponential (egc4, eisav)",
-      simulation.method().name, h * rate / 2, h, rate, 1 / rate);
+      "{} splits the damping from the forces, and {}: it is {:.3g} with h = {:.4g} and γ = {:.4g}; take h ≤ {:.2g}, or a method with the damping "
+      "in its exponential (egc4, eisav)",
+      simulation.method().name,
+      is_chin ? "is of order four only where hγ < 2" : "where the two balance, momenta are wrong by the factor hγ/2",
+      is_chin ? h * rate : h * rate / 2, h, rate, 1 / rate);
+}
+
+std::vector<std::string> notes_on_step_size(const Simulation& simulation, const SparseOptions& options, double h,
+                                            double t_end) {
+  std::vector<std::string> notes;
+  for (const std::string& note : {beyond_stability(simulation, h), beyond_rate(simulation, h, t_end),
+                                  beyond_splitting(simulation, h), work_of_exponentials(simulation, options, h, t_end)})
+    if (!note.empty()) notes.push_back(note);
+  return notes;
 }
 
 }  // namespace seiche

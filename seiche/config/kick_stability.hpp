@@ -4,6 +4,7 @@
 #include <seiche/config/simulation.hpp>
 
 #include <string>
+#include <vector>
 
 namespace seiche {
 
@@ -18,5 +19,9 @@ std::string beyond_rate(const Simulation& simulation, double h, double t_end);
 // The same where the method splits the damping from the forces, and at the rate with which it takes what they give the
 // solution at the start, nothing is left of that after h.
 std::string beyond_splitting(const Simulation& simulation, double h);
+
+// All of these and what exponentials of the sparse backend cost: what there is to say of this h before a run.
+std::vector<std::string> notes_on_step_size(const Simulation& simulation, const SparseOptions& options, double h,
+                                            double t_end);
 
 }  // namespace seiche

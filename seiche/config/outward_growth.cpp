@@ -173,10 +173,10 @@ class Look {
     SparseMatrix comparison(n, n);
     Expression counted = 0;
     for (Index i = 0; i < n; ++i) {
+      const GiNaC::realsymbol& a = fields_[static_cast<std::size_t>(i)];
+      if (!form.is_polynomial(a)) return false;
       for (Index j = 0; j <= i; ++j) {
-        const GiNaC::realsymbol& a = fields_[static_cast<std::size_t>(i)];
         const GiNaC::realsymbol& b = fields_[static_cast<std::size_t>(j)];
-        if (!form.is_polynomial(a)) return false;
         const Expression coefficient = i == j ? form.coeff(a, 2) : form.coeff(a, 1).coeff(b, 1);
         counted += coefficient * a * b;
         const std::optional<Bounds> of = bounds(coefficient);

@@ -1,7 +1,6 @@
 #include <seiche/backend/pade_poles.hpp>
 #include <seiche/backend/sparse.hpp>
 #include <seiche/backend/sparse_phi.hpp>
-#include <seiche/config/kick_stability.hpp>
 #include <seiche/config/sparse_work.hpp>
 
 #include <fmt/format.h>
@@ -39,15 +38,6 @@ std::string work_of_exponentials(const Simulation& simulation, const SparseOptio
              "in {} Padé parts of degree {} each, {:.1g} in {:.3g} steps; [backend] pade_degree = 6 takes one part for every "
              "h, keeps the law and is exact for slow motion, and so does backend \"dense\" for up to some thousand unknowns",
              plan.steps, plan.degree, static_cast<double>(plan.steps) * steps, steps);
-}
-
-std::vector<std::string> notes_on_step_size(const Simulation& simulation, const SparseOptions& options, double h,
-                                            double t_end) {
-  std::vector<std::string> notes;
-  for (const std::string& note : {beyond_stability(simulation, h), beyond_rate(simulation, h, t_end),
-                                  beyond_splitting(simulation, h), work_of_exponentials(simulation, options, h, t_end)})
-    if (!note.empty()) notes.push_back(note);
-  return notes;
 }
 
 }  // namespace seiche

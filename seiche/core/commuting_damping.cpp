@@ -20,4 +20,8 @@ bool rate_commutes(const Problem& problem) {
   return commutes;
 }
 
+bool has_constant_rates(const LinearDamping& damping) {
+  return (!damping.rate || damping.rate->is_constant()) && (!damping.field_rate || damping.field_rate->is_constant());
+}
+
 }  // namespace seiche

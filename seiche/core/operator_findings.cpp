@@ -94,7 +94,7 @@ OperatorFindings look_at_modes(const Problem& problem) {
   const bool has_rate = damping.rate || damping.field_rate;
   const AnyBlock projector = has_rate ? AnyBlock(rate_symbol(problem)) : AnyBlock();
   const bool together = is_one_damping(problem);
-  const AnyBlock beside = together ? AnyBlock(damping.rate->value(0) * projector) : AnyBlock(AnyBlock::Zero(m, m));
+  const BlockStencil constant_part = together ? frozen_damping(problem) : damping.constant;
 
   Scan<AnyBlock> metric(m, modes.count()), structure(m, modes.count());
   Scan<AnyBlock> constant(m, has_constant ? modes.count() : 0), rate(m, has_rate && !together ? modes.count() : 0);
@@ -108,7 +108,7 @@ OperatorFindings look_at_modes(const Problem& problem) {
     structure.add(k, -S);
     for (Index i = 0; findings.S_is_skew && i < m; ++i)
       for (Index j = 0; j <= i; ++j) findings.S_is_skew &= S(i, j) + std::conj(S(j, i)) == 0.0;
-    if (has_constant) constant.add(k, M * (symbol_of<AnyBlock>(damping.constant, mode) + beside));
+    if (has_constant) constant.add(k, M * symbol_of<AnyBlock>(constant_part, mode));
     if (has_rate && !together) rate.add(k, M * projector);
   }
   findings.M.over_modes = metric.result(modes);

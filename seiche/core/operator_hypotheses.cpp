@@ -1,3 +1,4 @@
+#include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/definiteness.hpp>
 #include <seiche/core/operator_hypotheses.hpp>
 
@@ -106,9 +107,7 @@ Hypothesis hypothesis_of_MD(const Problem& problem, const OperatorFindings& find
 Hypothesis hypothesis_of_commuting(const Problem& problem) {
   const std::string name = "D(t)D(s) = D(s)D(t)";
   const LinearDamping& damping = problem.damping;
-  const bool constant_rate =
-      (!damping.rate || damping.rate->is_constant()) && (!damping.field_rate || damping.field_rate->is_constant());
-  if (constant_rate) return {name, Grade::by_structure, "D does not depend on time"};
+  if (has_constant_rates(damping)) return {name, Grade::by_structure, "D does not depend on time"};
   if (!problem.has_constant_damping()) return {name, Grade::by_structure, "D(t) is a diagonal matrix, at every time"};
   double largest = 0;
   double size = 0;

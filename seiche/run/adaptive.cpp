@@ -37,8 +37,7 @@ class AdaptiveLoop {
 
   void run() {
     if (!recording_.record(state_.t >= options_.t_end)) return;
-    const EventFinder::Found at_start =
-        events_.begin(state_, [this](double t, const Vector& z, Vector& rate) { system_.right_hand_side(t, z, rate); });
+    const EventFinder::Found at_start = events_.begin(system_, state_);
     if (at_start.empty())
       start();
     else if (!happen(at_start))

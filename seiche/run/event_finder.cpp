@@ -28,7 +28,7 @@ double EventFinder::value(std::size_t i, double t, const Vector& z) const {
 }
 
 // Two short steps of Euler's method: a velocity that is 0 may yet change g through its own rate.
-EventFinder::Found EventFinder::begin(const State& state, Rate rate) {
+EventFinder::Found EventFinder::begin(const System& system, const State& state) {
   constexpr double short_of = 0x1p-20;  // the time in which z would change by its own size
   Found found{.t = state.t, .events = {}};
   std::vector<std::size_t> on_surface;
@@ -37,11 +37,11 @@ EventFinder::Found EventFinder::begin(const State& state, Rate rate) {
   if (on_surface.empty()) return found;
 
   Vector z = state.z, change(state.z.size());
-  rate(state.t, z, change);
+  system.right_hand_side(state.t, z, change);
   const double quotient = z.norm() / change.norm();
   const double dt = short_of * (std::isfinite(quotient) && quotient > 0 ? quotient : 1.0);
   z += dt * change;
-  rate(state.t + dt, z, change);
+  system.right_hand_side(state.t + dt, z, change);
   z += dt * change;
   for (const std::size_t i : on_surface) {
     const double soon = value(i, state.t + 2 * dt, z);

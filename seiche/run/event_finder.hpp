@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/function_ref.hpp>
+#include <seiche/core/system.hpp>
 #include <seiche/run/integrate.hpp>
 
 #include <span>
@@ -18,9 +19,8 @@ class EventFinder {
     std::vector<const Event*> events;  // all that happen at t; none: no event in the step
     bool empty() const { return events.empty(); }
   };
-  using Rate = FunctionRef<void(double t, const Vector& z, Vector& rate)>;  // ż
   // The events that the run begins with: those whose g is 0, in the direction that it then takes. As in SciPy.
-  Found begin(const State& state, Rate rate);
+  Found begin(const System& system, const State& state);
 
   // The values from which signs change. The state stands on the surface of events that have just happened, on either
   // side by round-off: for them the sign counts that g has a little later, inside the next step.

@@ -26,8 +26,7 @@ class FixedLoop {
 
   void run() {
     if (!recording_.record(grid_.steps == 0)) return;
-    const EventFinder::Found at_start =
-        events_.begin(state_, [this](double t, const Vector& z, Vector& rate) { system_.right_hand_side(t, z, rate); });
+    const EventFinder::Found at_start = events_.begin(system_, state_);
     if (at_start.empty())
       events_.start(state_);
     else if (!happen(at_start))

@@ -1,4 +1,5 @@
-#include <seiche/config/sparse_work.hpp>
+#include <seiche/config/kick_stability.hpp>
+#include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/law.hpp>
 #include <seiche/core/physical_memory.hpp>
@@ -67,9 +68,7 @@ Problem with_initial(Problem problem, const std::optional<Vector>& z0) {
 
 // Rates before t = 0 were not looked at.
 LawPromise promise(const Certificate& certificate, const Problem& problem, double t_start) {
-  const LinearDamping& damping = problem.damping;
-  const bool varies = (damping.rate && !damping.rate->is_constant()) ||
-                      (damping.field_rate && !damping.field_rate->is_constant()) || problem.friction;
+  const bool varies = !has_constant_rates(problem.damping) || problem.friction;
   if (certificate.law.promised && t_start < 0 && varies)
     return {false, fmt::format("the damping changes in time, and the run starts at t = {:.6g} < 0", t_start)};
   return certificate.law;

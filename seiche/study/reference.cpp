@@ -24,8 +24,12 @@ constexpr double most_steps = 1e10;  // of a reference by steps of one size
 
 using Record = std::function<void(std::size_t k, std::span<const double> z)>;  // the state at the k-th time
 
-void check(std::span<const double> z, double t, const std::atomic<bool>* stop) {
+void heed(const std::atomic<bool>* stop, double t) {
   if (stop && stop->load(std::memory_order_relaxed)) throw Error("the reference solution was interrupted at t = {}", t);
+}
+
+void check(std::span<const double> z, double t, const std::atomic<bool>* stop) {
+  heed(stop, t);
   if (!std::all_of(z.begin(), z.end(), [](double x) { return std::isfinite(x); })) {
     throw Error(
         "the exact solution leaves the numbers before t = {:.6g}: it blows up, and there is no reference beyond", t);
@@ -60,8 +64,7 @@ class Patience {
 
   void count(double t) {
     if (++evaluations_ % look_every != 0) return;
-    if (stop_ && stop_->load(std::memory_order_relaxed))
-      throw Error("the reference solution was interrupted at t = {}", t);
+    heed(stop_, t);
     const double expected = static_cast<double>(evaluations_) * t_end_ / t;
     if (evaluations_ >= first_estimate && !(expected * unknowns_ <= most_work))
       throw Error(

@@ -1,5 +1,6 @@
 #include <seiche/backend/balance.hpp>
 #include <seiche/backend/grid_space.hpp>
+#include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/eigenpairs.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/modes.hpp>
@@ -261,10 +262,6 @@ std::vector<SpectrumRow> rows_of_matrix(const Problem& linear, OneStep& step, do
   return rows;
 }
 
-bool varies(const LinearDamping& damping) {
-  return (damping.rate && !damping.rate->is_constant()) || (damping.field_rate && !damping.field_rate->is_constant());
-}
-
 }  // namespace
 
 Spectrum spectrum(const Problem& problem, const SimulationOptions& options, double h, const std::atomic<bool>* stop) {
@@ -289,7 +286,7 @@ Spectrum spectrum(const Problem& problem, const SimulationOptions& options, doub
   result.method = options.method;
   result.backend = step.simulation().backend();
   result.h = h;
-  result.rates_frozen = varies(problem.damping);
+  result.rates_frozen = !has_constant_rates(problem.damping);
   result.has_potential = problem.potential != nullptr;
   result.has_drives = problem.friction || problem.has_forces() || problem.structure;
   const Linearity seen = linearity_of(step, random_state(problem.size(), 1), random_state(problem.size(), 2));
