@@ -314,8 +314,7 @@ ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& option
                            .t_end = spec.t_end,
                            .energy_every = spec.energy_every,
                            .threads = options.threads,
-                           .promise =
-                               [&](const Simulation& simulation) { return promise_energy_law(simulation, spec.t_end); },
+                           .promise = [&](const Simulation& member) { return promise_energy_law(member, spec.t_end); },
                            .objection = negative_rate,
                            .on_record = [&](const EnsembleRecord& record) { energies.write(record); },
                            .stop = &stop});

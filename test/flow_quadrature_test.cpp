@@ -32,7 +32,7 @@ TEST(FlowQuadrature, MissesWhatTheClosedFormSays) {
       if (backend.name == "sparse" && gamma > 1e4) continue;  // refused: a step would take a million Krylov substeps
       const System system = backend.system(problem, {});
       const auto phi = system.make_phi();
-      FlowQuadrature quadrature(system, *phi, rule.nodes, rule.weights);
+      FlowQuadrature quadrature(system, *phi, PhiRows::Forces::states, rule.nodes, rule.weights);
       for (const double force : {0.0, 5.0}) {
         constexpr double h = 0.1;
         Vector n(system.initial.size());
@@ -43,33 +43,57 @@ TEST(FlowQuadrature, MissesWhatTheClosedFormSays) {
         double sum = 0;
         for (Index i = 0; i < 3; ++i)
           sum += h * rule.weights[i] * gamma * std::pow(rest + away * std::exp(-gamma * h * rule.nodes[i]), 2);
-        EXPECT_NEAR(quadrature.miss(h, system.initial, n), sum - integral, 1e-12 * (sum + integral))
+        EXPECT_NEAR(quadrature.miss(h, system.initial, n, 0), sum - integral, 1e-12 * (sum + integral))
             << backend.name << " " << gamma << " " << force;
       }
     }
   }
 }
 
-// u modes of a wave with γ on all of them, on every backend: no quadrature of a few nodes follows many periods.
+// Blocks that are real, complex, and complex and of size two, of steps up to many periods: no quadrature of a few nodes
+// follows these.
 TEST(FlowQuadrature, IsTheSameOnEveryBackend) {
-  const Problem problem = custom_problem({.grid = GridOptions{.points = {8}, .length = {0.5}},
-                                          .H = "v^2/2 + u_x^2/2 + u^4/4",
-                                          .D = {{"0", "0"}, {"0", "0.3"}},
-                                          .initial = {{"u", "exp(sin(4*pi*x))"}, {"v", "cos(12*pi*x)"}}});
+  const std::vector<CustomProblem> problems = {
+      {.grid = GridOptions{.points = {8}, .length = {0.5}},
+       .H = "v^2/2 + u_x^2/2 + u^4/4",
+       .D = {{"0", "0"}, {"0", "0.3"}},
+       .initial = {{"u", "exp(sin(4*pi*x))"}, {"v", "cos(12*pi*x)"}}},
+      {.fields = {"u"},
+       .grid = GridOptions{.points = {12}, .length = {1}},
+       .H = "u_x^2/2 - u^3/6",
+       .S = {{"d_x"}},
+       .D = {{"0.5"}},
+       .initial = {{"u", "exp(sin(2*pi*x))"}}},
+      {.fields = {"a", "b"},
+       .grid = GridOptions{.points = {12}, .length = {1}},
+       .H = "(a_x^2 + b_x^2)/2 + a^2 + a^4/4",
+       .S = {{"d_x", "1"}, {"-1", "d_x"}},
+       .D = {{"0.5", "0"}, {"0", "0.5"}},
+       .initial = {{"a", "exp(sin(2*pi*x))"}, {"b", "cos(4*pi*x)"}}},
+  };
   const GaussRule rule(4);
-  std::vector<double> missed;
-  for (const BackendEntry& backend : backends_for(problem)) {
-    const System system = backend.system(problem, {});
-    const auto phi = system.make_phi();
-    FlowQuadrature quadrature(system, *phi, rule.nodes, rule.weights);
-    Vector n(system.initial.size()), gradient = Vector::Zero(n.size());
-    system.potential->gradient(system.initial, gradient);
-    system.linear->apply_S(gradient, n);
-    missed.push_back(quadrature.miss(1.0, system.initial, n));
+  for (const CustomProblem& custom : problems) {
+    const Problem problem = custom_problem(custom);
+    for (const double h : {0.01, 1.0}) {
+      std::vector<double> missed;
+      for (const BackendEntry& backend : backends_for(problem)) {
+        const System system = backend.system(problem, {});
+        const auto phi = system.make_phi();
+        Vector n(system.initial.size()), gradient = Vector::Zero(n.size());
+        system.potential->gradient(system.initial, gradient);
+        system.linear->apply_S(gradient, n);
+        for (const bool as_gradient : {true, false}) {
+          const auto kind = as_gradient ? PhiRows::Forces::gradients : PhiRows::Forces::states;
+          FlowQuadrature quadrature(system, *phi, kind, rule.nodes, rule.weights);
+          missed.push_back(quadrature.miss(h, system.initial, as_gradient ? gradient : n, 0));
+        }
+      }
+      ASSERT_GE(missed.size(), 6U);
+      for (const double miss : missed)
+        EXPECT_NEAR(miss, missed[0], 1e-8 * std::abs(missed[0]) + 1e-11) << custom.H << ", " << h;
+      EXPECT_GT(std::abs(missed[0]), h == 1 ? 1e-3 : 0.0) << custom.H;
+    }
   }
-  ASSERT_GE(missed.size(), 3U);
-  for (const double miss : missed) EXPECT_NEAR(miss, missed[0], 1e-9 * std::abs(missed[0]));
-  EXPECT_GT(std::abs(missed[0]), 1e-3);
 }
 
 using RightHandSide = std::function<Vector(const Vector& z)>;

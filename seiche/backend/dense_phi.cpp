@@ -90,9 +90,22 @@ class DensePhiForms final : public PhiForms {
         const Matrix row = stack_.joined(blocks.of(form.rows.rows[i]));
         gram.noalias() += form.coefficients[i] * (row.transpose() * (Q * row));
       }
+      if (form.minus_integral) gram -= integral_of_dissipation(form.rows, linear, h);
       grams_.emplace_back(gram);
     }
     image_.resize(grams_.front().padded_rows());
+  }
+
+  // The form of ∫Q, in z and the forces.
+  Matrix integral_of_dissipation(const PhiRows& rows, const LinearBlocks<Matrix>& linear, double h) const {
+    const Index n = linear.S.rows();
+    const bool gradients = rows.kind == PhiRows::Forces::gradients;
+    const Matrix to_state = gradients ? linear.S : Matrix(Matrix::Identity(n, n));
+    std::vector<Matrix> zero_and_forces(static_cast<std::size_t>(rows.forces) + 1, to_state);
+    zero_and_forces[0].setZero();
+    Matrix z_and_n(2 * n, stack_.size());
+    z_and_n << Matrix::Identity(n, stack_.size()), stack_.joined(zero_and_forces);
+    return z_and_n.transpose() * (flow_dissipation(linear, h) * z_and_n);
   }
 
   void apply(const Vector& z, std::span<const Vector> forces, std::span<double> values) const override {
@@ -112,6 +125,7 @@ class DensePhiForms final : public PhiForms {
 class DensePhi final : public PhiEvaluator {
  public:
   bool has_tables() const override { return true; }
+  double rate() const override { return rate_; }
 
   DensePhi(Matrix S, const Matrix& M, const Matrix& D0, Potential::Support support)
       : linear_{std::move(S), M, D0}, Q_(dissipation_matrix<Matrix>(linear_.S, M, D0)), support_(support) {
@@ -121,6 +135,7 @@ class DensePhi final : public PhiEvaluator {
     dissipation_.is_zero = D0.isZero(0) && twice_sym.isZero(0);
     const Vector rates = Eigen::SelfAdjointEigenSolver<Matrix>(Q_, Eigen::EigenvaluesOnly).eigenvalues();
     dissipation_.is_nonnegative = rates.minCoeff() >= -1e-13 * rates.cwiseAbs().maxCoeff();
+    rate_ = scaled_norm(linear_.L());
     kernel_ = dense_kernel<Eigen::MatrixXd>(linear_.S.transpose());
     products_.resize(kernel_.cols());
   }
@@ -144,6 +159,7 @@ class DensePhi final : public PhiEvaluator {
  private:
   LinearBlocks<Matrix> linear_;
   Matrix Q_;
+  double rate_ = 0;
   Potential::Support support_;
   Dissipation dissipation_;
   Matrix kernel_;  // orthonormal columns

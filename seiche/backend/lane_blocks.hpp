@@ -17,6 +17,9 @@ struct ComplexLanes {
 [[gnu::always_inline]] inline ComplexLanes operator+(const ComplexLanes& a, const ComplexLanes& b) {
   return {a.re + b.re, a.im + b.im};
 }
+[[gnu::always_inline]] inline ComplexLanes operator-(const ComplexLanes& a, const ComplexLanes& b) {
+  return {a.re - b.re, a.im - b.im};
+}
 [[gnu::always_inline]] inline ComplexLanes operator*(const ComplexLanes& a, const ComplexLanes& b) {
   return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }

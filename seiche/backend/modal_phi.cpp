@@ -150,6 +150,7 @@ class ModalPhiForms final : public PhiForms {
             row.col(j) = of_row[static_cast<std::size_t>(columns_[j].block)].col(columns_[j].field);
           gram += forms[l].coefficients[i] * (row.adjoint() * (Q * row));
         }
+        if (forms[l].minus_integral) gram -= integral_of_dissipation<Matrix>(forms[l].rows, mode, h);
         for (Index i = 0; i < columns_.size(); ++i)
           for (Index j = i; j < columns_.size(); ++j) forms_.set(k, static_cast<Index>(l), i, j, gram(i, j));
       }
@@ -161,6 +162,22 @@ class ModalPhiForms final : public PhiForms {
   }
 
  private:
+  // The form of ∫Q, in the columns.
+  template <class Matrix>
+  Matrix integral_of_dissipation(const PhiRows& rows, const LinearBlocks<Matrix>& mode, double h) const {
+    const Index m = mode.S.rows();
+    Matrix z_and_n = Matrix::Zero(2 * m, columns_.size());
+    for (Index j = 0; j < columns_.size(); ++j) {
+      if (columns_[j].block == 0)
+        z_and_n(columns_[j].field, j) = 1;
+      else if (rows.kind == PhiRows::Forces::gradients)
+        z_and_n.col(j).tail(m) = mode.S.col(columns_[j].field);
+      else
+        z_and_n(m + columns_[j].field, j) = 1;
+    }
+    return z_and_n.adjoint() * (flow_dissipation(mode, h) * z_and_n);
+  }
+
   Columns columns_;
   int threads_;
   ModeForms forms_;
@@ -176,6 +193,7 @@ auto with_block_type(const Symbols& symbols, const Body& body) {
 class ModalPhi final : public PhiEvaluator {
  public:
   bool has_tables() const override { return true; }
+  double rate() const override { return blocks_.largest_size(); }
 
   explicit ModalPhi(const ModalOperators& o)
       : symbols_{Modes(o.grid), o.S, o.M, o.D0},
@@ -255,6 +273,7 @@ class ModalPhi final : public PhiEvaluator {
           blocks_.set(k, ModeBlockArrays::S, i, j, mode.S(i, j));
           blocks_.set(k, ModeBlockArrays::L, i, j, L(i, j));
           blocks_.set(k, ModeBlockArrays::Q, i, j, Q(i, j));
+          blocks_.set(k, ModeBlockArrays::M, i, j, mode.M(i, j));
         }
       }
       blocks_.set_size(k, scaled_norm(L));

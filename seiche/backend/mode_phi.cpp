@@ -77,6 +77,47 @@ SEICHE_MULTIVERSION void fill_sums_of(const Arrays& arrays, const PhiRows& rows,
   }
 }
 
+// Of eight modes: what a flow ẋ = Lx + Σn_j makes of z, block 0, and of each n_j, block 1.
+template <class Scalar, int m>
+struct FlowBlocks {
+  using Block = ModeBlock<Scalar, m>;
+  Block M;
+  std::array<Block, 2> start{}, force{}, end, integral;  // x(0), n, x(h), ∫₀ʰ x dt
+
+  [[gnu::always_inline]] inline FlowBlocks(const Arrays& arrays, const PhiRows& rows, double h, Index first,
+                                           RowOfBlocks<Scalar, m>& row)
+      : M(load_block<Scalar, m>(arrays, Arrays::M, first)) {
+    lane_phi_functions(row.L, row.size, 2, row.phi.data());
+    start[0].add_to_diagonal(all_lanes(1.0));
+    end[0] = row.phi[0];
+    integral[0] = all_lanes(h) * row.phi[1];
+    const bool gradients = rows.kind == PhiRows::Forces::gradients;
+    if (gradients)
+      force[1] = row.S;
+    else
+      force[1].add_to_diagonal(all_lanes(1.0));
+    end[1] = all_lanes(h) * row.phi[1] * force[1];
+    integral[1] = all_lanes(h * h) * row.phi[2] * force[1];
+  }
+
+  // The factor of columns a and b in ∫₀ʰ Q dt = ½zᴴMz − ½x(h)ᴴMx(h) + Re nᴴM∫x.
+  [[gnu::always_inline]] inline Scalar dissipated(const PhiColumn& a, const PhiColumn& b) const {
+    const int i = a.block > 0, j = b.block > 0;
+    const int p = static_cast<int>(a.field), q = static_cast<int>(b.field);
+    const Scalar twice = product(start[i], p, start[j], q) - product(end[i], p, end[j], q) +
+                         product(force[i], p, integral[j], q) + product(integral[i], p, force[j], q);
+    return all_lanes(0.5) * twice;
+  }
+
+ private:
+  [[gnu::always_inline]] inline Scalar product(const Block& x, int p, const Block& y, int q) const {
+    Scalar sum{};
+    for (int k = 0; k < m; ++k)
+      for (int f = 0; f < m; ++f) sum = sum + conjugate(x(f, p)) * M(f, k) * y(k, q);
+    return sum;
+  }
+};
+
 // Σ_i c_i B_iᴴ Q B_i, with B_i the columns of the blocks of row i.
 template <class Scalar, int m>
 SEICHE_MULTIVERSION void fill_forms_of(const Arrays& arrays, std::span<const PhiEvaluator::Form> forms, double h,
@@ -108,6 +149,13 @@ SEICHE_MULTIVERSION void fill_forms_of(const Arrays& arrays, std::span<const Phi
           }
         }
       }
+      if (forms[l].minus_integral) {
+        const FlowBlocks<Scalar, m> flow(arrays, rows, h, first, row);
+        std::size_t e = 0;
+        for (std::size_t a = 0; a < columns.size(); ++a)
+          for (std::size_t b = a; b < columns.size(); ++b, ++e)
+            gram[e] = gram[e] - flow.dissipated(columns[a], columns[b]);
+      }
       std::size_t e = 0;
       for (std::size_t a = 0; a < columns.size(); ++a)
         for (std::size_t b = a; b < columns.size(); ++b, ++e)
@@ -121,7 +169,7 @@ SEICHE_MULTIVERSION void fill_forms_of(const Arrays& arrays, std::span<const Phi
 
 ModeBlockArrays::ModeBlockArrays(Index modes, Index fields, bool are_real)
     : fields_(fields), parts_(are_real ? 1 : 2), padded_((modes + lane_count - 1) / lane_count * lane_count) {
-  entries_.resize(static_cast<std::size_t>(3 * fields * fields * parts_ * padded_));
+  entries_.resize(static_cast<std::size_t>(4 * fields * fields * parts_ * padded_));
   sizes_.resize(static_cast<std::size_t>(padded_));
 }
 

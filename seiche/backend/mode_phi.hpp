@@ -11,12 +11,12 @@
 
 namespace seiche {
 
-// S, L = SM − D₀ and Q of every mode, entry by entry, filled up with zeros to a multiple of eight modes.
+// S, L = SM − D₀, Q and M of every mode, entry by entry, filled up with zeros to a multiple of eight modes.
 class ModeBlockArrays {
  public:
   ModeBlockArrays(Index modes, Index fields, bool are_real);
 
-  enum Which { S, L, Q };
+  enum Which { S, L, Q, M };
   void set(Index mode, Which which, Index i, Index j, std::complex<double> value);
   // ‖Lᵏ‖^{1/k} for a k or two: what its φ-functions are scaled by.
   void set_size(Index mode, double size) { sizes_[static_cast<std::size_t>(mode)] = size; }

@@ -220,4 +220,22 @@ Matrix dissipation_matrix(const Matrix& S, const Matrix& M, const Matrix& D) {
   return 0.5 * (MD + MD.adjoint()) - 0.5 * (M * (S + S.adjoint()) * M);
 }
 
+// ∫₀ʰ Q(x) dt along ẋ = Lx + n as a form of z = x(0) above n, by the energy at both ends:
+//   ½zᴴMz − ½x(h)ᴴMx(h) + Re nᴴM∫x,   x(h) = φ₀z + hφ₁n,   ∫₀ʰx dt = hφ₁z + h²φ₂n,   φ_k of hL
+template <class Matrix>
+Matrix flow_dissipation(const LinearBlocks<Matrix>& blocks, double h) {
+  const Index m = blocks.M.rows();
+  const PhiRows of_z_and_n{.rows = {}, .forces = 1, .order = 2, .kind = PhiRows::Forces::states};
+  PhiRowBlocks<Matrix> sums(of_z_and_n, blocks, h);
+  Matrix start = Matrix::Zero(m, 2 * m), end(m, 2 * m), integral(m, 2 * m), force = start;
+  start.leftCols(m).setIdentity();
+  force.rightCols(m).setIdentity();
+  const std::vector<Matrix>& first = sums.of({1.0, {1.0, 0.0}});
+  end << first[0], first[1];
+  integral.leftCols(m) = first[1];
+  integral.rightCols(m) = sums.of({1.0, {0.0, h}})[1];
+  const Matrix work = force.adjoint() * (blocks.M * integral);
+  return 0.5 * (start.adjoint() * (blocks.M * start) - end.adjoint() * (blocks.M * end) + work + work.adjoint());
+}
+
 }  // namespace seiche

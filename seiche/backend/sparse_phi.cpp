@@ -102,11 +102,57 @@ class SparsePhiMap final : public PhiMap {
   mutable Vector sum_;
 };
 
+// ∫₀ʰ Q(x) dt along ẋ = Lx + n from z: ½zᵀMz − ½x(h)ᵀMx(h) + nᵀM∫x with ∫x = hφ₁z + h²φ₂n.
+class FlowDissipation {
+ public:
+  FlowDissipation(std::shared_ptr<const SparseOperators> operators, const std::shared_ptr<Common>& common,
+                  PhiRows::Forces kind, double h)
+      : operators_(std::move(operators)),
+        gradients_(kind == PhiRows::Forces::gradients),
+        of_forces_(gradients_ ? common->support : Support{0, common->size()}),
+        z_and_n_(2, Vector::Zero(common->size())),
+        sum_(z_and_n_[0]),
+        image_(sum_) {
+    const PhiRow row{1.0, {1.0, 0.0, 0.0, h}};
+    constexpr auto states = PhiRows::Forces::states;
+    const PhiRows rows{.rows = {row}, .forces = 2, .order = 2, .kind = states, .of_state = false};
+    integral_ = std::make_unique<SparsePhiMap>(rows, common, h);
+  }
+
+  double operator()(const Vector& z, const Vector& end, std::span<const Vector> forces) const {
+    sum_.setZero();
+    for (const Vector& f : forces)
+      sum_.segment(of_forces_.begin, of_forces_.size) += f.segment(of_forces_.begin, of_forces_.size);
+    z_and_n_[0] = z;
+    Vector& n = z_and_n_[1];
+    if (gradients_)
+      n.noalias() = operators_->S * sum_;
+    else
+      n = sum_;
+    integral_->apply(z, z_and_n_, {&sum_, 1});
+    return 0.5 * (by_M(z, z) - by_M(end, end)) + by_M(n, sum_);
+  }
+
+ private:
+  double by_M(const Vector& x, const Vector& y) const {
+    image_.noalias() = operators_->M * y;
+    return x.dot(image_);
+  }
+
+  std::shared_ptr<const SparseOperators> operators_;
+  bool gradients_;
+  Support of_forces_;
+  std::unique_ptr<SparsePhiMap> integral_;
+  mutable std::vector<Vector> z_and_n_;
+  mutable Vector sum_, image_;  // of the forces, then ∫x
+};
+
 // The rows of all forms as outputs of one map, then a product with Q for each.
 class SparsePhiForms final : public PhiForms {
  public:
   SparsePhiForms(std::span<const PhiEvaluator::Form> forms, std::shared_ptr<Common> common,
-                 std::shared_ptr<const SparseMatrix> Q, double h)
+                 const std::shared_ptr<const SparseOperators>& operators, std::shared_ptr<const SparseMatrix> Q,
+                 double h)
       : Q_(std::move(Q)), Qz_(common->size()) {
     PhiRows all = forms.front().rows;
     all.outputs = PhiRows::Outputs::all;
@@ -114,6 +160,12 @@ class SparsePhiForms final : public PhiForms {
     for (const PhiEvaluator::Form& form : forms) {
       all.rows.insert(all.rows.end(), form.rows.rows.begin(), form.rows.rows.end());
       coefficients_.push_back(form.coefficients);
+      less_integral_.push_back(form.minus_integral);
+      if (!form.minus_integral) continue;
+      if (!integral_) integral_.emplace(operators, common, all.kind, h);
+      PhiRow end{1.0, std::vector<double>(static_cast<std::size_t>(all.forces * all.order))};
+      for (Index j = 0; j < all.forces; ++j) end.weights[static_cast<std::size_t>(j * all.order)] = 1;
+      all.rows.push_back(std::move(end));
     }
     states_.assign(all.rows.size(), Vector(common->size()));
     map_ = std::make_unique<SparsePhiMap>(all, std::move(common), h);
@@ -129,6 +181,7 @@ class SparsePhiForms final : public PhiForms {
         values[l] += c * states_[row].dot(Qz_);
         ++row;
       }
+      if (less_integral_[l]) values[l] -= (*integral_)(z, states_[row++], forces);
     }
   }
 
@@ -136,6 +189,8 @@ class SparsePhiForms final : public PhiForms {
   std::unique_ptr<SparsePhiMap> map_;
   std::shared_ptr<const SparseMatrix> Q_;
   std::vector<std::vector<double>> coefficients_;
+  std::vector<bool> less_integral_;
+  std::optional<FlowDissipation> integral_;
   mutable std::vector<Vector> states_;
   mutable Vector Qz_;
 };
@@ -161,8 +216,10 @@ class SparsePhi final : public PhiEvaluator {
   }
   std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const override {
     common_->require_reach(h);
-    return std::make_unique<SparsePhiForms>(forms, common_, Q(), h);
+    return std::make_unique<SparsePhiForms>(forms, common_, operators_, Q(), h);
   }
+
+  double rate() const override { return common_->rate; }
 
   Dissipation dissipation() const override {
     if (dissipation_) return *dissipation_;

@@ -52,14 +52,19 @@ class PhiEvaluator {
   struct Form {
     PhiRows rows;
     std::vector<double> coefficients;  // one per row
+    // Less ∫₀ʰ Q(x) dt along ẋ = Lx + Σn_j from z: of a quadrature of Q along x, its error.
+    bool minus_integral = false;
   };
 
   virtual ~PhiEvaluator() = default;
   // Are maps tables, so that to apply one costs no more than a gradient of V or two? Where each is a Krylov space,
   // methods must ask for as few as they can.
   virtual bool has_tables() const { return false; }
+  // Solutions of ż = Lz turn and decay no faster than this: at least the largest modulus of an eigenvalue, and seldom
+  // much more.
+  virtual double rate() const = 0;
   virtual std::unique_ptr<PhiMap> map(const PhiRows& rows, double h) const = 0;
-  // Forms of the same forces and order. Only where the dissipation is quadratic.
+  // Forms of the same forces and order.
   virtual std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const = 0;
 
   struct Dissipation {

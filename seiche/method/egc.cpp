@@ -292,7 +292,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   }
 
   void prepare_flow(double h) override { dissipation_.prepare_flow(h); }
-  double flow_missed(const State& s, double h) override { return dissipation_.flow_missed(h, s.z, forces_); }
+  double flow_missed(const State& s, double h) override { return dissipation_.flow_missed(h, s, forces_); }
 
   // The forces before the step are left in forces_.
   void accept(State& s, double h, bool resolved) override {

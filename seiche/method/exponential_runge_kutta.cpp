@@ -45,7 +45,7 @@ class ExponentialRungeKutta final : public BaseStep {
     return amount;
   }
   void prepare_flow(double h) override { dissipation_.prepare_flow(h); }
-  double flow_missed(const State& s, double h) override { return dissipation_.flow_missed(h, s.z, used()); }
+  double flow_missed(const State& s, double h) override { return dissipation_.flow_missed(h, s, used()); }
 
  private:
   struct Tables {

@@ -47,7 +47,7 @@ StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, 
     nodes << 0, 1, rules_.nested.coarse.nodes, rules_.nested.more;
     weights = rules_.nested.fine;
   }
-  flow_ = std::make_unique<FlowQuadrature>(system, phi, std::move(nodes), std::move(weights));
+  flow_ = std::make_unique<FlowQuadrature>(system, phi, output_.kind, std::move(nodes), std::move(weights));
   at_end_ = output_.weights(1.0);
   start_.setZero(size);
   gradient_.setZero(size);
@@ -135,17 +135,15 @@ void StepDissipation::prepare_flow(double h) {
 
 // The polynomial through the forces takes the value Σ_j C_0j n_j at θ = 0, and weights(1) begins with C_0j for each
 // force.
-double StepDissipation::flow_missed(double h, const Vector& z, std::span<const Vector> forces) {
+double StepDissipation::flow_missed(double h, const State& s, std::span<const Vector> forces) {
   if (!flow_ || flow_->resolves(h)) return 0;
   const bool gradients = output_.kind == PhiRows::Forces::gradients;
-  const Potential::Support of = gradients ? system_.potential->support() : Potential::Support{0, z.size()};
-  Vector& sum = gradients ? gradient_ : start_;
-  sum.setZero();
-  for (std::size_t j = 0; j < forces.size(); ++j)
-    sum.segment(of.begin, of.size) +=
-        at_end_[j * static_cast<std::size_t>(output_.order)] * forces[j].segment(of.begin, of.size);
-  if (gradients) system_.linear->apply_S(sum, start_);
-  return flow_->miss(h, z, start_);
+  const Potential::Support of = gradients ? system_.potential->support() : Potential::Support{0, s.z.size()};
+  auto start = start_.segment(of.begin, of.size);
+  start = at_end_[0] * forces[0].segment(of.begin, of.size);
+  for (std::size_t j = 1; j < forces.size(); ++j)
+    start += at_end_[j * static_cast<std::size_t>(output_.order)] * forces[j].segment(of.begin, of.size);
+  return flow_->miss(h, s.z, start_, s.energy_terms);
 }
 
 StepDissipation::Energies StepDissipation::energies(const Vector& z, double H) const {

@@ -2,6 +2,7 @@
 // method.
 #pragma once
 
+#include <seiche/core/state.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/core/system.hpp>
 #include <seiche/method/flow_quadrature.hpp>
@@ -77,9 +78,9 @@ class StepDissipation {
   Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Energies& before,
                  const Energies& after, std::span<const Energies> at_nodes = {});
 
-  // What the finer quadrature misses of the linear flow from z under the force of the step's start; 0 where it resolves
+  // What the finer quadrature misses of the linear flow from s under the force of the step's start; 0 where it resolves
   // it.
-  double flow_missed(double h, const Vector& z, std::span<const Vector> forces);
+  double flow_missed(double h, const State& s, std::span<const Vector> forces);
   void prepare_flow(double h);  // so that this allocates nothing
 
  private:
@@ -107,7 +108,7 @@ class StepDissipation {
   Vector gradient_, scratch_, gradient_H_;
   std::unique_ptr<FlowQuadrature> flow_;
   std::vector<double> at_end_;  // weights of the output at θ = 1
-  Vector start_;                // the force of the step's start, as a state
+  Vector start_;                // the force of the step's start
 };
 
 }  // namespace seiche
