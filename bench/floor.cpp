@@ -1,9 +1,9 @@
 #include "floor.hpp"
 
 #include <fftw3.h>
-#include <seiche/backend/transform.hpp>
-#include <seiche/config/simulation.hpp>
+#include <seiche/backend/fft/transform.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <algorithm>
 #include <chrono>

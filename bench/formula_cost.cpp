@@ -1,12 +1,12 @@
 // What a potential by a formula costs beside the same one in C++, in turns on 4096 points: gradients alone, and whole
 // steps.
-#include <seiche/config/custom_problem.hpp>
-#include <seiche/config/simulation.hpp>
+#include <seiche/config/custom/custom_problem.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/potential/formula_potential.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/nls.hpp>
 #include <seiche/problem/sine_gordon.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -1,8 +1,8 @@
 #include "step_beside.hpp"
 
-#include <seiche/backend/transform.hpp>
-#include <seiche/config/simulation.hpp>
+#include <seiche/backend/fft/transform.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include "transform_count.hpp"
 #include "turns.hpp"

@@ -1,10 +1,10 @@
 // Nanoseconds per grid point and step of every method on every backend, beside the step's own transforms and a triad.
-#include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 #include "transform_count.hpp"
 
-#include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 namespace seiche::bench {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <seiche/study/certificate.hpp>
+#include <seiche/simulation/certificate.hpp>
 
 #include <memory>
 

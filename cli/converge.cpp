@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <seiche/config/case_value.hpp>
+#include <seiche/config/case/case_value.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/law.hpp>
+#include <seiche/law/law.hpp>
 #include <seiche/study/converge.hpp>
 
 #include <algorithm>

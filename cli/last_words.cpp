@@ -1,7 +1,7 @@
 #include "last_words.hpp"
 
 #include <seiche/core/error.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/final_state.hpp>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // What a run leaves first when its time loop has ended: the files that nobody could write again.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
 #include <seiche/core/observer.hpp>
-#include <seiche/output/reserve_file.hpp>
+#include <seiche/output/file/reserve_file.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <functional>
 #include <string>

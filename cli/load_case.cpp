@@ -1,7 +1,7 @@
 #include "load_case.hpp"
 
 #include <fmt/format.h>
-#include <seiche/config/case_file.hpp>
+#include <seiche/config/case/case_file.hpp>
 
 #include <iostream>
 #include <iterator>

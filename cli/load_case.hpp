@@ -2,7 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <seiche/config/run_spec.hpp>
+#include <seiche/config/case/run_spec.hpp>
 
 #include <string>
 #include <vector>

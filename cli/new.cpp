@@ -1,7 +1,7 @@
 // seiche new: a case file to start from, every key with its meaning.
 #include "command_line.hpp"
 
-#include <seiche/config/case_file.hpp>
+#include <seiche/config/case/case_file.hpp>
 
 #include <memory>
 

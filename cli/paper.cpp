@@ -8,8 +8,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/figure/paper_pictures.hpp>
 #include <seiche/figure/report.hpp>
-#include <seiche/output/atomic_file.hpp>
-#include <seiche/output/folder_lock.hpp>
+#include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/progress_bar.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/study/paper.hpp>

@@ -3,9 +3,9 @@
 
 #include <fmt/ranges.h>
 #include <seiche/core/error.hpp>
-#include <seiche/figure/rendering.hpp>
+#include <seiche/figure/plot/rendering.hpp>
 #include <seiche/figure/run_report.hpp>
-#include <seiche/output/folder_lock.hpp>
+#include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_reader.hpp>
 

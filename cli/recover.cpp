@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 #include <seiche/core/error.hpp>
-#include <seiche/output/folder_lock.hpp>
-#include <seiche/output/hdf5.hpp>
+#include <seiche/output/file/folder_lock.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/study/recovery.hpp>
 

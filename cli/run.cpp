@@ -8,16 +8,14 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <seiche/config/case_file.hpp>
-#include <seiche/config/initial_file.hpp>
-#include <seiche/config/kick_stability.hpp>
-#include <seiche/config/simulation.hpp>
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/config/data/initial_file.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/law.hpp>
 #include <seiche/figure/run_report.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/law/law.hpp>
 #include <seiche/output/energy_trace.hpp>
-#include <seiche/output/folder_lock.hpp>
+#include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/progress.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_file.hpp>
@@ -25,7 +23,9 @@
 #include <seiche/problem/problems.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
-#include <seiche/study/certificate.hpp>
+#include <seiche/simulation/certificate.hpp>
+#include <seiche/simulation/kick_stability.hpp>
+#include <seiche/simulation/simulation.hpp>
 #include <seiche/version.hpp>
 
 #include <filesystem>

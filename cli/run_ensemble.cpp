@@ -5,20 +5,20 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <seiche/config/case_file.hpp>
-#include <seiche/config/kick_stability.hpp>
+#include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/law.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/figure/run_pictures.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/law/law.hpp>
 #include <seiche/output/csv_row.hpp>
 #include <seiche/output/csv_text.hpp>
-#include <seiche/output/folder_lock.hpp>
-#include <seiche/output/reserve_file.hpp>
+#include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/file/folder_lock.hpp>
+#include <seiche/output/file/reserve_file.hpp>
 #include <seiche/output/run_folder.hpp>
-#include <seiche/study/certificate.hpp>
+#include <seiche/simulation/certificate.hpp>
+#include <seiche/simulation/kick_stability.hpp>
 
 #include <algorithm>
 #include <cmath>

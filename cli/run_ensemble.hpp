@@ -3,7 +3,7 @@
 
 #include "command_line.hpp"
 
-#include <seiche/config/run_spec.hpp>
+#include <seiche/config/case/run_spec.hpp>
 
 namespace seiche::cli {
 

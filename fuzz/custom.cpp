@@ -1,9 +1,9 @@
 // Whatever formula stands at any place of a custom problem that takes one, the problem is made or refused with a
 // sentence.
-#include <seiche/config/case_file.hpp>
-#include <seiche/config/case_value.hpp>
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/config/case/case_value.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/law.hpp>
+#include <seiche/law/law.hpp>
 
 #include <cstdint>
 #include <string>

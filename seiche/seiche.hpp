@@ -1,19 +1,18 @@
 // Everything a program needs: problems, methods, backends, the time loop and its observers.
 //
-// Start here: seiche/solve/solve.hpp is one call for one run; seiche/config/simulation.hpp puts a problem, a method and
-// a backend together, to step oneself; seiche/core/problem.hpp says what a problem is; seiche/method/methods.hpp and
-// seiche/problem/problems.hpp list what there is.
+// Start here: seiche/simulation/solve.hpp is one call for one run; seiche/simulation/simulation.hpp puts a problem, a
+// method and a backend together, to step oneself; seiche/core/problem.hpp says what a problem is;
+// seiche/method/methods.hpp and seiche/problem/problems.hpp list what there is.
 #pragma once
 
-#include <seiche/config/custom_problem.hpp>
-#include <seiche/config/simulation.hpp>
+#include <seiche/config/custom/custom_problem.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/law.hpp>
 #include <seiche/core/observer.hpp>
 #include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/law/law.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
 #include <seiche/output/solution_file.hpp>
@@ -36,5 +35,6 @@
 #include <seiche/problem/variable_wave.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
-#include <seiche/solve/solve.hpp>
+#include <seiche/simulation/simulation.hpp>
+#include <seiche/simulation/solve.hpp>
 #include <seiche/version.hpp>

@@ -1,8 +1,8 @@
 // What the documentation shows is what is compiled, run and listed.
-#include "support/paths.hpp"
+#include <test/support/paths.hpp>
 
-#include <seiche/config/case_file.hpp>
-#include <seiche/config/simulation.hpp>
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
 
@@ -50,9 +50,10 @@ TEST(Documentation, TheCaseOfTheReadmeRuns) {
 TEST(Documentation, EveryTestAndFileThatTheMapOfThePaperAndTheTheoryNameExists) {
   const std::string map = text_of("docs/paper_map.md") + text_of("docs/site/theory.md");
   std::string tests;
-  for (const auto& entry : std::filesystem::directory_iterator(test::source_directory() + "/test"))
-    if (entry.path().extension() == ".cpp") tests += text_of("test/" + entry.path().filename().string());
-  const std::regex file("`((?:core|method|backend|study|problem|cases|docs)/[a-z_]+\\.(?:hpp|cpp|toml|md))");
+  const std::filesystem::path root = test::source_directory();
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "test"))
+    if (entry.path().extension() == ".cpp") tests += text_of(entry.path().lexically_relative(root).string());
+  const std::regex file("`((?:[a-z_]+/)+[a-z_]+\\.(?:hpp|cpp|toml|md))");
   int files = 0;
   for (std::sregex_iterator i(map.begin(), map.end(), file), end; i != end; ++i, ++files) {
     const std::string path = (*i)[1];

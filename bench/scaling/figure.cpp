@@ -1,6 +1,6 @@
 #include <bench/scaling/figure.hpp>
 #include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/plot.hpp>
+#include <seiche/figure/plot/plot.hpp>
 
 #include <algorithm>
 #include <cmath>

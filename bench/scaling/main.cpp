@@ -4,7 +4,7 @@
 #include <bench/scaling/problem.hpp>
 #include <bench/scaling/sizes.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 
 #include <algorithm>
 #include <cstdio>

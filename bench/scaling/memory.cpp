@@ -1,7 +1,7 @@
 #include <bench/scaling/memory.hpp>
 #include <bench/scaling/problem.hpp>
-#include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -1,7 +1,7 @@
 #include <bench/work_precision/figures.hpp>
 #include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/plot.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/figure/plot/plot.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 
 #include <fmt/format.h>
 

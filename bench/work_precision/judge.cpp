@@ -1,6 +1,6 @@
 #include <bench/work_precision/judge.hpp>
 #include <seiche/backend/backends.hpp>
-#include <seiche/core/law.hpp>
+#include <seiche/law/law.hpp>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include <bench/peers/groups.hpp>
 #include <bench/work_precision/page.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 
 #include <cstdio>
 #include <exception>

@@ -1,6 +1,6 @@
 #include <bench/peers/groups.hpp>
 #include <bench/work_precision/manifest.hpp>
-#include <seiche/config/simulation.hpp>
+#include <seiche/simulation/simulation.hpp>
 #include <seiche/version.hpp>
 
 #include <fmt/format.h>

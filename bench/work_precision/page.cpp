@@ -3,7 +3,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/report_style.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 
 #include <fmt/format.h>
 

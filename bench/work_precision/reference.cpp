@@ -2,8 +2,8 @@
 #include <bench/peers/hand_written.hpp>
 #include <bench/work_precision/reference.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/output/atomic_file.hpp>
 #include <seiche/output/csv_row.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <bench/work_precision/seiche_peers.hpp>
-#include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/run/adaptive.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <algorithm>
 #include <cmath>

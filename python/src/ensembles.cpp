@@ -2,9 +2,9 @@
 #include "bind.hpp"
 
 #include <pybind11/stl.h>
-#include <seiche/core/law.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/ensemble/members.hpp>
+#include <seiche/law/law.hpp>
 
 #include <limits>
 

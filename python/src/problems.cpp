@@ -2,10 +2,10 @@
 #include "bind.hpp"
 
 #include <pybind11/stl.h>
-#include <seiche/config/case_file.hpp>
-#include <seiche/config/field_potential.hpp>
-#include <seiche/config/formula_compiler.hpp>
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/config/custom/field_potential.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/formula/formula_compiler.hpp>
 #include <seiche/output/solution_layout.hpp>
 #include <seiche/potential/own_potential.hpp>
 #include <seiche/problem/problems.hpp>

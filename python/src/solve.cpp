@@ -3,7 +3,7 @@
 
 #include <pybind11/stl.h>
 #include <seiche/output/summary.hpp>
-#include <seiche/solve/solve.hpp>
+#include <seiche/simulation/solve.hpp>
 #include <seiche/study/versions.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "bind.hpp"
 
 #include <pybind11/stl.h>
-#include <seiche/study/certificate.hpp>
+#include <seiche/simulation/certificate.hpp>
 #include <seiche/study/converge.hpp>
 #include <seiche/study/spectrum.hpp>
 

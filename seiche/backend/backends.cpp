@@ -1,7 +1,7 @@
 #include <seiche/backend/backends.hpp>
-#include <seiche/backend/dense.hpp>
-#include <seiche/backend/modal.hpp>
-#include <seiche/backend/sparse.hpp>
+#include <seiche/backend/dense/dense.hpp>
+#include <seiche/backend/modal/modal.hpp>
+#include <seiche/backend/sparse/sparse.hpp>
 #include <seiche/core/error.hpp>
 
 #include <fftw3.h>

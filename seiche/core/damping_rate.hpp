@@ -1,7 +1,7 @@
 // A damping coefficient as a user states it: γ(t), or γ(x, t) that has yet to meet the points of a grid.
 #pragma once
 
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
 #include <seiche/core/rate.hpp>
 
 #include <memory>

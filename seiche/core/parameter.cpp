@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
-#include <seiche/core/number_text.hpp>
 #include <seiche/core/parameter.hpp>
+#include <seiche/core/text/number_text.hpp>
 
 #include <cmath>
 

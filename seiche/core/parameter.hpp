@@ -3,7 +3,7 @@
 #pragma once
 
 #include <seiche/core/damping_rate.hpp>
-#include <seiche/core/sparse_operators.hpp>
+#include <seiche/core/grid/sparse_operators.hpp>
 
 #include <limits>
 #include <map>

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <seiche/core/friction.hpp>
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
+#include <seiche/core/grid/sparse_operators.hpp>
+#include <seiche/core/grid/stencil.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/rate.hpp>
-#include <seiche/core/sparse_operators.hpp>
-#include <seiche/core/stencil.hpp>
 #include <seiche/core/structure.hpp>
 
 #include <memory>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/core/damping_rate.hpp>
-#include <seiche/core/formula.hpp>
+#include <seiche/formula/formula.hpp>
 
 namespace seiche {
 

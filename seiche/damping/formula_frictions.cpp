@@ -1,4 +1,4 @@
-#include <seiche/core/number_text.hpp>
+#include <seiche/core/text/number_text.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 
 #include <fmt/format.h>

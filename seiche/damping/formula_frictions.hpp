@@ -1,9 +1,9 @@
 // Friction by formula: c(u, t, x)·v, or any r(v, u, t, x).
 #pragma once
 
-#include <seiche/core/formula.hpp>
 #include <seiche/core/friction.hpp>
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
+#include <seiche/formula/formula.hpp>
 
 namespace seiche {
 

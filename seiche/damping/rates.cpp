@@ -1,5 +1,5 @@
 #include <seiche/core/error.hpp>
-#include <seiche/core/number_text.hpp>
+#include <seiche/core/text/number_text.hpp>
 #include <seiche/damping/adaptive_integral.hpp>
 #include <seiche/damping/rates.hpp>
 

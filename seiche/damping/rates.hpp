@@ -1,8 +1,8 @@
 // Damping coefficients γ(t): a constant, or a formula in t.
 #pragma once
 
-#include <seiche/core/formula.hpp>
 #include <seiche/core/rate.hpp>
+#include <seiche/formula/formula.hpp>
 
 namespace seiche {
 

@@ -1,4 +1,4 @@
-#include <seiche/core/pack.hpp>
+#include <seiche/core/simd/pack.hpp>
 #include <seiche/ensemble/block_map.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // A linear map on panels, as the small dense blocks that its matrix falls into.
 #pragma once
 
-#include <seiche/core/panel.hpp>
+#include <seiche/core/simd/panel.hpp>
 
 #include <Eigen/Dense>
 

@@ -10,7 +10,7 @@ namespace seiche {
 namespace {
 
 constexpr int max_sweeps = 100;
-constexpr double stagnation = 100;  // in units of the tolerance, as in method/avf.cpp
+constexpr double stagnation = 100;  // in units of the tolerance, as in method/closure/avf.cpp
 
 class LaneAvf final : public LaneStepper {
  public:

@@ -1,4 +1,4 @@
-// Averaged vector field closure on lanes: the fixed point of method/avf.cpp, each lane until it is there.
+// Averaged vector field closure on lanes: the fixed point of method/closure/avf.cpp, each lane until it is there.
 #pragma once
 
 #include <seiche/ensemble/lane_stepper.hpp>

@@ -1,4 +1,4 @@
-#include <seiche/core/multiversion.hpp>
+#include <seiche/core/simd/multiversion.hpp>
 #include <seiche/ensemble/lane_sav.hpp>
 #include <seiche/ensemble/row_loops.hpp>
 
@@ -17,7 +17,7 @@ struct Force {
 };
 
 // r̄ = (r + ¼gᵀFMz) / (1 − ¼gᵀFg) with the guard that lifts C and r² where V + C or r² has become small, as in
-// method/sav.cpp. Without branches, so that lanes are computed together.
+// method/closure/sav.cpp. Without branches, so that lanes are computed together.
 SEICHE_MULTIVERSION void take_force(const Powers& __restrict powers, bool guarded, LaneState& __restrict next,
                                     Force& __restrict force) {
   const double allowed = guarded ? 1.0 : 0.0;

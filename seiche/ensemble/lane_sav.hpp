@@ -1,4 +1,4 @@
-// Scalar auxiliary variable closure on lanes: the same lines as method/sav.cpp.
+// Scalar auxiliary variable closure on lanes: the same lines as method/closure/sav.cpp.
 #pragma once
 
 #include <seiche/ensemble/lane_stepper.hpp>

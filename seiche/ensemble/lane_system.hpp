@@ -1,10 +1,10 @@
 // The equation of up to sixteen members as maps on panels.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
-#include <seiche/core/lane_potential.hpp>
+#include <seiche/core/simd/lane_potential.hpp>
 #include <seiche/ensemble/block_map.hpp>
 #include <seiche/ensemble/folded_transform.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <memory>
 #include <span>

@@ -1,8 +1,8 @@
 // Up to sixteen members that advance together, each with its own state and status.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
-#include <seiche/core/panel.hpp>
+#include <seiche/core/simd/panel.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <array>
 #include <cstdint>

@@ -1,10 +1,10 @@
-#include <seiche/config/case_parameters.hpp>
-#include <seiche/config/initial_file.hpp>
-#include <seiche/config/run_memory.hpp>
+#include <seiche/config/case/case_parameters.hpp>
+#include <seiche/config/data/initial_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/physical_memory.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/problem/problems.hpp>
+#include <seiche/simulation/run_memory.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The members that a case file asks for.
 #pragma once
 
-#include <seiche/config/run_spec.hpp>
+#include <seiche/config/case/run_spec.hpp>
 #include <seiche/ensemble/member_block.hpp>
 
 #include <string>

@@ -1,7 +1,7 @@
 // What is done to whole panels element by element. Pointers to the first row.
 #pragma once
 
-#include <seiche/core/panel.hpp>
+#include <seiche/core/simd/panel.hpp>
 
 namespace seiche {
 

@@ -1,6 +1,6 @@
-#include <seiche/figure/axis.hpp>
 #include <seiche/figure/picture_choice.hpp>
-#include <seiche/figure/symbols.hpp>
+#include <seiche/figure/plot/axis.hpp>
+#include <seiche/figure/plot/symbols.hpp>
 
 #include <fmt/format.h>
 

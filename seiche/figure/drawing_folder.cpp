@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/figure/drawing_folder.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 
 #include <cstring>
 #include <system_error>

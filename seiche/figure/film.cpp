@@ -3,7 +3,7 @@
 #include <seiche/figure/film.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/picture_choice.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 
 #include <fmt/format.h>
 

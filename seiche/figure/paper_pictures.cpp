@@ -1,9 +1,9 @@
 #include <seiche/core/error.hpp>
-#include <seiche/figure/coincide.hpp>
-#include <seiche/figure/curves.hpp>
 #include <seiche/figure/drawing_folder.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/paper_pictures.hpp>
+#include <seiche/figure/plot/coincide.hpp>
+#include <seiche/figure/plot/curves.hpp>
 
 #include <fmt/format.h>
 

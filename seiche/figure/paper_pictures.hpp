@@ -2,7 +2,7 @@
 // studies. One file per picture and format.
 #pragma once
 
-#include <seiche/figure/plot.hpp>
+#include <seiche/figure/plot/plot.hpp>
 #include <seiche/study/results.hpp>
 
 #include <filesystem>

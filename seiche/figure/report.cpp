@@ -4,7 +4,7 @@
 #include <seiche/figure/report.hpp>
 #include <seiche/figure/report_style.hpp>
 #include <seiche/figure/report_tables.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/run_folder.hpp>
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
-#include <seiche/figure/curves.hpp>
 #include <seiche/figure/html.hpp>
+#include <seiche/figure/plot/curves.hpp>
+#include <seiche/figure/plot/style.hpp>
 #include <seiche/figure/report_tables.hpp>
-#include <seiche/figure/style.hpp>
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include <seiche/figure/coincide.hpp>
-#include <seiche/figure/corners.hpp>
-#include <seiche/figure/curves.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/picture_choice.hpp>
-#include <seiche/figure/style.hpp>
-#include <seiche/figure/symbols.hpp>
+#include <seiche/figure/plot/coincide.hpp>
+#include <seiche/figure/plot/corners.hpp>
+#include <seiche/figure/plot/curves.hpp>
+#include <seiche/figure/plot/style.hpp>
+#include <seiche/figure/plot/symbols.hpp>
 
 #include <fmt/format.h>
 

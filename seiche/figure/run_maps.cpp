@@ -1,6 +1,6 @@
-#include <seiche/figure/curves.hpp>
 #include <seiche/figure/picture_choice.hpp>
-#include <seiche/figure/symbols.hpp>
+#include <seiche/figure/plot/curves.hpp>
+#include <seiche/figure/plot/symbols.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include <seiche/figure/curves.hpp>
 #include <seiche/figure/drawing_folder.hpp>
 #include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/plot.hpp>
+#include <seiche/figure/plot/curves.hpp>
+#include <seiche/figure/plot/plot.hpp>
 #include <seiche/figure/spectrum_pictures.hpp>
 
 #include <fmt/format.h>

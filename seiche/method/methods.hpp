@@ -4,7 +4,7 @@
 
 #include <seiche/core/stepper.hpp>
 #include <seiche/core/system.hpp>
-#include <seiche/method/energy_law.hpp>
+#include <seiche/method/projection/energy_law.hpp>
 
 #include <memory>
 #include <optional>

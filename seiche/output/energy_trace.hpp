@@ -4,8 +4,8 @@
 #pragma once
 
 #include <seiche/core/observer.hpp>
-#include <seiche/output/atomic_file.hpp>
 #include <seiche/output/csv_row.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 
 #include <chrono>
 

@@ -1,5 +1,5 @@
-#include <seiche/output/atomic_file.hpp>
 #include <seiche/output/csv_row.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/final_state.hpp>
 
 namespace seiche {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <seiche/core/vector.hpp>
-#include <seiche/output/folder.hpp>
+#include <seiche/output/file/folder.hpp>
 
 namespace seiche {
 

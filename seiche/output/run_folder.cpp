@@ -1,5 +1,5 @@
 #include <seiche/core/error.hpp>
-#include <seiche/output/reserve_file.hpp>
+#include <seiche/output/file/reserve_file.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_reader.hpp>
 

@@ -6,8 +6,8 @@
 #include <seiche/core/observer.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/space.hpp>
-#include <seiche/output/atomic_file.hpp>
-#include <seiche/output/hdf5.hpp>
+#include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/solution_layout.hpp>
 
 #include <atomic>

@@ -1,4 +1,4 @@
-#include <seiche/core/axis_names.hpp>
+#include <seiche/core/text/axis_names.hpp>
 #include <seiche/output/solution_layout.hpp>
 
 #include <fmt/format.h>

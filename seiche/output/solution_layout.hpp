@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/core/problem.hpp>
-#include <seiche/output/hdf5.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
 
 #include <array>
 #include <string>

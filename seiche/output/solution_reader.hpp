@@ -1,8 +1,8 @@
 // solution.h5, read back one time after the other.
 #pragma once
 
-#include <seiche/core/grid.hpp>
-#include <seiche/output/hdf5.hpp>
+#include <seiche/core/grid/grid.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
 
 #include <array>
 #include <filesystem>

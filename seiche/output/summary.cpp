@@ -1,4 +1,4 @@
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/summary.hpp>
 
 #include <nlohmann/json.hpp>

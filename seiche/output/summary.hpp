@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/core/run_report.hpp>
-#include <seiche/output/folder.hpp>
+#include <seiche/output/file/folder.hpp>
 
 #include <map>
 #include <optional>

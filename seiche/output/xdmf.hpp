@@ -2,7 +2,7 @@
 // read.
 #pragma once
 
-#include <seiche/output/folder.hpp>
+#include <seiche/output/file/folder.hpp>
 #include <seiche/output/solution_layout.hpp>
 
 #include <atomic>

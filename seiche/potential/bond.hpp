@@ -1,7 +1,7 @@
 // V(u) = Σ_j W(u_{j+1} − u_j) over the bonds of a chain.
 #pragma once
 
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/potential/bond_lanes.hpp>
 #include <seiche/potential/bond_loops.hpp>

@@ -1,5 +1,5 @@
-#include <seiche/core/multiversion.hpp>
-#include <seiche/core/pack.hpp>
+#include <seiche/core/simd/multiversion.hpp>
+#include <seiche/core/simd/pack.hpp>
 #include <seiche/potential/bond_lanes.hpp>
 
 namespace seiche {

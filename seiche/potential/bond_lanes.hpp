@@ -1,7 +1,7 @@
 // V(u) = Σ_j W(u_{j+1} − u_j) for many states at once.
 #pragma once
 
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
 #include <seiche/potential/lane_loops.hpp>
 
 #include <vector>

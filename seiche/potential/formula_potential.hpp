@@ -1,9 +1,9 @@
 // V(u) = Σ_j W(u_j; x_j) with W by a formula in one or several fields and the place.
 #pragma once
 
-#include <seiche/core/formula.hpp>
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
 #include <seiche/core/potential.hpp>
+#include <seiche/formula/formula.hpp>
 
 #include <memory>
 #include <vector>
@@ -23,7 +23,7 @@ struct PointFormula {
 };
 
 // The mean gradient is ∫₀¹ ∇V(a + s(b − a)) ds for polynomials and for one field, and otherwise the discrete gradient
-// of core/expression_graph.
+// of formula/expression_graph.
 std::shared_ptr<const PointwisePotential> formula_potential(const PointFormula& w, const Grid& grid);
 
 }  // namespace seiche

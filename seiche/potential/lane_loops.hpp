@@ -1,8 +1,8 @@
 // Loops over the rows of panels for potentials per point or bond, with a W for each lane.
 #pragma once
 
-#include <seiche/core/lane_potential.hpp>
-#include <seiche/core/pack.hpp>
+#include <seiche/core/simd/lane_potential.hpp>
+#include <seiche/core/simd/pack.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <array>

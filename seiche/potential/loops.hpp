@@ -1,10 +1,10 @@
 // Loops over the points of a grid: eight points at a time, for several instruction sets, sums in one fixed order.
 #pragma once
 
-#include <seiche/core/lanes.hpp>
-#include <seiche/core/long_sum.hpp>
-#include <seiche/core/multiversion.hpp>
 #include <seiche/core/potential.hpp>
+#include <seiche/core/simd/lanes.hpp>
+#include <seiche/core/simd/long_sum.hpp>
+#include <seiche/core/simd/multiversion.hpp>
 #include <seiche/core/vector.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // V(u) = Σ_j W(u_{j+1} − u_j) with any potential W per point, of one field.
 #pragma once
 
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
 #include <seiche/core/potential.hpp>
 
 #include <memory>

@@ -1,5 +1,5 @@
 #include <seiche/core/error.hpp>
-#include <seiche/core/gauss_rule.hpp>
+#include <seiche/core/numerics/gauss_rule.hpp>
 #include <seiche/potential/own_potential.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // W(u) = Σ c_i uⁱ of one variable: value, slope, and the mean slope between two points without cancellation.
 #pragma once
 
-#include <seiche/core/lanes.hpp>
+#include <seiche/core/simd/lanes.hpp>
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Polynomial potentials from coefficients known at run time.
 #pragma once
 
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
 #include <seiche/core/potential.hpp>
 
 #include <memory>

@@ -1,8 +1,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
-#include <seiche/problem/grid_options.hpp>
-#include <seiche/problem/wave.hpp>
+#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/wave.hpp>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include <seiche/problem/beta_fpu.hpp>
 #include <seiche/problem/chain.hpp>
-#include <seiche/problem/grid_options.hpp>
+#include <seiche/problem/common/grid_options.hpp>
 
 namespace seiche {
 

@@ -2,7 +2,7 @@
 //   ü_j = d_j − d_{j−1} + β(d_j³ − d_{j−1}³) − γu̇_j + ν(ḋ_j − ḋ_{j−1}),  d_j = u_{j+1} − u_j.
 #pragma once
 
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
 #include <seiche/problem/problems.hpp>
 
 namespace seiche {

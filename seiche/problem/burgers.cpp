@@ -1,7 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/problem/burgers.hpp>
-#include <seiche/problem/grid_options.hpp>
-#include <seiche/problem/wave.hpp>
+#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/wave.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -2,8 +2,8 @@
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/potential/sum.hpp>
 #include <seiche/problem/chain.hpp>
-#include <seiche/problem/grid_options.hpp>
-#include <seiche/problem/wave.hpp>
+#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/wave.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -4,7 +4,7 @@
 // with d_j = u_{j+1} − u_j.
 #pragma once
 
-#include <seiche/core/grid.hpp>
+#include <seiche/core/grid/grid.hpp>
 #include <seiche/problem/problems.hpp>
 
 namespace seiche {

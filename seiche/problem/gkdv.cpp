@@ -1,7 +1,7 @@
 #include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/gkdv.hpp>
-#include <seiche/problem/grid_options.hpp>
-#include <seiche/problem/wave.hpp>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/klein_gordon.hpp>
-#include <seiche/problem/wave.hpp>
 
 #include <cmath>
 #include <numbers>

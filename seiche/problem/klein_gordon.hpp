@@ -2,7 +2,7 @@
 // Example 1).
 #pragma once
 
-#include <seiche/problem/grid_options.hpp>
+#include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 
 namespace seiche {

@@ -1,6 +1,6 @@
 #include <seiche/potential/modulus.hpp>
+#include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/nls.hpp>
-#include <seiche/problem/wave.hpp>
 
 #include <cmath>
 

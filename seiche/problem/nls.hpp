@@ -1,7 +1,7 @@
 // Damped cubic nonlinear Schrödinger equation, iψ_t + ½Δψ + κ|ψ|²ψ = −iγψ, in one to three dimensions, with ψ = p + iq.
 #pragma once
 
-#include <seiche/problem/grid_options.hpp>
+#include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <complex>

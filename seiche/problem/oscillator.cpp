@@ -1,9 +1,9 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
-#include <seiche/problem/grid_options.hpp>
+#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/second_order.hpp>
+#include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/oscillator.hpp>
-#include <seiche/problem/second_order.hpp>
-#include <seiche/problem/wave.hpp>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include <seiche/core/error.hpp>
+#include <seiche/problem/common/second_order.hpp>
+#include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/rigid_body.hpp>
-#include <seiche/problem/second_order.hpp>
-#include <seiche/problem/wave.hpp>
 
 namespace seiche {
 namespace {

@@ -1,8 +1,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/cosine.hpp>
 #include <seiche/potential/nodal.hpp>
+#include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/sine_gordon.hpp>
-#include <seiche/problem/wave.hpp>
 
 #include <cmath>
 #include <utility>

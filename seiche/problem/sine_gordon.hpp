@@ -1,7 +1,7 @@
 // Damped sine-Gordon equation, u_tt + γu_t − κΔu + α sin u = 0, in one to three dimensions.
 #pragma once
 
-#include <seiche/problem/grid_options.hpp>
+#include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 
 namespace seiche {

@@ -1,8 +1,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
-#include <seiche/problem/second_order.hpp>
+#include <seiche/problem/common/second_order.hpp>
+#include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/sparse.hpp>
-#include <seiche/problem/wave.hpp>
 
 #include <cmath>
 

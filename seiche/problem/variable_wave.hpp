@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/core/damping_rate.hpp>
-#include <seiche/problem/grid_options.hpp>
+#include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <array>

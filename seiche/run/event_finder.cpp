@@ -1,5 +1,5 @@
 #include <seiche/core/error.hpp>
-#include <seiche/core/number_text.hpp>
+#include <seiche/core/text/number_text.hpp>
 #include <seiche/run/event_finder.hpp>
 
 #include <boost/math/tools/toms748_solve.hpp>

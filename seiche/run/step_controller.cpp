@@ -13,7 +13,7 @@ constexpr double near = 1e-2;   // an error that tells what step will do
 constexpr double steps_per_octave = 4;
 
 // How much of the tolerance an estimate may take: from runs on the oscillator, Klein–Gordon, α-FPU and gKdV problems at
-// six tolerances, for errors between tolerance/100 and tolerance · 10 (test/adaptive_test.cpp).
+// six tolerances, for errors between tolerance/100 and tolerance · 10 (test/run/adaptive_test.cpp).
 double calibration(int order) { return order >= 8 ? 0.8 : order >= 6 ? 0.7 : order >= 4 ? 0.5 : 0.25; }
 
 }  // namespace

@@ -1,13 +1,13 @@
-#include <seiche/config/case_file.hpp>
-#include <seiche/config/initial_file.hpp>
-#include <seiche/config/simulation.hpp>
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/config/data/initial_file.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/law.hpp>
+#include <seiche/law/law.hpp>
+#include <seiche/output/csv_table.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_reader.hpp>
+#include <seiche/simulation/simulation.hpp>
 #include <seiche/study/audit.hpp>
 #include <seiche/study/audit_book.hpp>
-#include <seiche/study/csv_table.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

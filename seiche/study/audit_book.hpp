@@ -1,7 +1,7 @@
 // What audits of runs and of ensembles share: entries, and energies of states in files.
 #pragma once
 
-#include <seiche/config/run_spec.hpp>
+#include <seiche/config/case/run_spec.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/system.hpp>
 #include <seiche/study/audit.hpp>

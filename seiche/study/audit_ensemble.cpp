@@ -1,11 +1,11 @@
-#include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/law.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/ensemble/statistics.hpp>
+#include <seiche/law/law.hpp>
+#include <seiche/output/csv_table.hpp>
+#include <seiche/output/text_table.hpp>
+#include <seiche/simulation/simulation.hpp>
 #include <seiche/study/audit_book.hpp>
-#include <seiche/study/csv_table.hpp>
-#include <seiche/study/text_table.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // Errors, orders, energies and cost of methods at several step sizes, against one reference.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
+#include <seiche/simulation/simulation.hpp>
 #include <seiche/study/reference.hpp>
 #include <seiche/study/results.hpp>
 #include <seiche/study/timing.hpp>

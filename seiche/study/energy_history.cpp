@@ -1,5 +1,5 @@
 #include <seiche/core/error.hpp>
-#include <seiche/study/csv_table.hpp>
+#include <seiche/output/csv_table.hpp>
 #include <seiche/study/energy_history.hpp>
 
 #include <fmt/ranges.h>

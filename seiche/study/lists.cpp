@@ -1,5 +1,5 @@
 #include <seiche/backend/backends.hpp>
-#include <seiche/config/custom_case.hpp>
+#include <seiche/config/custom/custom_case.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/study/lists.hpp>
 

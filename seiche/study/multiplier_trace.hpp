@@ -3,8 +3,8 @@
 // the part of it along ĝ.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
 #include <seiche/core/observer.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <vector>
 

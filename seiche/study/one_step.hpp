@@ -1,7 +1,7 @@
 // One step of a method on the linear part of a problem, as a map of physical values.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <atomic>
 

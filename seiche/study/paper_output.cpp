@@ -1,5 +1,5 @@
-#include <seiche/output/atomic_file.hpp>
 #include <seiche/output/csv_text.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/study/paper.hpp>
 
 #include <fmt/format.h>

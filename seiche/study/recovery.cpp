@@ -1,15 +1,15 @@
 #include <seiche/backend/backends.hpp>
-#include <seiche/config/case_file.hpp>
-#include <seiche/config/simulation.hpp>
+#include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/output/atomic_file.hpp>
+#include <seiche/output/csv_table.hpp>
+#include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/file/reserve_file.hpp>
 #include <seiche/output/final_state.hpp>
-#include <seiche/output/reserve_file.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/output/summary.hpp>
 #include <seiche/output/xdmf.hpp>
-#include <seiche/study/csv_table.hpp>
+#include <seiche/simulation/simulation.hpp>
 #include <seiche/study/recovery.hpp>
 #include <seiche/study/versions.hpp>
 

@@ -1,7 +1,7 @@
 // Makes the folder of a run that was killed one that can be read as any other.
 #pragma once
 
-#include <seiche/output/folder.hpp>
+#include <seiche/output/file/folder.hpp>
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
-#include <seiche/config/simulation.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/simulation/simulation.hpp>
 #include <seiche/study/physical_equation.hpp>
 #include <seiche/study/reference.hpp>
 

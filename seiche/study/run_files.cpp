@@ -1,4 +1,4 @@
-#include <seiche/config/case_file.hpp>
+#include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/problem/problems.hpp>
 #include <seiche/study/run_files.hpp>

@@ -1,7 +1,7 @@
 // What a run left in its folder, read back: the case, the summary, the certificate.
 #pragma once
 
-#include <seiche/config/run_spec.hpp>
+#include <seiche/config/case/run_spec.hpp>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,9 +1,9 @@
-#include <seiche/backend/balance.hpp>
-#include <seiche/backend/grid_space.hpp>
+#include <seiche/backend/grid/grid_space.hpp>
+#include <seiche/backend/sparse/balance.hpp>
 #include <seiche/core/commuting_damping.hpp>
-#include <seiche/core/eigenpairs.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/modes.hpp>
+#include <seiche/core/grid/modes.hpp>
+#include <seiche/core/numerics/eigenpairs.hpp>
 #include <seiche/study/one_step.hpp>
 #include <seiche/study/spectrum.hpp>
 

@@ -2,7 +2,7 @@
 // against those of the equation.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <atomic>
 #include <cstddef>

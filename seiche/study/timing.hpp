@@ -2,7 +2,7 @@
 // which the methods take turns, so that a slow moment of the machine meets all of them.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <atomic>
 #include <span>

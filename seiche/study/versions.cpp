@@ -1,7 +1,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/config/library_versions.hpp>
-#include <seiche/core/multiversion.hpp>
-#include <seiche/output/hdf5.hpp>
+#include <seiche/core/simd/multiversion.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/study/versions.hpp>
 #include <seiche/version.hpp>
 

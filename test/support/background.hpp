@@ -1,7 +1,7 @@
 // The program beside the test, to be sent signals.
 #pragma once
 
-#include "paths.hpp"
+#include <test/support/paths.hpp>
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,9 +1,9 @@
 // Case files as texts, and what is said of them.
 #pragma once
 
-#include "error_of.hpp"
+#include <test/support/error_of.hpp>
 
-#include <seiche/config/case_file.hpp>
+#include <seiche/config/case/case_file.hpp>
 
 #include <string>
 #include <vector>

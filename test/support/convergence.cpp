@@ -1,5 +1,5 @@
-#include "convergence.hpp"
-#include "worst.hpp"
+#include <test/support/convergence.hpp>
+#include <test/support/worst.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Errors of a method against an independent reference, and the order they show.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
+#include <seiche/simulation/simulation.hpp>
 #include <seiche/study/reference.hpp>
 
 #include <string>

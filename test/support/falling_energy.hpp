@@ -1,7 +1,7 @@
 // H step by step.
 #pragma once
 
-#include <seiche/config/simulation.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "golden.hpp"
+#include <test/support/golden.hpp>
 
-#include "paths.hpp"
+#include <test/support/paths.hpp>
 
 #include <algorithm>
 #include <fstream>

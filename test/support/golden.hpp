@@ -1,9 +1,9 @@
 // Access to test/data/golden.json.
 #pragma once
 
-#include "paper_cases.hpp"
+#include <test/support/cases.hpp>
 
-#include <seiche/config/simulation.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <nlohmann/json.hpp>
 

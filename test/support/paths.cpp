@@ -1,4 +1,4 @@
-#include "paths.hpp"
+#include <test/support/paths.hpp>
 
 namespace seiche::test {
 

@@ -1,8 +1,8 @@
 // The program in a temporary directory: its exit code, and what it said.
 #pragma once
 
-#include "paths.hpp"
-#include "temporary_directory.hpp"
+#include <test/support/paths.hpp>
+#include <test/support/temporary_directory.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

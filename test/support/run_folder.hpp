@@ -1,10 +1,10 @@
 // A folder with one run of the program in it.
 #pragma once
 
-#include "error_of.hpp"
-#include "paths.hpp"
-#include "temporary_directory.hpp"
-#include "text_of.hpp"
+#include <test/support/error_of.hpp>
+#include <test/support/paths.hpp>
+#include <test/support/temporary_directory.hpp>
+#include <test/support/text_of.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Problems as a user writes them into a case file.
 #pragma once
 
-#include "error_of.hpp"
+#include <test/support/error_of.hpp>
 
-#include <seiche/config/case_file.hpp>
+#include <seiche/config/case/case_file.hpp>
 
 #include <string>
 #include <vector>

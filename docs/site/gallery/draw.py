@@ -21,7 +21,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
 def palettes():
     """The colours of `seiche plot`, from low to high values: {"viridis": ["#440154", …], "vik": …, "berlin": …}."""
-    text = (SOURCE / "seiche/figure/rendering.cpp").read_text(encoding="utf-8")
+    text = (SOURCE / "seiche/figure/plot/rendering.cpp").read_text(encoding="utf-8")
     found = re.findall(r"constexpr std::array (\w+) = \{(.*?)\};", text, re.DOTALL)
     return {name: re.findall(r"#[0-9A-F]{6}", colours) for name, colours in found}
 

@@ -1,0 +1,19 @@
+// What stands beside S∇H − D(t)z in a problem: friction, external forces, a structure matrix that changes with the
+// state.
+#pragma once
+
+#include <seiche/backend/fft/transform.hpp>
+#include <seiche/backend/linear_map.hpp>
+#include <seiche/core/function_ref.hpp>
+#include <seiche/core/system.hpp>
+
+#include <memory>
+
+namespace seiche {
+
+// Completes a system that has its linear damping. make_derivative(): problem.derivative on the coordinates of one
+// field, asked for where it is not zero. Throws Error where the problem has friction but no velocities.
+void add_beyond_linear(System& system, const Problem& problem, const std::shared_ptr<const FieldTransform>& transform,
+                       FunctionRef<std::unique_ptr<LinearMap>()> make_derivative);
+
+}  // namespace seiche

@@ -1,0 +1,97 @@
+#include <seiche/backend/grid/grid_potential.hpp>
+#include <seiche/backend/grid/segment.hpp>
+
+#include <algorithm>
+
+namespace seiche {
+
+GridPotential::GridPotential(std::shared_ptr<const PointwisePotential> pointwise, Index first_field,
+                             std::shared_ptr<const FieldTransform> transform)
+    : pointwise_(std::move(pointwise)), transform_(std::move(transform)) {
+  const Index fields = pointwise_ ? pointwise_->fields() : 0;
+  support_ = {first_field * transform_->slots(), fields * transform_->slots()};
+  for (Vector* scratch : {&a_, &b_, &slope_}) scratch->setZero(fields * transform_->unknowns());
+}
+
+std::span<const double> GridPotential::values_of(const Vector& z, Vector& values) const {
+  const Index n = transform_->unknowns();
+  const Index slots = transform_->slots();
+  if (transform_->is_identity()) return segment(z, support_.begin, support_.size);
+  for (Index f = 0; f < pointwise_->fields(); ++f)
+    transform_->inverse(segment(z, support_.begin + f * slots, slots), segment(values, f * n, n));
+  return all(values);
+}
+
+void GridPotential::set_gradient(const Vector& physical, Vector& gradient) const {
+  const Index n = transform_->unknowns();
+  const Index slots = transform_->slots();
+  for (Index f = 0; f < pointwise_->fields(); ++f)
+    transform_->forward(segment(physical, f * n, n), segment(gradient, support_.begin + f * slots, slots));
+}
+
+double GridPotential::value(const Vector& z) const {
+  if (!pointwise_) return 0;
+  ++counts_.values;
+  return pointwise_->value(values_of(z, a_));
+}
+
+double GridPotential::magnitude(const Vector& z) const {
+  return pointwise_ ? pointwise_->magnitude(values_of(z, a_)) : 0;
+}
+
+ValueAndMagnitude GridPotential::value_and_magnitude(const Vector& z) const {
+  if (!pointwise_) return {};
+  ++counts_.values;
+  return pointwise_->value_and_magnitude(values_of(z, a_));
+}
+
+// In the vector of the gradient: coordinates become values, these slopes, and those coordinates again.
+double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) const {
+  if (!pointwise_) return 0;
+  ++counts_.gradients;
+  const auto slopes = [this](std::span<double> values) {
+    return pointwise_->value_and_gradient_in_place(transform_->value_scale(), transform_->slot_scale(), values);
+  };
+  if (pointwise_->is_local())
+    return transform_->through_values(segment(z, support_.begin, support_.size),
+                                      segment(gradient, support_.begin, support_.size), slopes);
+  if (&z != &gradient) gradient.segment(support_.begin, support_.size) = z.segment(support_.begin, support_.size);
+  const Index n = transform_->unknowns();
+  const Index slots = transform_->slots();
+  const auto field = [&](Index f) { return segment(gradient, support_.begin + f * slots, slots); };
+  for (Index f = 0; f < pointwise_->fields(); ++f) transform_->to_values(field(f), segment(slope_, f * n, n));
+  const double v = slopes(all(slope_));
+  for (Index f = 0; f < pointwise_->fields(); ++f) transform_->to_slots(segment(slope_, f * n, n), field(f));
+  return v;
+}
+
+void GridPotential::mean_gradient(const Vector& a, const Vector& b, Vector& mean) const {
+  if (!pointwise_) return;
+  ++counts_.gradients;
+  pointwise_->mean_gradient(values_of(a, a_), values_of(b, b_), all(slope_));
+  set_gradient(slope_, mean);
+}
+
+void GridPotential::along(const Vector& p, const Vector& q, std::span<double> coefficients) const {
+  if (!pointwise_) {
+    std::fill(coefficients.begin(), coefficients.end(), 0.0);
+    return;
+  }
+  ++counts_.values;
+  pointwise_->along(values_of(p, a_), values_of(q, b_), coefficients);
+}
+
+void GridPotential::along_ray(const Vector& z, std::span<double> coefficients) const {
+  std::fill(coefficients.begin(), coefficients.end(), 0.0);
+  if (!pointwise_) return;
+  ++counts_.values;
+  const std::span<const double> u = values_of(z, b_);
+  if (const int d = pointwise_->homogeneity(); d > 0) {
+    coefficients[static_cast<std::size_t>(d)] = pointwise_->value(u);
+    return;
+  }
+  a_.setZero();
+  pointwise_->along(all(a_), u, coefficients);
+}
+
+}  // namespace seiche

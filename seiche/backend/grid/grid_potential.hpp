@@ -1,0 +1,38 @@
+// The potential of a system on a grid, in whichever coordinates a FieldTransform gives each field.
+#pragma once
+
+#include <seiche/backend/fft/transform.hpp>
+#include <seiche/core/potential.hpp>
+
+#include <memory>
+
+namespace seiche {
+
+// V of one or several fields: inverse transform, pointwise, forward transform. A problem without potential has V = 0.
+class GridPotential final : public Potential {
+ public:
+  // V of the fields from `first_field` on; null: V = 0.
+  GridPotential(std::shared_ptr<const PointwisePotential> pointwise, Index first_field,
+                std::shared_ptr<const FieldTransform> transform);
+  double value(const Vector& z) const override;
+  double magnitude(const Vector& z) const override;
+  ValueAndMagnitude value_and_magnitude(const Vector& z) const override;
+  double value_and_gradient(const Vector& z, Vector& gradient) const override;
+  void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const override;
+  int degree() const override { return pointwise_ ? pointwise_->degree() : 1; }
+  void along(const Vector& p, const Vector& q, std::span<double> coefficients) const override;
+  void along_ray(const Vector& z, std::span<double> coefficients) const override;
+  int homogeneity() const override { return pointwise_ ? pointwise_->homogeneity() : 0; }
+  Support support() const override { return support_; }
+
+ private:
+  std::span<const double> values_of(const Vector& z, Vector& values) const;
+  void set_gradient(const Vector& physical, Vector& gradient) const;
+
+  std::shared_ptr<const PointwisePotential> pointwise_;
+  std::shared_ptr<const FieldTransform> transform_;
+  Support support_;
+  mutable Vector a_, b_, slope_;  // scratch, V's fields on their grid
+};
+
+}  // namespace seiche

@@ -1,0 +1,171 @@
+#include <seiche/backend/modal/modal_propagator.hpp>
+#include <seiche/backend/modal/mode_kernels.hpp>
+#include <seiche/core/simd/parallel.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+using namespace mode_kernels;
+
+constexpr Index block_slots = 8192;  // of one thread's share; part of what fixes the order of sums
+
+template <class S>
+class FusedPropagator final : public Propagator {
+ public:
+  FusedPropagator(const ModalExtent& extent, const ModalMetric& metric, ModalForceMaps maps)
+      : slots_(extent.slots()),
+        blocks_((slots_ + block_slots - 1) / block_slots),
+        threads_(extent.threads),
+        metric_(metric),
+        maps_(std::move(maps)),
+        sums_(static_cast<std::size_t>(blocks_)) {}
+
+  void increment(const Vector& z, Vector& dz) const override {
+    run_over<Increment>(operands(z, nullptr, &dz, maps_.F));
+  }
+  void force(const Vector& f, Vector& q) const override { run_over<Force>(operands(f, nullptr, &q, maps_.F)); }
+
+  void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
+    run_over<Predict>(with(before, {}, operands(z, &gradient, &z_mid, maps_.Q)));
+  }
+
+  void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const override {
+    Operands<S> o = with(before, after, operands(z, &f, &z, maps_.F));
+    for_blocks(blocks_, threads_,
+               [&](Index block) { sums_[static_cast<std::size_t>(block)] = powers<S>(o, begin(block), end(block)); });
+    PowerSums total;
+    for (const PowerSums& part : sums_) {
+      total.of_increment += part.of_increment;
+      total.of_force += part.of_force;
+      total.twice_energy += part.twice_energy;
+    }
+    o.factor = factor({total.of_increment, total.of_force, total.twice_energy / 2});
+    if (std::isfinite(o.factor)) run_over<Advance>(o);
+  }
+
+ private:
+  Index begin(Index block) const { return block * block_slots; }
+  Index end(Index block) const { return std::min(slots_, begin(block) + block_slots); }
+
+  Operands<S> operands(const Vector& z, const Vector* f, Vector* out, const ModeArrays& F) const {
+    Operands<S> o;
+    for (int i = 0; i < S::fields; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      o.z[at] = z.data() + i * slots_;
+      if (f != nullptr) o.f[at] = f->data() + i * slots_;
+      if (out != nullptr) o.out[at] = out->data() + i * slots_;
+      o.M[at] = metric_.factors.data(i, 0);
+      for (int j = 0; j < S::fields; ++j) o.F[at][static_cast<std::size_t>(j)] = F.data(i, j);
+    }
+    o.before.fill(1.0);
+    o.after.fill(1.0);
+    return o;
+  }
+
+  static Operands<S> with(FieldFactors before, FieldFactors after, Operands<S> o) {
+    std::copy(before.begin(), before.end(), o.before.begin());
+    std::copy(after.begin(), after.end(), o.after.begin());
+    return o;
+  }
+
+  template <class Verb>
+  void run_over(const Operands<S>& o) const {
+    for_blocks(blocks_, threads_, [&](Index block) { run<Verb, S>(o, begin(block), end(block)); });
+  }
+
+  Index slots_, blocks_;
+  int threads_;
+  const ModalMetric& metric_;
+  ModalForceMaps maps_;
+  mutable std::vector<PowerSums> sums_;
+};
+
+using Make = std::unique_ptr<Propagator> (*)(const ModalExtent&, const ModalMetric&, ModalForceMaps);
+
+template <ModeLayout layout, int fields, int first, int count, unsigned unit>
+std::unique_ptr<Propagator> make(const ModalExtent& extent, const ModalMetric& metric, ModalForceMaps maps) {
+  using S = Shape<layout, fields, first, count, unit>;
+  return std::make_unique<FusedPropagator<S>>(extent, metric, std::move(maps));
+}
+
+// One field; second-order equations (u, v), with V of u and M the identity on v or not; pairs of fields, with V of
+// both.
+template <ModeLayout layout>
+Make find_in(Index fields, Index first, Index count, unsigned unit) {
+  if (first != 0) return nullptr;
+  if (fields == 1 && count == 1 && unit == 0) return make<layout, 1, 0, 1, 0>;
+  if (fields == 2 && count == 1 && unit == 0b10) return make<layout, 2, 0, 1, 0b10>;
+  if (fields == 2 && count == 1 && unit == 0) return make<layout, 2, 0, 1, 0>;
+  if (fields == 2 && count == 2 && unit == 0) return make<layout, 2, 0, 2, 0>;
+  return nullptr;
+}
+
+Make find(const ModalExtent& e, unsigned unit) {
+  switch (e.layout) {
+    case ModeLayout::real_pairs: return find_in<ModeLayout::real_pairs>(e.fields, e.first, e.count, unit);
+    case ModeLayout::complex_pairs: return find_in<ModeLayout::complex_pairs>(e.fields, e.first, e.count, unit);
+    case ModeLayout::singles: return find_in<ModeLayout::singles>(e.fields, e.first, e.count, unit);
+  }
+  return nullptr;
+}
+
+template <ModeLayout layout>
+SEICHE_MULTIVERSION double weighted_square_of(const double* M, const double* z, Index slots) {
+  constexpr Index per_mode = slots_per_mode(layout);
+  using LastV = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
+  const auto term = [&](Index slot) __attribute__((always_inline)) {
+    const Lanes x = load<Lanes>(z + slot);
+    return M == nullptr ? x * x : times<layout, Lanes>(M, slot, x) * x;
+  };
+  Lanes lanes{}, others{};  // sums that do not wait for one another
+  LastV last{};
+  Index slot = 0;
+  for (; slot + 2 * lane_count <= slots; slot += 2 * lane_count) {
+    lanes += term(slot);
+    others += term(slot + lane_count);
+  }
+  for (; slot + lane_count <= slots; slot += lane_count) lanes += term(slot);
+  lanes += others;
+  for (; slot < slots; slot += per_mode) {
+    const LastV x = load<LastV>(z + slot);
+    last += M == nullptr ? x * x : times<layout, LastV>(M, slot, x) * x;
+  }
+  return sum(lanes) + sum(last);
+}
+
+template <ModeLayout layout>
+SEICHE_MULTIVERSION void multiply_modes_of(const double* M, const double* z, Index slots, double* out) {
+  using LastV = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
+  Index slot = 0;
+  for (; slot + lane_count <= slots; slot += lane_count)
+    store<Lanes>(out + slot, times<layout, Lanes>(M, slot, load<Lanes>(z + slot)));
+  for (; slot < slots; slot += slots_per_mode(layout))
+    store<LastV>(out + slot, times<layout, LastV>(M, slot, load<LastV>(z + slot)));
+}
+
+}  // namespace
+
+bool has_fused_propagator(const ModalExtent& extent, unsigned unit) { return find(extent, unit) != nullptr; }
+
+std::unique_ptr<Propagator> fused_propagator(const ModalExtent& extent, const ModalMetric& metric,
+                                             ModalForceMaps maps) {
+  return find(extent, metric.unit)(extent, metric, std::move(maps));
+}
+
+double weighted_square(ModeLayout layout, const double* M, const double* z, Index slots) {
+  return layout == ModeLayout::singles ? weighted_square_of<ModeLayout::singles>(M, z, slots)
+                                       : weighted_square_of<ModeLayout::real_pairs>(M, z, slots);
+}
+
+void multiply_modes(ModeLayout layout, const double* M, const double* z, Index slots, double* out) {
+  if (layout == ModeLayout::singles)
+    multiply_modes_of<ModeLayout::singles>(M, z, slots, out);
+  else
+    multiply_modes_of<ModeLayout::real_pairs>(M, z, slots, out);
+}
+
+}  // namespace seiche

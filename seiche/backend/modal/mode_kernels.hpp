@@ -1,0 +1,170 @@
+// The fused passes of a substep over the modes: the formulas once, for any number of fields, as eight slots at a time.
+#pragma once
+
+#include <seiche/backend/modal/mode_arrays.hpp>
+#include <seiche/core/simd/lanes.hpp>
+#include <seiche/core/simd/multiversion.hpp>
+
+#include <array>
+
+namespace seiche::mode_kernels {
+
+// Which fields there are: `fields` of z, of which V depends on `count` from `first` on. M is diagonal, with one factor
+// per mode and field, but for the fields of `unit` (bits) on which it is the identity.
+template <ModeLayout layout_, int fields_, int first_, int count_, unsigned unit_>
+struct Shape {
+  static constexpr ModeLayout layout = layout_;
+  static constexpr int fields = fields_, first = first_, count = count_;
+  static constexpr bool in_support(int field) { return field >= first && field < first + count; }
+  static constexpr bool is_unit(int field) { return (unit_ >> field & 1U) != 0; }
+};
+
+template <class S>
+struct Operands {
+  std::array<const double*, S::fields> z{};  // before the substep
+  std::array<double*, S::fields> out{};
+  std::array<const double*, S::fields> f{};  // the force: on the support only
+  std::array<const double*, S::fields> M{};  // null where it is the identity
+  std::array<std::array<const double*, S::fields>, S::fields> F{};
+  std::array<double, S::fields> before{}, after{};
+  double factor = 1.0;
+};
+
+// factor of the modes of these slots × slots
+template <ModeLayout layout, class V>
+[[gnu::always_inline]] inline V times(const double* factors, Index slot, const V& x) {
+  if constexpr (layout == ModeLayout::singles) {
+    return load<V>(factors + slot) * x;
+  } else if constexpr (layout == ModeLayout::real_pairs) {
+    if constexpr (sizeof(V) == sizeof(Pair)) {
+      return factors[slot / 2] * x;
+    } else {
+      const auto c = load<HalfLanes>(factors + slot / 2);
+      return __builtin_shufflevector(c, c, 0, 0, 1, 1, 2, 2, 3, 3) * x;
+    }
+  } else {
+    const V c = load<V>(factors + slot);
+    if constexpr (sizeof(V) == sizeof(Pair)) {
+      return V{c[0] * x[0] - c[1] * x[1], c[0] * x[1] + c[1] * x[0]};
+    } else {
+      constexpr V sign = {-1, 1, -1, 1, -1, 1, -1, 1};
+      const V re = __builtin_shufflevector(c, c, 0, 0, 2, 2, 4, 4, 6, 6);
+      const V im = __builtin_shufflevector(c, c, 1, 1, 3, 3, 5, 5, 7, 7);
+      const V turned = __builtin_shufflevector(x, x, 1, 0, 3, 2, 5, 4, 7, 6);
+      return re * x + (sign * im) * turned;
+    }
+  }
+}
+
+// z⁻, and M z⁻ with the real factors of a Hermitian diagonal.
+template <class S, class V>
+struct Point {
+  std::array<V, S::fields> z, Mz;
+
+  [[gnu::always_inline]] inline Point(const Operands<S>& o, Index slot) {
+    constexpr ModeLayout real = S::layout == ModeLayout::complex_pairs ? ModeLayout::real_pairs : S::layout;
+    for (int j = 0; j < S::fields; ++j) {
+      z[j] = o.before[j] * load<V>(o.z[j] + slot);
+      Mz[j] = S::is_unit(j) ? z[j] : times<real, V>(o.M[j], slot, z[j]);
+    }
+  }
+};
+
+// Row i of F w.
+template <class S, class V>
+[[gnu::always_inline]] inline V row(const Operands<S>& o, int i, Index slot, const std::array<V, S::fields>& w) {
+  V sum = times<S::layout, V>(o.F[i][0], slot, w[0]);
+  for (int j = 1; j < S::fields; ++j) sum += times<S::layout, V>(o.F[i][j], slot, w[j]);
+  return sum;
+}
+
+// ẑ = z⁻ + Q(Mz⁻ + ∇V), on the support; Q is passed as F.
+struct Predict {
+  template <class S, class V>
+  [[gnu::always_inline]] static inline void at(const Operands<S>& o, Index slot) {
+    const Point<S, V> p(o, slot);
+    std::array<V, S::fields> w = p.Mz;
+    for (int j = S::first; j < S::first + S::count; ++j) w[j] += load<V>(o.f[j] + slot);
+    for (int i = S::first; i < S::first + S::count; ++i) store<V>(o.out[i] + slot, p.z[i] + row<S, V>(o, i, slot, w));
+  }
+};
+
+// z⁺ = Λ'(z⁻ + F(Mz⁻ + factor · f))
+struct Advance {
+  template <class S, class V>
+  [[gnu::always_inline]] static inline void at(const Operands<S>& o, Index slot) {
+    const Point<S, V> p(o, slot);
+    std::array<V, S::fields> w = p.Mz;
+    for (int j = S::first; j < S::first + S::count; ++j) w[j] += o.factor * load<V>(o.f[j] + slot);
+    for (int i = 0; i < S::fields; ++i) store<V>(o.out[i] + slot, o.after[i] * (p.z[i] + row<S, V>(o, i, slot, w)));
+  }
+};
+
+// FMz
+struct Increment {
+  template <class S, class V>
+  [[gnu::always_inline]] static inline void at(const Operands<S>& o, Index slot) {
+    const Point<S, V> p(o, slot);
+    for (int i = 0; i < S::fields; ++i) store<V>(o.out[i] + slot, row<S, V>(o, i, slot, p.Mz));
+  }
+};
+
+// Fz
+struct Force {
+  template <class S, class V>
+  [[gnu::always_inline]] static inline void at(const Operands<S>& o, Index slot) {
+    std::array<V, S::fields> f{};
+    for (int j = 0; j < S::fields; ++j) f[j] = load<V>(o.z[j] + slot);
+    for (int i = 0; i < S::fields; ++i) store<V>(o.out[i] + slot, row<S, V>(o, i, slot, f));
+  }
+};
+
+struct PowerSums {
+  double of_increment = 0, of_force = 0, twice_energy = 0;
+};
+
+// fᵀFMz⁻, fᵀFf and z⁻ᵀMz⁻ of one chunk, lane by lane.
+template <class S, class V>
+struct PowerLanes {
+  V of_increment{}, of_force{}, twice_energy{};
+
+  [[gnu::always_inline]] inline void add(const Operands<S>& o, Index slot) {
+    const Point<S, V> p(o, slot);
+    std::array<V, S::fields> f{};
+    for (int j = S::first; j < S::first + S::count; ++j) f[j] = load<V>(o.f[j] + slot);
+    for (int i = S::first; i < S::first + S::count; ++i) {
+      of_increment += f[i] * row<S, V>(o, i, slot, p.Mz);
+      V Ff = times<S::layout, V>(o.F[i][S::first], slot, f[S::first]);
+      for (int j = S::first + 1; j < S::first + S::count; ++j) Ff += times<S::layout, V>(o.F[i][j], slot, f[j]);
+      of_force += f[i] * Ff;
+    }
+    for (int j = 0; j < S::fields; ++j) twice_energy += p.z[j] * p.Mz[j];
+  }
+  PowerSums sums() const { return {sum(of_increment), sum(of_force), sum(twice_energy)}; }
+};
+
+template <class S>
+using Last = std::conditional_t<S::layout == ModeLayout::singles, double, Pair>;  // what is left behind full lanes
+
+template <class Verb, class S>
+SEICHE_MULTIVERSION void run(const Operands<S>& operands, Index begin, Index end) {
+  const Operands<S> o = operands;  // a copy that no store can change
+  Index slot = begin;
+  for (; slot + lane_count <= end; slot += lane_count) Verb::template at<S, Lanes>(o, slot);
+  for (; slot < end; slot += slots_per_mode(S::layout)) Verb::template at<S, Last<S>>(o, slot);
+}
+
+template <class S>
+SEICHE_MULTIVERSION PowerSums powers(const Operands<S>& operands, Index begin, Index end) {
+  const Operands<S> o = operands;
+  PowerLanes<S, Lanes> lanes;
+  PowerLanes<S, Last<S>> last;
+  Index slot = begin;
+  for (; slot + lane_count <= end; slot += lane_count) lanes.add(o, slot);
+  for (; slot < end; slot += slots_per_mode(S::layout)) last.add(o, slot);
+  const PowerSums a = lanes.sums();
+  const PowerSums b = last.sums();
+  return {a.of_increment + b.of_increment, a.of_force + b.of_force, a.twice_energy + b.twice_energy};
+}
+
+}  // namespace seiche::mode_kernels

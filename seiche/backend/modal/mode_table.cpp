@@ -1,0 +1,216 @@
+#include <seiche/backend/modal/mode_kernels.hpp>
+#include <seiche/backend/modal/mode_table.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/simd/parallel.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace seiche {
+namespace {
+
+constexpr Index chunks_per_block = 1024;  // of one thread's share; part of what fixes the order of sums
+constexpr Index max_columns = 40;         // the inputs of eight slots wait in the first-level cache
+constexpr int unrolled_columns = 8;
+constexpr std::size_t max_forms = 4;
+
+// The first `count` lanes from memory, 0 < count < lane_count, and zeros. Copies of a size known to the compiler are no
+// calls.
+template <int count = lane_count - 1>
+[[gnu::always_inline]] inline void load_some(const double* from, Index wanted, Lanes& x) {
+  if (wanted == count) {
+    x = Lanes{};
+    std::memcpy(&x, from, count * sizeof(double));
+  } else if constexpr (count > 1) {
+    load_some<count - 1>(from, wanted, x);
+  }
+}
+
+template <int count = lane_count - 1>
+[[gnu::always_inline]] inline void store_some(double* to, Index wanted, const Lanes& x) {
+  if (wanted == count)
+    std::memcpy(to, &x, count * sizeof(double));
+  else if constexpr (count > 1)
+    store_some<count - 1>(to, wanted, x);
+}
+
+// The inputs of eight slots. `known` of them, or, for 0, any number up to max_columns.
+template <ModeLayout layout, int known>
+struct Inputs {
+  static constexpr bool are_turned = layout == ModeLayout::complex_pairs;
+  static constexpr std::size_t capacity = known == 0 ? max_columns : known;
+  std::array<Lanes, capacity> x;
+  std::array<Lanes, are_turned ? capacity : 0> turned;  // ix, once for all rows
+  int count;
+
+  [[gnu::always_inline]] inline explicit Inputs(std::span<const double* const> in)
+      : count(known == 0 ? static_cast<int>(in.size()) : known) {}
+
+  // `left`: slots from `begin` to the end of a field
+  [[gnu::always_inline]] inline void load_from(const double* const* in, Index begin, Index left) {
+    if (left >= lane_count) {
+      for (int j = 0; j < size(); ++j) x[j] = load<Lanes>(in[j] + begin);
+    } else {
+      for (int j = 0; j < size(); ++j) load_some(in[j] + begin, left, x[j]);
+    }
+    if constexpr (are_turned) {
+      constexpr Lanes sign = {-1, 1, -1, 1, -1, 1, -1, 1};
+      for (int j = 0; j < size(); ++j) turned[j] = sign * __builtin_shufflevector(x[j], x[j], 1, 0, 3, 2, 5, 4, 7, 6);
+    }
+  }
+  // factors of the modes of these slots × input j
+  [[gnu::always_inline]] inline Lanes times(const double* factors, int j) const {
+    if constexpr (are_turned) {
+      const Lanes c = load<Lanes>(factors);
+      return __builtin_shufflevector(c, c, 0, 0, 2, 2, 4, 4, 6, 6) * x[j] +
+             __builtin_shufflevector(c, c, 1, 1, 3, 3, 5, 5, 7, 7) * turned[j];
+    } else {
+      return mode_kernels::times<layout, Lanes>(factors, 0, x[j]);
+    }
+  }
+  [[gnu::always_inline]] inline int size() const { return known == 0 ? count : known; }
+};
+
+template <ModeLayout layout, int known>
+SEICHE_MULTIVERSION void sum_rows(const ModeFactors& factors, std::span<const double* const> in,
+                                  std::span<double* const> out, Index first, Index last) {
+  constexpr Index stride = lane_count / slots_per_mode(layout) * factors_per_mode(layout);
+  const Index slots = factors.slots();
+  const double* factor = factors.of_chunk(first);
+  const double* const* const inputs = in.data();
+  double* const* const rows = out.data();
+  const std::size_t row_count = out.size();
+  Inputs<layout, known> x(in);
+  for (Index chunk = first; chunk < last; ++chunk) {
+    const Index begin = chunk * lane_count;
+    const Index left = slots - begin;
+    x.load_from(inputs, begin, left);
+    for (std::size_t i = 0; i < row_count; ++i) {
+      Lanes sum = x.times(factor, 0);
+      for (int j = 1; j < x.size(); ++j) sum += x.times(factor + j * stride, j);
+      factor += x.size() * stride;
+      if (left >= lane_count)
+        store<Lanes>(rows[i] + begin, sum);
+      else
+        store_some(rows[i] + begin, left, sum);
+    }
+  }
+}
+
+template <ModeLayout layout, int known>
+SEICHE_MULTIVERSION void sum_forms(const ModeFactors& factors, std::span<const double* const> in, Index first,
+                                   Index last, std::span<double> values) {
+  constexpr Index stride = lane_count / slots_per_mode(layout) * factors_per_mode(layout);
+  const Index slots = factors.slots();
+  const double* factor = factors.of_chunk(first);
+  const double* const* const inputs = in.data();
+  const std::size_t forms = values.size();
+  Inputs<layout, known> x(in);
+  std::array<Lanes, max_forms> totals{};
+  for (Index chunk = first; chunk < last; ++chunk) {
+    x.load_from(inputs, chunk * lane_count, slots - chunk * lane_count);
+    for (std::size_t l = 0; l < forms; ++l) {
+      Lanes total = totals[l];
+      for (int i = 0; i < x.size(); ++i) {
+        Lanes row = x.times(factor, i);
+        factor += stride;
+        for (int j = i + 1; j < x.size(); ++j, factor += stride) row += x.times(factor, j);
+        total += x.x[i] * row;
+      }
+      totals[l] = total;
+    }
+  }
+  for (std::size_t l = 0; l < forms; ++l) values[l] = sum(totals[l]);
+}
+
+template <class Body>
+void with_layout(ModeLayout layout, const Body& body) {
+  switch (layout) {
+    case ModeLayout::real_pairs: return body.template operator()<ModeLayout::real_pairs>();
+    case ModeLayout::complex_pairs: return body.template operator()<ModeLayout::complex_pairs>();
+    case ModeLayout::singles: return body.template operator()<ModeLayout::singles>();
+  }
+}
+
+Index blocks_of(const ModeFactors& factors) { return (factors.chunks() + chunks_per_block - 1) / chunks_per_block; }
+
+// body<known>() with the number of columns, where its loops are unrolled: one or two fields of state and those of up to
+// four forces, or of eight forces alone.
+template <int known = unrolled_columns, class Body>
+void with_columns(Index columns, const Body& body) {
+  if (columns == known) return body.template operator()<known>();
+  if constexpr (known > 1)
+    with_columns<known - 1>(columns, body);
+  else
+    body.template operator()<0>();
+}
+
+// body<layout>(block, first chunk, last chunk)
+template <class Body>
+void over_blocks(const ModeFactors& factors, int threads, const Body& body) {
+  for_blocks(blocks_of(factors), threads, [&](Index block) {
+    const Index first = block * chunks_per_block;
+    const Index last = std::min(factors.chunks(), first + chunks_per_block);
+    with_layout(factors.layout(), [&]<ModeLayout layout>() { body.template operator()<layout>(block, first, last); });
+  });
+}
+
+Index checked_columns(Index columns) {
+  if (columns > max_columns)
+    throw Error("an exponential method takes sums of up to {} fields of state and forces, and here there are {}",
+                max_columns, columns);
+  return columns;
+}
+
+}  // namespace
+
+ModeFactors::ModeFactors(ModeLayout layout, Index modes, Index per_mode)
+    : layout_(layout), slots_(modes * slots_per_mode(layout)), per_mode_(per_mode) {
+  factors_.resize(static_cast<std::size_t>(chunks() * per_mode * stride()));
+}
+
+void ModeFactors::set(Index mode, Index which, std::complex<double> factor) {
+  const Index modes_per_chunk = lane_count / slots_per_mode(layout_);
+  const Index chunk = mode / modes_per_chunk;
+  const Index lane = mode % modes_per_chunk * factors_per_mode(layout_);
+  double* at = factors_.data() + (chunk * per_mode_ + which) * stride() + lane;
+  at[0] = factor.real();
+  if (layout_ == ModeLayout::complex_pairs) at[1] = factor.imag();
+}
+
+ModeTable::ModeTable(ModeLayout layout, Index modes, Index rows, Index columns)
+    : columns_(checked_columns(columns)), factors_(layout, modes, rows * columns) {}
+
+void ModeTable::apply(std::span<const double* const> in, std::span<double* const> out, int threads) const {
+  if (columns_ == 0) {  // of forces alone, where V = 0
+    for (double* const row : out) std::fill_n(row, factors_.slots(), 0.0);
+    return;
+  }
+  over_blocks(factors_, threads, [&]<ModeLayout layout>(Index, Index first, Index last) {
+    with_columns(columns_, [&]<int known>() { sum_rows<layout, known>(factors_, in, out, first, last); });
+  });
+}
+
+ModeForms::ModeForms(ModeLayout layout, Index modes, Index forms, Index columns)
+    : columns_(checked_columns(columns)), forms_(forms), factors_(layout, modes, forms * columns * (columns + 1) / 2) {
+  if (static_cast<std::size_t>(forms) > max_forms)
+    throw Error("up to {} forms are taken at a time, and here there are {}", max_forms, forms);
+  sums_.resize(static_cast<std::size_t>(blocks_of(factors_) * forms));
+}
+
+void ModeForms::set(Index mode, Index form, Index i, Index j, std::complex<double> factor) {
+  factors_.set(mode, entry(form, i, j), i == j ? factor : 2.0 * factor);  // once for both sides
+}
+
+void ModeForms::apply(std::span<const double* const> in, std::span<double> values, int threads) const {
+  const auto forms = static_cast<std::size_t>(forms_);
+  over_blocks(factors_, threads, [&]<ModeLayout layout>(Index block, Index first, Index last) {
+    const std::span<double> sums(sums_.data() + static_cast<std::size_t>(block) * forms, forms);
+    with_columns(columns_, [&]<int known>() { sum_forms<layout, known>(factors_, in, first, last, sums); });
+  });
+  std::fill(values.begin(), values.end(), 0.0);
+  for (std::size_t i = 0; i < sums_.size(); ++i) values[i % forms] += sums_[i];
+}
+
+}  // namespace seiche

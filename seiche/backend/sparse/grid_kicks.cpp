@@ -1,0 +1,104 @@
+#include <seiche/backend/fft/fftw_plan.hpp>
+#include <seiche/backend/sparse/equal_rows.hpp>
+#include <seiche/backend/sparse/grid_kicks.hpp>
+#include <seiche/core/simd/lanes.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace seiche {
+namespace {
+
+constexpr Index block_length = 512;  // points whose slopes, where V is local, stay in the first cache until their kick
+
+class GridKicks final : public Kicks {
+ public:
+  GridKicks(EqualRows K, std::shared_ptr<const PointwisePotential> V, const Potential& potential)
+      : K_(std::move(K)),
+        V_(std::move(V)),
+        potential_(potential),
+        slope_length_(!V_              ? 0
+                      : V_->is_local() ? std::min(n(), block_length)
+                                       : n()),
+        memory_(fftw_buffer(static_cast<std::size_t>(padded(slope_length_) + 3 * padded(n())))) {
+    K_.cut_runs(block_length);
+    const std::span<const EqualRows::Run> runs = K_.runs();
+    std::size_t next = 0;
+    for (Index begin = 0; begin < n(); begin += block_length) {
+      const std::size_t first = next;
+      while (next < runs.size() && runs[next].begin < begin + block_length) ++next;
+      blocks_.push_back({begin, std::min(n(), begin + block_length), runs.subspan(first, next - first)});
+    }
+  }
+
+  Report split(std::span<const KickAndDrift> stages, double last_kick, const Vector& z, Vector& out) const override {
+    double* const p = part(0);
+    std::array<double*, 2> others = {part(1), part(2)};
+    const double* q = z.data();
+    const double* p_before = z.data() + n();
+    Report report;
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      double* const q_after = i + 1 < stages.size() ? others[i % 2] : out.data();
+      const double squares = for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
+        return kick_and_drift(block.runs, stages[i], {q, g, p_before, g_begin}, q_after, p);
+      });
+      report.taken += squares * (1 - square(stages[i].decay)) / 2;
+      if (i == 0) report.kicked = squares;
+      q = q_after;
+      p_before = p;
+    }
+    for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
+      subtract_rows(block.runs, last_kick, {q, g, p_before, g_begin}, out.data() + n());
+      return 0.0;
+    });
+    return report;
+  }
+
+ private:
+  struct Block {  // points begin … end − 1, and the runs of K in them
+    Index begin, end;
+    std::span<const EqualRows::Run> runs;
+  };
+
+  Index n() const { return K_.size(); }
+
+  // Slopes of V, and three arrays of a number per point.
+  static Index padded(Index length) { return (length + lane_count - 1) / lane_count * lane_count; }
+  double* slope() const { return memory_.get(); }
+  double* part(Index i) const { return slope() + padded(slope_length_) + i * padded(n()); }
+
+  // Σ visit(block, slopes of V at q, the point that the first of them belongs to).
+  template <class Visit>
+  double for_blocks(const double* q, const Visit& visit) const {
+    const auto slopes_at = [&](Index begin, Index end) {
+      const auto length = static_cast<std::size_t>(end - begin);
+      V_->gradient({q + begin, length}, {slope(), length});
+    };
+    if (V_) potential_.count_gradient();
+    const bool is_local = V_ && V_->is_local();
+    if (V_ && !is_local) slopes_at(0, n());
+    double sum = 0;
+    for (const Block& block : blocks_) {
+      if (is_local) slopes_at(block.begin, block.end);
+      sum += visit(block, V_ ? slope() : nullptr, is_local ? block.begin : 0);
+    }
+    return sum;
+  }
+
+  EqualRows K_;
+  std::shared_ptr<const PointwisePotential> V_;
+  const Potential& potential_;
+  Index slope_length_;
+  std::vector<Block> blocks_;
+  FftwBuffer memory_;  // every part begins a line of the cache
+};
+
+}  // namespace
+
+std::unique_ptr<Kicks> grid_kicks(const SparseMatrix& K, std::shared_ptr<const PointwisePotential> V,
+                                  const Potential& potential) {
+  std::optional<EqualRows> rows = EqualRows::of(K, EqualRows::Limit::none);
+  return std::make_unique<GridKicks>(std::move(*rows), std::move(V), potential);
+}
+
+}  // namespace seiche

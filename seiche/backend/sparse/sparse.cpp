@@ -1,0 +1,86 @@
+#include <seiche/backend/grid/beyond_linear.hpp>
+#include <seiche/backend/grid/grid_damping.hpp>
+#include <seiche/backend/grid/grid_potential.hpp>
+#include <seiche/backend/grid/grid_space.hpp>
+#include <seiche/backend/sparse/grid_kicks.hpp>
+#include <seiche/backend/sparse/pade.hpp>
+#include <seiche/backend/sparse/sparse.hpp>
+#include <seiche/backend/sparse/sparse_damping.hpp>
+#include <seiche/backend/sparse/sparse_linear.hpp>
+#include <seiche/backend/sparse/sparse_phi.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/momenta.hpp>
+
+namespace seiche {
+namespace {
+
+template <class AnyStencil>
+SparseMatrix matrix_of(const Problem& problem, const AnyStencil& stencil) {
+  try {
+    return stencil.sparse_matrix(problem.grid);
+  } catch (const Error& error) {
+    throw Error("the sparse backend does not take {}: {}; use discretisation \"fd2\" or \"fd4\", or backend \"modal\"",
+                problem.name, error.what());
+  }
+}
+
+}  // namespace
+
+bool has_grid_kicks(const Problem& problem) {
+  if (problem.matrices || !problem.M.is_sparse()) return false;
+  const std::optional<Momenta> p = momenta(problem);
+  return p && p->inverse_mass == 1 && (!problem.potential || problem.potential->fields() == p->count);
+}
+
+double sparse_rate(const Problem& problem) {
+  if (problem.matrices)
+    return spectral_radius_bound(SparseMatrix(problem.matrices->S * problem.matrices->M) -
+                                 frozen_damping_matrix(problem));
+  return spectral_radius_bound(SparseMatrix(matrix_of(problem, problem.S) * matrix_of(problem, problem.M)) -
+                               matrix_of(problem, frozen_damping(problem)));
+}
+
+System sparse_system(const Problem& problem, const BackendOptions& options) {
+  options.sparse.validate();
+  const Index n = problem.grid.unknowns();
+  const std::shared_ptr<const FieldTransform> identity = identity_transform(n);
+  System system;
+  system.fields = problem.field_count();
+  system.space = std::make_unique<GridSpace>(problem.field_count(), identity);
+  system.potential = std::make_unique<GridPotential>(problem.potential, problem.potential_field, identity);
+
+  std::shared_ptr<const SparseOperators> shared = problem.matrices;
+  if (!shared)
+    shared =
+        std::make_shared<SparseOperators>(SparseOperators{matrix_of(problem, problem.S), matrix_of(problem, problem.M),
+                                                          matrix_of(problem, problem.damping.constant)});
+  const SparseOperators& matrices = *shared;
+  system.linear = sparse_linear_part(matrices.S, matrices.M, system.potential->support(), options.sparse);
+
+  if (has_grid_kicks(problem))
+    system.make_kicks = [shared, V = problem.potential, &potential = *system.potential] {
+      const Index positions = shared->M.rows() / 2;
+      return grid_kicks(shared->M.topLeftCorner(positions, positions), V, potential);
+    };
+
+  const auto D0 = std::make_shared<const SparseMatrix>(
+      problem.matrices ? frozen_damping_matrix(problem) : frozen_damping(problem).sparse_matrix(problem.grid));
+  const Potential::Support support = system.potential->support();
+  system.make_phi = [shared, D0, support] { return sparse_phi(shared, D0, support); };
+  system.make_undamped_phi = [shared, support] {
+    return sparse_phi(shared, std::make_shared<const SparseMatrix>(shared->S.rows(), shared->S.cols()), support);
+  };
+
+  std::unique_ptr<LinearMap> constant;
+  GridDamping::MakeFlow make_flow;
+  if (matrices.D.nonZeros() > 0) {
+    constant = sparse_map(matrices.D);
+    make_flow = sparse_damping_flow(matrices.D);
+  }
+  system.damping = std::make_unique<GridDamping>(problem, n, std::move(constant), std::move(make_flow));
+  add_beyond_linear(system, problem, identity, [&] { return sparse_map(matrix_of(problem, problem.derivative)); });
+  system.initial = problem.initial;
+  return system;
+}
+
+}  // namespace seiche

@@ -1,0 +1,156 @@
+#include <seiche/backend/krylov/lanczos.hpp>
+#include <seiche/backend/sparse/equal_rows.hpp>
+#include <seiche/backend/sparse/pade.hpp>
+#include <seiche/backend/sparse/sparse_linear.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/physical_memory.hpp>
+
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+constexpr double exponential_tolerance = 1e-14;
+
+struct Operators {
+  SparseMatrix S, M, absolute_M;
+  Potential::Support support;
+};
+
+// Everything is F applied to something: FMz + Ff = F(Mz + f), one pass over the factors.
+class PadePropagator final : public Propagator {
+ public:
+  // Q = F(h/2) for the exponential, F/2 for Cayley, which needs no factors of its own.
+  PadePropagator(const Operators& operators, std::unique_ptr<PadeForce> F, std::unique_ptr<PadeForce> Q)
+      : operators_(operators),
+        F_(std::move(F)),
+        Q_(std::move(Q)),
+        z_(operators.S.rows()),
+        c_(operators.S.rows()),
+        y_(operators.S.rows()),
+        q_(operators.S.rows()) {}
+
+  // ẑ = z⁻ + Q(Mz⁻ + ∇V(z⁻))
+  void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
+    set_slope(z, before);
+    const auto [begin, size] = operators_.support;
+    c_.segment(begin, size) += gradient.segment(begin, size);
+    (Q_ ? Q_ : F_)->apply(c_, y_);
+    z_mid.segment(begin, size) = z_.segment(begin, size) + (Q_ ? 1.0 : 0.5) * y_.segment(begin, size);
+  }
+  void increment(const Vector& z, Vector& dz) const override {
+    c_.noalias() = operators_.M * z;
+    F_->apply(c_, dz);
+  }
+  void force(const Vector& f, Vector& q) const override { F_->apply(f, q); }
+
+  void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const override {
+    set_slope(z, before);
+    const double quadratic_energy = z_.dot(c_) / 2;
+    F_->apply(c_, y_);
+    F_->apply(f, q_);
+    const double c = factor({f.dot(y_), f.dot(q_), quadratic_energy});
+    if (!std::isfinite(c)) return;
+    z = z_ + y_ + c * q_;
+    multiply_fields(after, z);
+  }
+
+ private:
+  void set_slope(const Vector& z, FieldFactors before) const {  // z_ = z⁻, c_ = Mz⁻
+    z_ = z;
+    multiply_fields(before, z_);
+    c_.noalias() = operators_.M * z_;
+  }
+
+  const Operators& operators_;
+  std::unique_ptr<PadeForce> F_, Q_;
+  mutable Vector z_, c_, y_, q_;
+};
+
+class SparseLinear final : public LinearPart {
+ public:
+  SparseLinear(Operators operators, const SparseOptions& options)
+      : operators_(std::move(operators)),
+        options_(options),
+        rows_of_M_(EqualRows::of(operators_.M)),
+        radius_(spectral_radius_bound(operators_.S * operators_.M)),
+        scratch_(operators_.S.rows()),
+        absolute_(operators_.S.rows()) {
+    if (options.exponential == ExponentialKind::lanczos)
+      skew_ = std::make_shared<SkewSystem>(operators_.S, operators_.M);
+  }
+
+  void apply_S(const Vector& z, Vector& out) const override { out.noalias() = operators_.S * z; }
+  void apply_M(const Vector& z, Vector& out) const override {
+    if (rows_of_M_)
+      rows_of_M_->apply(z, out);
+    else
+      out.noalias() = operators_.M * z;
+  }
+  double quadratic_energy(const Vector& z) const override {
+    if (rows_of_M_) return rows_of_M_->form(z) / 2;
+    scratch_.noalias() = operators_.M * z;
+    return z.dot(scratch_) / 2;
+  }
+  double quadratic_magnitude(const Vector& z) const override {
+    absolute_ = z.cwiseAbs();  // a product with an expression would allocate
+    scratch_.noalias() = operators_.absolute_M * absolute_;
+    return absolute_.dot(scratch_) / 2;
+  }
+  ValueAndMagnitude quadratic(const Vector& z) const override {
+    if (!rows_of_M_) return LinearPart::quadratic(z);
+    const auto [value, magnitude] = rows_of_M_->form_and_magnitude(z);
+    return {value / 2, magnitude / 2};
+  }
+  std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
+    if (kind == PropagatorKind::cayley) {
+      require_memory(1);
+      return std::make_unique<PadePropagator>(operators_, force(h, {1, 1}), nullptr);
+    }
+    if (skew_) return lanczos_propagator(skew_, operators_.support, h, options_.lanczos_dimension);
+    const PadePlan whole = plan(h);
+    const PadePlan half = plan(h / 2);
+    require_memory(whole.degree + half.degree);
+    return std::make_unique<PadePropagator>(operators_, force(h, whole), force(h / 2, half));
+  }
+
+ private:
+  PadePlan plan(double h) const {
+    if (options_.pade_degree > 0) return {options_.pade_degree, 1};
+    return plan_pade(std::abs(h) * radius_, exponential_tolerance);
+  }
+  std::unique_ptr<PadeForce> force(double h, PadePlan plan) const {
+    return std::make_unique<PadeForce>(operators_.S, operators_.M, factory(), h, plan);
+  }
+  const ResolventFactory& factory() const {
+    if (!factory_) factory_ = std::make_unique<ResolventFactory>(operators_.S, operators_.M);
+    return *factory_;
+  }
+  void require_memory(int degrees) const {
+    if (factor_bytes_ < 0) factor_bytes_ = factory().factor_bytes();
+    const double bytes = factor_bytes_ * degrees / 2;  // two degrees share a complex pole, and a real one takes half
+    if (bytes > physical_memory())
+      throw Error(
+          "the factors of the sparse backend need about {:.3g} bytes, and this machine has {:.3g}; a method with the "
+          "Cayley propagator needs {:.3g}, and [backend] exponential = \"lanczos\" factorises M alone",
+          bytes, physical_memory(), factor_bytes_ / 2);
+  }
+
+  Operators operators_;
+  SparseOptions options_;
+  std::optional<EqualRows> rows_of_M_;                 // nothing where coefficients change from point to point
+  mutable std::unique_ptr<ResolventFactory> factory_;  // when first asked for: Lanczos needs none
+  mutable double factor_bytes_ = -1;                   // likewise
+  double radius_;
+  std::shared_ptr<const SkewSystem> skew_;  // null: Padé
+  mutable Vector scratch_, absolute_;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearPart> sparse_linear_part(const SparseMatrix& S, const SparseMatrix& M, Potential::Support support,
+                                               const SparseOptions& options) {
+  return std::make_unique<SparseLinear>(Operators{S, M, M.cwiseAbs(), support}, options);
+}
+
+}  // namespace seiche

@@ -1,0 +1,33 @@
+// Case files: TOML in, a checked RunSpec out, and back. Mistakes are reported in the order of the source, with file,
+// line and column.
+#pragma once
+
+#include <seiche/config/case/run_spec.hpp>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seiche {
+
+// What a case file holds. Throws Error where it cannot be read.
+std::string case_text(const std::filesystem::path& file);
+
+// `overrides` are those of --set: "method.h=1/64". They replace what the file says and are checked the same way. Where
+// `methods` will take the place of the one in the case, each option of [method] must suit one of them, and need not
+// suit that one.
+RunSpec read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                  const std::vector<std::string>& methods = {});
+
+// `name` is how errors call the text; file names in it start at `folder`, or else at the current one.
+RunSpec parse_case(std::string_view text, std::string_view name, const std::vector<std::string>& overrides = {},
+                   const std::filesystem::path& folder = {}, const std::vector<std::string>& methods = {});
+
+// The case as run, every default filled in; parse_case reads the same RunSpec from it.
+std::string write_case(const RunSpec& spec);
+
+// What `seiche new` prints: every key with its default, its meaning and its bounds.
+std::string example_case(const std::string& problem);
+
+}  // namespace seiche

@@ -1,0 +1,72 @@
+#include <seiche/config/case/case_keys.hpp>
+#include <seiche/config/case/ensemble_case.hpp>
+#include <seiche/config/case/key_synonyms.hpp>
+#include <seiche/config/case/method_option_keys.hpp>
+#include <seiche/config/custom/custom_case.hpp>
+#include <seiche/core/error.hpp>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace seiche {
+namespace {
+
+bool has(const std::vector<std::string>& keys, const std::string& key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+// As far as this case knows the key.
+MeantKey meant_here(const std::string& word, const ProblemEntry* problem) {
+  const MeantKey meant = meant_key(word);
+  return has(case_keys(meant.section, problem), meant.key) ? meant : MeantKey{};
+}
+
+}  // namespace
+
+std::vector<std::string> case_sections() { return {"problem", "method", "backend", "time", "output", "ensemble"}; }
+
+std::vector<std::string> case_keys(const std::string& section, const ProblemEntry* problem) {
+  if (section == "method") {
+    std::vector<std::string> keys = {"name", "h", "tolerance", "h_max"};
+    for (const MethodOptionKey& option : method_option_keys()) keys.push_back(option.name);
+    return keys;
+  }
+  if (section == "backend") return {"name", "plan", "exponential", "pade_degree", "lanczos_dimension"};
+  if (section == "time") return {"end"};
+  if (section == "output")
+    return {"directory", "energy_every", "ledger", "report", "snapshot_every", "snapshot_interval"};
+  if (section == "ensemble") return ensemble_keys(problem);
+  std::vector<std::string> keys = {"name", "initial", "friction", "force"};
+  if (problem != nullptr && problem->name == custom_name)
+    keys.insert(keys.end(), custom_keys().begin(), custom_keys().end());
+  if (problem != nullptr)
+    for (const Parameter& parameter : problem->parameters) keys.push_back(parameter.name);
+  return keys;
+}
+
+std::string key_outside_sections(const std::string& key, const ProblemEntry* problem) {
+  const std::vector<std::string> sections = case_sections();
+  if (has(sections, key)) return fmt::format("{0} must be a section, [{0}]", key);
+  for (const std::string& section : sections)
+    if (key != "name" && has(case_keys(section, problem), key))
+      return fmt::format("the key '{}' stands outside every section; it belongs into [{}]", key, section);
+  if (const MeantKey meant = meant_here(key, problem); !meant.key.empty())
+    return fmt::format("the key '{}' stands outside every section; did you mean '{}' in [{}]?", key, meant.key,
+                       meant.section);
+  return fmt::format("the key '{}' stands outside every section ({})", key, fmt::join(sections, ", "));
+}
+
+std::string unknown_key(const std::string& section, const std::string& key, const ProblemEntry* problem) {
+  const std::string where = section == "problem" && problem != nullptr ? fmt::format("[problem] {}", problem->name)
+                                                                       : fmt::format("[{}]", section);
+  const std::vector<std::string> keys = case_keys(section, problem);
+  const MeantKey meant = meant_here(key, problem);
+  if (meant.key.empty()) return unknown_name("key in " + where, key, keys).what();
+  if (meant.section != section)
+    return fmt::format("unknown key in {} '{}'; did you mean '{}' in [{}]?", where, key, meant.key, meant.section);
+  return fmt::format("unknown key in {} '{}'; did you mean '{}'? Allowed: {}", where, key, meant.key,
+                     fmt::join(keys, ", "));
+}
+
+}  // namespace seiche

@@ -1,0 +1,220 @@
+#include <seiche/config/case/case_parameters.hpp>
+#include <seiche/config/custom/custom_case.hpp>
+#include <seiche/config/data/initial_formulas.hpp>
+#include <seiche/config/data/matrix_market.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/damping/field_rates.hpp>
+#include <seiche/damping/rates.hpp>
+#include <seiche/formula/formula_compiler.hpp>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace seiche {
+namespace {
+
+void require(const std::string& complaint) {
+  if (!complaint.empty()) throw Error("problem.{}", complaint);
+}
+
+// Null where the text is no formula in these variables.
+FormulaPointer compiled(const std::string& text, const std::vector<std::string>& variables,
+                        const FormulaConstants& constants = {}) {
+  try {
+    return compile_formula(text, variables, constants);
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
+// γ(t), sampled up to t_end.
+RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, double t_end) {
+  constexpr int samples = 4096;
+  for (int i = 0; i <= samples; ++i) {
+    const double t = t_end * i / samples;
+    const std::string complaint = out_of_bounds(parameter, (*formula)(t));
+    if (!complaint.empty()) throw Error("problem.{} at t = {}", complaint, t);
+  }
+  return formula_rate(std::move(formula));
+}
+
+// A formula in t alone is a rate for all points. Any other is checked on the grid.
+ParameterValue read_formula_rate(const std::string& key, const Parameter& parameter, const std::string& text,
+                                 double t_end) {
+  if (FormulaPointer formula = compiled(text, {"t"})) return checked_rate(parameter, std::move(formula), t_end);
+  return compile_space_rate(key, text);
+}
+
+ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, double t_end) {
+  const std::string key = "problem." + parameter.name;
+  if (value.kind != CaseValue::Kind::number && value.kind != CaseValue::Kind::text)
+    throw Error("{} = {} must be a number, or a formula in t (and x, y, z) such as \"0.1 + 0.05*sin(t)\"", key,
+                value.shown());
+  if (value.kind == CaseValue::Kind::text) return read_formula_rate(key, parameter, value.text, t_end);
+  const double gamma = read_number(key, value);
+  require(out_of_bounds(parameter, gamma));
+  return constant_rate(gamma);
+}
+
+std::filesystem::path find_file(std::string_view what, const std::string& name, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  for (const fs::path& candidate : {folder / name, fs::path(name)}) {  // folder / absolute is the absolute one
+    if (fs::is_directory(candidate)) throw Error("the {} file {} is a folder", what, candidate.string());
+    if (fs::exists(candidate)) return fs::absolute(candidate).lexically_normal();
+  }
+  throw Error("the {} file {} does not exist, neither beside the case file nor in the current folder", what, name);
+}
+
+FormulaData read_formulas(std::string_view key, const CaseValue& value, const ProblemEntry& problem) {
+  const FormulaContext context = formula_context(problem, FormulaContext::Kind::initial);
+  const NameAdvice advice = advice_in(context);
+  std::vector<std::string> names = place_variables(context.axes);
+  for (const Parameter& parameter : problem.parameters)
+    if (parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::integer)
+      names.push_back(parameter.name);
+  FormulaData data;
+  for (const auto& [field, formula] : value.entries) {
+    if (formula.kind != CaseValue::Kind::text && formula.kind != CaseValue::Kind::number)
+      throw Error("{}.{} = {} must be a formula in quotes, or a number", key, field, formula.shown());
+    try {
+      compile_formula(formula.text, names, {}, advice);
+    } catch (const Error& error) {
+      throw Error("{}.{}: {}", key, field, error.what());
+    }
+    data.formulas[field] = formula.text;
+  }
+  std::vector<std::string> missing = problem.fields;
+  std::erase_if(missing, [&](const std::string& field) { return data.formulas.contains(field); });
+  if (missing.empty()) return data;
+  const bool has_zero = std::find(problem.presets.begin(), problem.presets.end(), "zero") != problem.presets.end();
+  throw Error("{} has no formula for the field{} {}; write {} = 0 beside the others{}", key,
+              missing.size() > 1 ? "s" : "", fmt::join(missing, ", "), fmt::join(missing, " = 0, "),
+              has_zero ? ", or initial = \"zero\" for all fields" : "");
+}
+
+// A number or name, checked, and how a case file writes it: 2 and 2.0 are one case.
+std::pair<ParameterValue, std::string> read_parameter(const std::string& key, const Parameter& parameter,
+                                                      const CaseValue& value) {
+  if (parameter.kind == ParameterKind::choice) {
+    const std::string name = read_name(key, value, parameter.choices);
+    return {name, name};
+  }
+  const double number = read_number(key, value);
+  require(out_of_bounds(parameter, number));
+  if (parameter.kind == ParameterKind::real)
+    return {number, is_toml_number(value.text) ? toml_real(number) : value.text};
+  const long whole = read_whole(key, value, std::numeric_limits<long>::min());
+  return {whole, fmt::format("{}", whole)};
+}
+
+template <class T>
+std::vector<T> gathered(const std::vector<ParameterValue>& values) {
+  std::vector<T> list;
+  for (const ParameterValue& value : values) list.push_back(std::get<T>(value));
+  return list;
+}
+
+}  // namespace
+
+FormulaContext formula_context(const ProblemEntry& problem, FormulaContext::Kind kind) {
+  const bool is_custom = problem.name == custom_name;
+  const bool has_grid = std::any_of(problem.parameters.begin(), problem.parameters.end(),
+                                    [](const Parameter& parameter) { return parameter.name == "length"; });
+  constexpr Index most_axes = 3;  // how many there are is known with the grid
+  return {kind, problem.fields, is_custom && !has_grid ? 0 : most_axes, is_custom};
+}
+
+SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text, const FormulaConstants& constants,
+                                    const NameAdvice& advice) {
+  const std::vector<std::string> names = {"t", "x", "y", "z"};
+  const auto end = [&](Index axes) { return names.begin() + axes + 1; };
+  if (FormulaPointer formula = compiled(text, {"t"}, constants))
+    return uniform_space_rate(formula_rate(std::move(formula)));
+  Index axes = 1;
+  while (axes < 3 && !compiled(text, {names.begin(), end(axes)}, constants)) ++axes;
+  try {
+    FormulaPointer formula = compile_formula(text, {names.begin(), end(axes)}, constants, advice);
+    const bool constant_in_time = compiled(text, {names.begin() + 1, end(axes)}, constants) != nullptr;
+    return formula_space_rate(std::move(formula), axes, constant_in_time);
+  } catch (const Error& error) {
+    throw Error("{}: {}", key, error.what());
+  }
+}
+
+DampingRate compile_damping_rate(const std::string& key, const std::string& text, const FormulaConstants& constants) {
+  if (FormulaPointer formula = compiled(text, {"t"}, constants)) return formula_rate(std::move(formula));
+  return compile_space_rate(key, text, constants);
+}
+
+void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
+                   const std::filesystem::path& folder) {
+  const std::string key = "problem." + parameter.name;
+  if (parameter.kind == ParameterKind::matrix) {
+    const std::string name = read_text(key, value);
+    const std::string file = name.empty() ? "" : find_file(key, name, folder).string();
+    spec.parameters.set(parameter.name,
+                        file.empty() ? nullptr : std::make_shared<const SparseMatrix>(read_matrix_market(file)));
+    spec.parameter_texts[parameter.name] = file;  // absolute: the case file is copied to where the results are
+    return;
+  }
+  if (parameter.kind == ParameterKind::rate) {
+    spec.parameters.set(parameter.name, read_rate(parameter, value, spec.t_end));
+    spec.parameter_texts[parameter.name] = is_toml_number(value.text) ? toml_real(read_number(key, value)) : value.text;
+    return;
+  }
+  if (!parameter.per_axis) {
+    const auto [number, text] = read_parameter(key, parameter, value);
+    spec.parameters.set(parameter.name, number);
+    spec.parameter_texts[parameter.name] = text;
+    return;
+  }
+  constexpr std::size_t most_axes = 3;
+  const bool is_list = value.kind == CaseValue::Kind::list;
+  if (is_list && (value.entries.empty() || value.entries.size() > most_axes))
+    throw Error("{} has {} entries; give one value, or a list with one for each of 1 to {} axes", key,
+                value.entries.size(), most_axes);
+  std::vector<ParameterValue> values;
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < (is_list ? value.entries.size() : 1); ++i) {
+    const auto [entry, text] = read_parameter(key, parameter, is_list ? value.entries[i].second : value);
+    values.push_back(entry);
+    texts.push_back(parameter.kind == ParameterKind::choice && is_list ? toml_string(text) : text);
+  }
+  switch (parameter.kind) {
+    case ParameterKind::real: spec.parameters.set(parameter.name, gathered<double>(values)); break;
+    case ParameterKind::integer: spec.parameters.set(parameter.name, gathered<long>(values)); break;
+    default: spec.parameters.set(parameter.name, gathered<std::string>(values)); break;
+  }
+  spec.parameter_texts[parameter.name] = is_list ? fmt::format("[{}]", fmt::join(texts, ", ")) : texts.front();
+}
+
+InitialData read_initial(std::string_view key, const CaseValue& value, const ProblemEntry& problem,
+                         const std::filesystem::path& folder) {
+  if (value.kind == CaseValue::Kind::text) {
+    try {
+      return PresetData{read_name(key, value, problem.presets)};
+    } catch (const Error& error) {
+      throw Error("{}; or {{ file = \"…\" }}, or formulas {{ {} = \"…\" }}", error.what(),
+                  fmt::join(problem.fields, " = \"…\", "));
+    }
+  }
+  if (value.kind != CaseValue::Kind::table) {
+    throw Error("{} = {} must be a preset ({}), {{ file = \"…\" }}, or formulas {{ {} = \"…\" }}", key, value.shown(),
+                fmt::join(problem.presets, ", "), fmt::join(problem.fields, " = \"…\", "));
+  }
+  std::vector<std::string> names = problem.fields;
+  names.emplace_back("file");
+  for (const auto& [name, entry] : value.entries)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw unknown_name(fmt::format("key in {}", key), name, names);
+
+  const auto file =
+      std::find_if(value.entries.begin(), value.entries.end(), [](const auto& e) { return e.first == "file"; });
+  if (file == value.entries.end()) return read_formulas(key, value, problem);
+  if (value.entries.size() > 1) throw Error("{} is either a file or formulas, not both", key);
+  return FileData{find_file("initial", read_text(fmt::format("{}.file", key), file->second), folder)};
+}
+
+}  // namespace seiche

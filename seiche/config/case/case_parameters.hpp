@@ -1,0 +1,34 @@
+// What [problem] says: parameters against the problem's own list, and initial data.
+#pragma once
+
+#include <seiche/config/case/case_value.hpp>
+#include <seiche/config/case/run_spec.hpp>
+#include <seiche/formula/formula_parser.hpp>
+#include <seiche/problem/problems.hpp>
+
+#include <filesystem>
+
+namespace seiche {
+
+// Needs spec.t_end: a rate must be finite, and within its bounds, up to there. A relative file name starts at `folder`,
+// or else at the current one.
+void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
+                   const std::filesystem::path& folder = {});
+
+// A formula in t and as many of x, y, z as it names, which asks the grid for so many axes. Throws Error that names the
+// key.
+SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text,
+                                    const FormulaConstants& constants = {}, const NameAdvice& advice = {});
+// The same, and where it names t alone a rate for all points.
+DampingRate compile_damping_rate(const std::string& key, const std::string& text,
+                                 const FormulaConstants& constants = {});
+
+// What formulas of [problem] are told about names that they do not know.
+FormulaContext formula_context(const ProblemEntry& problem, FormulaContext::Kind kind);
+
+// A preset, { file = "…" }, or a formula for every field. A relative file name starts at `folder`, or else at the
+// current one.
+InitialData read_initial(std::string_view key, const CaseValue& value, const ProblemEntry& problem,
+                         const std::filesystem::path& folder);
+
+}  // namespace seiche

@@ -1,0 +1,20 @@
+// The options of methods as keys of [method].
+#pragma once
+
+#include <seiche/config/case/case_value.hpp>
+#include <seiche/method/methods.hpp>
+
+#include <span>
+#include <string>
+
+namespace seiche {
+
+struct MethodOptionKey {
+  std::string name;
+  // Puts the value into the options; throws Error with the key, the value and what is allowed.
+  void (*read)(MethodOptions& options, const std::string& key, const CaseValue& value);
+};
+
+std::span<const MethodOptionKey> method_option_keys();
+
+}  // namespace seiche

@@ -1,0 +1,102 @@
+// [method] of a case file.
+#include <seiche/config/case/case_reading.hpp>
+#include <seiche/config/case/method_option_keys.hpp>
+
+#include <optional>
+
+namespace seiche {
+namespace {
+
+class MethodSection {
+ public:
+  explicit MethodSection(CaseReading& reading) : r_(reading), spec_(reading.spec) {}
+
+  void read() {
+    if (r_.problem != nullptr) spec_.method = r_.problem->default_method;
+    const MethodEntry* method = &find_method(spec_.method);
+    r_.on("method", "name", [&](const std::string&, const CaseValue& value) {
+      method = nullptr;
+      std::vector<std::string> names = method_names();
+      names.emplace_back("auto");
+      spec_.method = read_name("method", value, names);
+      method = spec_.method == "auto" ? nullptr : &find_method(spec_.method);
+    });
+    read_tolerance();
+    read_step_size();
+    for (const MethodOptionKey& option : method_option_keys()) read_option(option, method);
+  }
+
+ private:
+  // Each option is validated alone too, so that the complaint is at the key that caused it.
+  void read_option(const MethodOptionKey& option, const MethodEntry* method) {
+    r_.on("method", option.name, [&](const std::string& key, const CaseValue& value) {
+      MethodOptions alone;
+      option.read(alone, key, value);
+      if (!r_.methods.empty())
+        require_one_that_knows(alone);
+      else if (spec_.method == "auto" && alone != MethodOptions{})
+        throw Error(
+            "{} belongs to one method, and method.name = \"auto\" is yet to choose it: leave {} out, or name a method",
+            key, option.name);
+      else if (method != nullptr)
+        alone.validate(*method);
+      option.read(spec_.method_options, key, value);
+    });
+  }
+
+  void require_one_that_knows(const MethodOptions& options) const {
+    std::optional<Error> first;
+    for (const std::string& name : r_.methods) {
+      try {
+        return options.validate(find_method(name));
+      } catch (const Error& error) {
+        if (!first) first = error;
+      }
+    }
+    throw Error(*first);
+  }
+
+  void read_tolerance() {
+    r_.on("method", "tolerance", [&](const std::string& key, const CaseValue& value) {
+      const double tolerance = read_number(key, value);
+      if (tolerance <= 0)
+        throw Error("{} = {} must be > 0: the error that steps add per unit of time, in the units of the fields", key,
+                    value.shown());
+      spec_.tolerance = tolerance;
+    });
+    r_.on("method", "h_max", [&](const std::string& key, const CaseValue& value) {
+      const double h = read_number(key, value);
+      if (h <= 0) throw Error("{} = {} must be > 0", key, value.shown());
+      if (!r_.asks_for_tolerance())
+        throw Error("{} = {} needs method.tolerance: it bounds steps of variable size", key, value.shown());
+      spec_.h_max = h;
+    });
+  }
+
+  void read_step_size() {
+    const auto read = [&](const std::string& key, const CaseValue& value) {
+      const double h = read_number(key, value);
+      if (h <= 0) throw Error("{} = {} must be > 0", key, value.shown());
+      if (r_.problem == nullptr && spec_.t_end == 0) return;
+      if (h > spec_.t_end) throw Error("{} = {} must be ≤ time.end = {}", key, value.shown(), spec_.t_end);
+      if (spec_.t_end / h > 1e15) throw Error("{} = {} would take {:.3g} steps", key, value.shown(), spec_.t_end / h);
+      spec_.h = h;
+    };
+    if (r_.on("method", "h", read) || r_.problem == nullptr || r_.asks_for_tolerance()) return;
+    spec_.h = read_number("method.h", default_value(r_.problem->default_h));
+    spec_.h_is_default = spec_.h <= spec_.t_end;
+    if (spec_.h_is_default) return;
+    spec_.h = spec_.t_end;
+    spec_.notes.push_back(fmt::format("method.h is not given and its default {} is more than time.end: h = {}",
+                                      r_.problem->default_h, spec_.h));
+  }
+
+  CaseReading& r_;
+  RunSpec& spec_;
+};
+
+}  // namespace
+
+void read_method_section(CaseReading& reading) { MethodSection(reading).read(); }
+
+}  // namespace seiche

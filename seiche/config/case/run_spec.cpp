@@ -1,0 +1,112 @@
+#include <seiche/config/case/run_spec.hpp>
+#include <seiche/config/data/finite_force.hpp>
+#include <seiche/config/data/initial_file.hpp>
+#include <seiche/config/data/initial_formulas.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/text/number_text.hpp>
+#include <seiche/problem/problems.hpp>
+
+#include <algorithm>
+
+namespace seiche {
+namespace {
+
+// γ(x, t) at every point, and at so many times up to t_end that it takes no second.
+void check_field_rate(const RunSpec& spec, const Parameter& parameter, const Problem& problem) {
+  const FieldRate& rate = *problem.damping.field_rate;
+  std::vector<double> gamma(static_cast<std::size_t>(problem.grid.unknowns()));
+  const std::size_t samples = rate.is_constant() ? 1 : std::clamp<std::size_t>((1U << 22U) / gamma.size(), 16, 4096);
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double t = samples > 1 ? spec.t_end * static_cast<double>(i) / static_cast<double>(samples - 1) : 0.0;
+    rate.values(t, gamma);
+    for (std::size_t j = 0; j < gamma.size(); ++j) {
+      const std::string complaint = out_of_bounds(parameter, gamma[j]);
+      if (!complaint.empty())
+        throw Error("problem.{} at t = {}{}", complaint, t, place_text(problem.grid, static_cast<Index>(j)));
+    }
+  }
+}
+
+void check_field_rates(const RunSpec& spec, const Problem& problem) {
+  if (!problem.damping.field_rate) return;
+  for (const Parameter& parameter : problem_entry(spec).parameters)
+    if (parameter.kind == ParameterKind::rate && spec.parameters.damping_rate(parameter.name).varying)
+      check_field_rate(spec, parameter, problem);
+}
+
+// Where the value of the key stands that a complaint begins with: what was given after --set is not in the file.
+std::string blamed(const RunSpec& spec, std::string_view complaint) {
+  const auto given = std::find_if(spec.overrides.rbegin(), spec.overrides.rend(), [&](const std::string& text) {
+    const std::size_t end = text.find('=');
+    std::string key = text.substr(0, text.find_last_not_of(" \t", end - 1) + 1);
+    key =
+        key.substr(0, key.find('.', key.find('.') + 1));  // what is inside a table is complained about as the table is
+    return complaint.starts_with(key) && complaint.find_first_of(" :.,", key.size()) == key.size();
+  });
+  return given == spec.overrides.rend() ? spec.source : "--set " + *given;
+}
+
+}  // namespace
+
+const ProblemEntry& problem_entry(const RunSpec& spec) { return spec.entry ? *spec.entry : find_problem(spec.problem); }
+
+FormulaConstants formula_constants(const RunSpec& spec) {
+  FormulaConstants constants;
+  const ParameterValues& values = spec.parameters;
+  for (const Parameter& p : problem_entry(spec).parameters) {
+    if (p.kind == ParameterKind::real)
+      constants[p.name] = p.per_axis ? values.reals(p.name).front() : values.real(p.name);
+    if (p.kind == ParameterKind::integer)
+      constants[p.name] = static_cast<double>(p.per_axis ? values.integers(p.name).front() : values.integer(p.name));
+  }
+  return constants;
+}
+
+Problem make_problem(const RunSpec& spec) {
+  try {
+    const ProblemEntry& entry = problem_entry(spec);
+    const auto* preset = std::get_if<PresetData>(&spec.initial);
+    Problem problem = entry.make(spec.parameters, preset != nullptr ? preset->name : entry.presets.front());
+    check_field_rates(spec, problem);
+    add_drives(spec.drives, problem, formula_constants(spec));
+    if (const auto* data = std::get_if<FileData>(&spec.initial))
+      problem.initial = read_initial_file(data->file, problem);
+    if (const auto* data = std::get_if<FormulaData>(&spec.initial))
+      problem.initial = initial_from_formulas(data->formulas, formula_constants(spec), problem);
+    require_finite_force(problem);
+    return problem;
+  } catch (const Error& error) {
+    if (spec.source.empty()) throw;
+    throw Error("{}: {}", blamed(spec, error.what()), error.what());
+  }
+}
+
+SimulationOptions simulation_options(const RunSpec& spec) {
+  return {.method = spec.method,
+          .backend = spec.backend,
+          .method_options = spec.method_options,
+          .backend_options = {.measure_plans = spec.measure_plans, .sparse = spec.sparse},
+          .variable_steps = spec.tolerance.has_value(),
+          .tolerance = spec.tolerance.value_or(0.0),
+          .t_end = spec.t_end};
+}
+
+void settle_method(RunSpec& spec) {
+  if (spec.method != "auto") return;
+  SimulationOptions options = simulation_options(spec);
+  options.backend_options.measure_plans = false;  // nothing is timed yet, and no plan of the run is to depend on this
+  const Simulation chosen(make_problem(spec), options);
+  spec.method = chosen.method().name;
+  spec.method_options = chosen.method_options();
+  spec.notes.push_back(fmt::format("method = \"auto\": {}", chosen.reason()));
+}
+
+void settle_snapshots(RunSpec& spec, const Problem& problem) {
+  if (!spec.tolerance || spec.snapshots_given) return;
+  constexpr Index most_numbers = Index{1} << 24U;
+  Index count = problem.size() <= 16 ? 1024 : 512;
+  while (count > 16 && count * problem.size() > most_numbers) count /= 2;
+  spec.snapshot_interval = spec.t_end / static_cast<double>(count);  // exact, for a power of two
+}
+
+}  // namespace seiche

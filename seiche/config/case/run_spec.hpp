@@ -1,0 +1,91 @@
+// A case file, checked: what to run, with which method, and what to record.
+#pragma once
+
+#include <seiche/config/case/drive_case.hpp>
+#include <seiche/config/case/ensemble_case.hpp>
+#include <seiche/config/custom/custom_problem.hpp>
+#include <seiche/core/parameter.hpp>
+#include <seiche/core/problem.hpp>
+#include <seiche/problem/problems.hpp>
+#include <seiche/simulation/simulation.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace seiche {
+
+struct PresetData {
+  std::string name;
+  bool operator==(const PresetData&) const = default;
+};
+struct FileData {
+  std::filesystem::path file;  // absolute: the case file is copied to where the results are
+  bool operator==(const FileData&) const = default;
+};
+struct FormulaData {
+  std::map<std::string, std::string> formulas;  // field → formula in x, j and the problem's real parameters
+  bool operator==(const FormulaData&) const = default;
+};
+using InitialData = std::variant<PresetData, FileData, FormulaData>;
+
+struct RunSpec {
+  std::string source;                  // how errors call the case: its file name
+  std::vector<std::string> overrides;  // and what --set gave beside it, "section.key=value"
+
+  std::string problem;
+  std::optional<CustomProblem> custom;                 // of the problem "custom"
+  std::shared_ptr<const ProblemEntry> entry;           // of that problem; null for those of the list
+  ParameterValues parameters;                          // one for every Parameter of the problem
+  std::map<std::string, std::string> parameter_texts;  // the same as written: "1/3", "0.1 + 0.05*sin(t)"
+  InitialData initial;
+  DriveSpec drives;
+
+  std::string method = "seisav";    // or "auto"
+  double h = 0.0;                   // the step size; beside a tolerance the first one, or 0
+  std::optional<double> tolerance;  // steps of variable size
+  bool h_is_default = false;        // the case says nothing about it
+  double h_max = 0.0;               // and none longer than this; 0: no bound
+  MethodOptions method_options;
+  std::string backend = "auto";
+  bool measure_plans = false;
+  SparseOptions sparse;
+
+  double t_end = 0.0;
+  std::string output_directory;
+  std::int64_t energy_every = 1;     // steps
+  std::int64_t snapshot_every = 64;  // steps; 0: the first and the last state only
+  bool ledger = false;               // columns in energy.csv: where the change of H comes from
+  bool report = true;                // report.html
+  double snapshot_interval = 0.0;    // time; 0: by steps. With a tolerance only
+  bool snapshots_given = false;      // one of the two at least
+
+  std::optional<EnsembleSpec> ensemble;  // none: one run
+
+  std::vector<std::string> notes;  // what the user should know before the run
+};
+
+// Of the list, or of the custom problem.
+const ProblemEntry& problem_entry(const RunSpec& spec);
+
+// The parameters that formulas may name: real and whole ones; of a parameter per axis, that of the first.
+FormulaConstants formula_constants(const RunSpec& spec);
+
+// Throws Error where the parameters do not fit together, or the initial data do not fit the state.
+Problem make_problem(const RunSpec& spec);
+
+SimulationOptions simulation_options(const RunSpec& spec);
+
+// Where the method is "auto": what Simulation chooses for the case takes its place, with the reason among the notes.
+void settle_method(RunSpec& spec);
+
+// Where there is a tolerance and no word about snapshots: as many as make a smooth picture, by an interval that divides
+// the run. 1024 of up to 16 unknowns, whose pictures are curves; else 512, or fewer, so that all have about 2²⁴
+// numbers; 16 at least.
+void settle_snapshots(RunSpec& spec, const Problem& problem);
+
+}  // namespace seiche

@@ -1,0 +1,48 @@
+#include <seiche/config/custom/custom_problem.hpp>
+#include <seiche/core/error.hpp>
+
+#include <algorithm>
+
+namespace seiche {
+namespace {
+
+bool is_name(const std::string& name) {
+  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  return !name.empty() && letter(name.front()) &&
+         std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || digit(c) || c == '_'; });
+}
+
+}  // namespace
+
+std::vector<std::string> field_names(const CustomProblem& custom) {
+  const bool has_place = custom.grid.has_value();
+  std::vector<std::string> names = custom.fields;
+  if (names.empty()) names = has_place ? std::vector<std::string>{"u", "v"} : std::vector<std::string>{"q", "p"};
+  constexpr std::size_t most_fields = 64;
+  if (names.size() > most_fields)
+    throw Error("problem.fields has {} names; at most {} are possible", names.size(), most_fields);
+  std::vector<std::string> taken = {"pi", "Pi", "t", "j", "e", "file"};
+  if (has_place) taken.insert(taken.end(), {"x", "y", "z", "dx", "dy", "dz", "laplacian", "d_x", "d_y", "d_z"});
+  for (const FormulaFunction& function : formula_functions()) taken.emplace_back(function.name);
+  std::vector<std::string> derived;  // from the names of fields
+  for (const std::string& name : names) {
+    if (!has_place) break;
+    for (const char* derivative : {"_x", "_y", "_z", "_xx", "_yy", "_zz"}) derived.push_back(name + derivative);
+    derived.push_back("d" + name);
+  }
+  const auto take = [&](const char* key, const char* kind, const std::string& name) {
+    if (!is_name(name)) throw Error("problem.{}: '{}' is no name: letters, digits and _, a letter first", key, name);
+    if (std::find(taken.begin(), taken.end(), name) != taken.end())
+      throw Error("problem.{}: the name {} stands for something else in formulas", key, name);
+    if (std::find(derived.begin(), derived.end(), name) != derived.end())
+      throw Error("problem.{}: {} is a derivative or difference of a field in formulas: give the {} another name", key,
+                  name, kind);
+    taken.push_back(name);
+  };
+  for (const auto& [name, value] : custom.parameters) take("parameters", "parameter", name);
+  for (const std::string& name : names) take("fields", "field", name);
+  return names;
+}
+
+}  // namespace seiche

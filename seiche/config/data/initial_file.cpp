@@ -1,0 +1,70 @@
+#include <seiche/config/data/initial_file.hpp>
+#include <seiche/core/commuting_damping.hpp>
+#include <seiche/core/error.hpp>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace seiche {
+namespace {
+
+// Not by a stream, whose numbers depend on the locale and end silently at the first bad one.
+double read_token(const std::string& token, const std::filesystem::path& file, std::size_t line) {
+  const char* begin = token.data() + (token.starts_with('+') ? 1 : 0);
+  const char* end = token.data() + token.size();
+  double value = 0.0;
+  const auto [rest, status] = std::from_chars(begin, end, value);
+  if (status == std::errc() && rest == end && std::isfinite(value)) return value;
+  throw Error("{}:{}: '{}' is not a finite number", file.string(), line,
+              token.size() > 60 ? token.substr(0, 60) + "…" : token);
+}
+
+bool depends_on_time(const Problem& problem) {
+  const auto changes = [](const FieldRatePointer& force) { return force && !force->is_constant(); };
+  return !has_constant_rates(problem.damping) || std::any_of(problem.forces.begin(), problem.forces.end(), changes);
+}
+
+}  // namespace
+
+Vector read_initial_file(const std::filesystem::path& file, const Problem& problem) {
+  if (!std::filesystem::is_regular_file(file)) throw Error("{} is not a file of numbers", file.string());
+  std::ifstream input(file);
+  if (!input) throw Error("{} cannot be read", file.string());
+  Vector z(problem.size());
+  Index count = 0;
+  std::string text;
+  for (std::size_t line = 1; std::getline(input, text); ++line) {
+    std::istringstream words(text);
+    for (std::string token; words >> token; ++count) {
+      const double value = read_token(token, file, line);
+      if (count < z.size()) z[count] = value;
+    }
+  }
+  if (input.bad()) throw Error("{} cannot be read to its end", file.string());
+  if (count != z.size())
+    throw Error("{} holds {} number{} but the state has {} ({})", file.string(), count, count == 1 ? "" : "s", z.size(),
+                problem.grid.unknowns() == 1
+                    ? fmt::format("{}", fmt::join(problem.fields, ", "))
+                    : fmt::format("{} field{} × {} unknowns", problem.field_count(),
+                                  problem.field_count() == 1 ? "" : "s", problem.grid.unknowns()));
+  return z;
+}
+
+std::string lost_between_runs(Simulation& simulation) {
+  const std::string auxiliaries =
+      simulation.stepper().has_modified_energy()
+          ? fmt::format("the auxiliary variables of {} begin anew", simulation.method().name)
+          : "";
+  const std::string time = depends_on_time(simulation.problem()) ? "damping and forces are those from t = 0 on" : "";
+  if (auxiliaries.empty() && time.empty()) return "";
+  const std::string both = auxiliaries.empty() || time.empty() ? "" : ", and ";
+  return fmt::format("a file holds z alone: {}{}{}; a run that this is to continue would go on a little differently",
+                     auxiliaries, both, time);
+}
+
+}  // namespace seiche

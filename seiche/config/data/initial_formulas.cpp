@@ -1,0 +1,49 @@
+#include <seiche/config/data/initial_formulas.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/text/axis_names.hpp>
+#include <seiche/core/text/number_text.hpp>
+#include <seiche/formula/formula_compiler.hpp>
+
+#include <cmath>
+
+namespace seiche {
+std::vector<std::string> place_variables(Index axes) {
+  std::vector<std::string> names(axis_names.begin(), axis_names.begin() + axes);
+  names.emplace_back("j");
+  return names;
+}
+
+std::string place_text(const Grid& grid, Index point) {
+  if (grid.only_numbers && grid.nodes.empty()) return grid.unknowns() == 1 ? "" : fmt::format(" at j = {}", point + 1);
+  std::string text = " at ";
+  for (Index a = 0; a < grid.dimension(); ++a)
+    text +=
+        fmt::format("{}{} = {}", a > 0 ? ", " : "", axis_names[static_cast<std::size_t>(a)], grid.coordinate(point, a));
+  return fmt::format("{} (j = {})", text, point + 1);
+}
+
+Vector initial_from_formulas(const std::map<std::string, std::string>& formulas, const FormulaConstants& constants,
+                             const Problem& problem) {
+  const Index dimension = problem.grid.dimension();
+  const std::vector<std::string> variables = place_variables(dimension);
+  std::vector<double> arguments(variables.size(), 0.0);
+  Vector z(problem.size());
+  Index at = 0;
+  for (const std::string& field : problem.fields) {
+    const auto text = formulas.find(field);
+    if (text == formulas.end()) throw Error("problem.initial has no formula for the field {}", field);
+    const FormulaPointer formula = compile_formula(text->second, variables, constants);
+    for (Index i = 0; i < problem.grid.unknowns(); ++i) {
+      for (Index a = 0; a < dimension; ++a) arguments[static_cast<std::size_t>(a)] = problem.grid.coordinate(i, a);
+      arguments[static_cast<std::size_t>(dimension)] = static_cast<double>(i + 1);
+      z[at] = (*formula)(arguments);
+      if (!std::isfinite(z[at]))
+        throw Error("problem.initial: {} = {} is {}{}", field, text->second, number_text(z[at]),
+                    place_text(problem.grid, i));
+      ++at;
+    }
+  }
+  return z;
+}
+
+}  // namespace seiche

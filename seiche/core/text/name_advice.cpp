@@ -1,0 +1,149 @@
+#include <seiche/core/text/name_advice.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace seiche {
+namespace {
+
+using Kind = FormulaContext::Kind;
+
+template <std::size_t N>
+bool is_one_of(const std::array<std::string_view, N>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+constexpr std::array<std::string_view, 3> places = {"x", "y", "z"};
+constexpr std::array<std::string_view, 4> wave_numbers = {"k", "k_x", "k_y", "k_z"};
+constexpr std::array<std::string_view, 4> operators = {"d_x", "d_y", "d_z", "laplacian"};
+
+class Advisor {
+ public:
+  explicit Advisor(FormulaContext context) : c_(std::move(context)) {}
+
+  std::string operator()(std::string_view name) const {
+    for (const std::string& field : c_.fields) {
+      if (name == field) return of_field(field);
+      if (is_derivative_of(field, name)) return of_derivative(name);
+    }
+    if (name == "t") return of_time();
+    if (is_one_of(places, name)) return of_place(name);
+    if (is_one_of(wave_numbers, name)) return of_wave_number(name) + or_parameter(name);
+    if (is_one_of(operators, name)) return of_operator(name);
+    if (name == "j" && c_.kind != Kind::initial) return "j, the number of a point, stands in initial only";
+    return "";
+  }
+
+  std::string of_unknown(std::string_view name) const {
+    return c_.takes_parameters
+               ? fmt::format("it is no parameter; for a number of your own write problem.parameters = {{ {} = … }}",
+                             name)
+               : "";
+  }
+
+ private:
+  // u_x, u_xx, du
+  static bool is_derivative_of(std::string_view field, std::string_view name) {
+    if (name.size() == field.size() + 1) return name.front() == 'd' && name.substr(1) == field;
+    if (!name.starts_with(field) || name.size() <= field.size() + 1 || name[field.size()] != '_') return false;
+    const std::string_view axes = name.substr(field.size() + 1);
+    return std::all_of(axes.begin(), axes.end(), [](char c) { return c >= 'x' && c <= 'z'; });
+  }
+
+  std::string of_field(std::string_view field) const {
+    switch (c_.kind) {
+      case Kind::constant_entry:
+        return fmt::format(
+            "{} is a field, and entries of S and M are constant: numbers and derivatives. A structure S(z) is written in C++ (seiche::Structure, "
+            "as in the problem rigid_body), and egc2 … egc8, seimp and etdrk4 take it",
+            field);
+      case Kind::damping_entry:
+        return fmt::format(
+            "{} is a field, and D is linear: its entries are coefficients, rates in t and the place, and derivatives; damping "
+            "that depends on fields is problem.friction",
+            field);
+      case Kind::initial: return fmt::format("{} is a field, and its initial values are given by the place", field);
+      case Kind::force:
+        return fmt::format(
+            "{} is a field, and an external force is a formula in t and the place: forces that depend on fields come from the "
+            "energy, or from problem.friction",
+            field);
+      case Kind::friction:
+        return fmt::format(
+            "{} is a field, and the formula serves every coordinate with its velocity: write u and v for them", field);
+      default: return "";
+    }
+  }
+
+  std::string of_derivative(std::string_view name) const {
+    if (c_.axes == 0) return needs_grid(name);
+    switch (c_.kind) {
+      case Kind::energy:
+        return fmt::format("u_x and u_xx, u_y, … are there for the axes of the grid, which has {}, and du on a line",
+                           c_.axes);
+      case Kind::constant_entry:
+      case Kind::damping_entry: return "derivatives are written as operators here: d_x, d_x^2, laplacian";
+      default: return "derivatives of fields stand in H only";
+    }
+  }
+
+  std::string of_time() const {
+    switch (c_.kind) {
+      case Kind::energy: return "the energy has no t: what changes in time is D, friction or force";
+      case Kind::constant_entry: return "entries of S and M have no t: what changes in time is D, friction or force";
+      case Kind::initial: return "initial values have no t: they are those at the start";
+      default: return "";
+    }
+  }
+
+  std::string of_place(std::string_view name) const {
+    if (c_.axes == 0) return needs_grid(name);
+    if (c_.kind == Kind::constant_entry) return "entries of S and M are the same everywhere: numbers and derivatives";
+    return fmt::format("the grid has {} ax{}", c_.axes, c_.axes == 1 ? "is" : "es");
+  }
+
+  std::string of_wave_number(std::string_view name) const {
+    if (c_.kind == Kind::constant_entry || c_.kind == Kind::damping_entry)
+      return c_.axes == 0 ? fmt::format("{}, the wave number, stands where there is a grid with Fourier modes", name)
+                          : fmt::format("the wave number along an axis needs that axis, and the grid has {}", c_.axes);
+    return fmt::format("{}, the wave number, stands in S, M and D only, on a grid with Fourier modes", name);
+  }
+
+  std::string or_parameter(std::string_view name) const {
+    return c_.takes_parameters ? fmt::format("; for a number write problem.parameters = {{ {} = … }}", name) : "";
+  }
+
+  std::string of_operator(std::string_view name) const {
+    if (c_.axes == 0) return needs_grid(name);
+    if (c_.kind == Kind::energy) return fmt::format("{} stands in S, M and D; in an energy write u_x or u_xx", name);
+    if (c_.kind == Kind::constant_entry || c_.kind == Kind::damping_entry)
+      return fmt::format("the grid has {} ax{}", c_.axes, c_.axes == 1 ? "is" : "es");
+    return fmt::format("{} stands in S, M and D only", name);
+  }
+
+  static std::string needs_grid(std::string_view name) {
+    return fmt::format("{} needs a grid, which problem.length and problem.points make", name);
+  }
+
+  FormulaContext c_;
+};
+
+}  // namespace
+
+NameAdvice advice_in(FormulaContext context) {
+  return [advisor = Advisor(std::move(context))](std::string_view name, bool is_near_another) {
+    std::string known = advisor(name);
+    return known.empty() && !is_near_another ? advisor.of_unknown(name) : known;
+  };
+}
+
+bool is_unit(std::string_view name) {
+  static constexpr std::array<std::string_view, 27> units = {"s",   "ms", "us", "ns", "min", "sec", "hr", "Hz",  "kHz",
+                                                             "MHz", "m",  "mm", "cm", "km",  "um",  "nm", "kg",  "g",
+                                                             "N",   "kN", "J",  "W",  "Pa",  "K",   "V",  "rad", "deg"};
+  return is_one_of(units, name);
+}
+
+}  // namespace seiche

@@ -1,0 +1,148 @@
+#include <seiche/core/simd/multiversion.hpp>
+#include <seiche/formula/expression_graph.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+using Kind = Instruction::Kind;
+
+// xⁿ by multiplications, all points at a time; std::pow takes over where they would be too many.
+SEICHE_MULTIVERSION void raise(const double* x, int n, double* out, std::size_t points) {
+  constexpr int most = 64;
+  const int size = std::abs(n);
+  if (size > most || size == 0) {
+    for (std::size_t j = 0; j < points; ++j) out[j] = std::pow(x[j], n);
+    return;
+  }
+  std::array<double, ExpressionGraph::block> square;  // NOLINT(cppcoreguidelines-pro-type-member-init): written below
+  for (std::size_t j = 0; j < points; ++j) square[j] = x[j];
+  bool is_first = true;
+  for (int rest = size; rest > 0; rest /= 2) {
+    if (rest % 2 == 1 && is_first) {
+      for (std::size_t j = 0; j < points; ++j) out[j] = square[j];
+      is_first = false;
+    } else if (rest % 2 == 1) {
+      for (std::size_t j = 0; j < points; ++j) out[j] *= square[j];
+    }
+    if (rest > 1)
+      for (std::size_t j = 0; j < points; ++j) square[j] *= square[j];
+  }
+  if (n < 0)
+    for (std::size_t j = 0; j < points; ++j) out[j] = 1 / out[j];
+}
+
+SEICHE_MULTIVERSION void add(const double* x, const double* y, double* out, std::size_t points) {
+  for (std::size_t j = 0; j < points; ++j) out[j] = x[j] + y[j];
+}
+SEICHE_MULTIVERSION void subtract(const double* x, const double* y, double* out, std::size_t points) {
+  for (std::size_t j = 0; j < points; ++j) out[j] = x[j] - y[j];
+}
+SEICHE_MULTIVERSION void multiply(const double* x, const double* y, double* out, std::size_t points) {
+  for (std::size_t j = 0; j < points; ++j) out[j] = x[j] * y[j];
+}
+SEICHE_MULTIVERSION void divide(const double* x, const double* y, double* out, std::size_t points) {
+  for (std::size_t j = 0; j < points; ++j) out[j] = x[j] / y[j];
+}
+
+SEICHE_MULTIVERSION void negate(const double* x, double* out, std::size_t points) {
+  for (std::size_t j = 0; j < points; ++j) out[j] = -x[j];
+}
+
+void call(const FormulaFunction& function, const double* x, const double* y, double* out, std::size_t points) {
+  if (function.arity == 1) {
+    double (*const f)(double) = function.one;
+    for (std::size_t j = 0; j < points; ++j) out[j] = f(x[j]);
+    return;
+  }
+  double (*const f)(double, double) = function.two;
+  for (std::size_t j = 0; j < points; ++j) out[j] = f(x[j], y[j]);
+}
+
+}  // namespace
+
+ExpressionGraph::ExpressionGraph(int variables, std::span<const std::span<const Instruction>> programs)
+    : variables_(variables) {
+  for (int v = 0; v < variables; ++v) nodes_.push_back({.kind = Kind::variable, .index = v});
+  Known known;
+  for (const std::span<const Instruction> program : programs) {
+    outputs_.push_back(static_cast<std::size_t>(add_program(program, known)));
+    if (outputs_.size() == 1) first_end_ = nodes_.size();
+  }
+}
+
+int ExpressionGraph::add(const Node& node, Known& known) {
+  const auto [place, is_new] = known.try_emplace({node.kind, node.a, node.b, node.number, node.index, node.function},
+                                                 static_cast<int>(nodes_.size()));
+  if (is_new) nodes_.push_back(node);
+  return place->second;
+}
+
+int ExpressionGraph::add_program(std::span<const Instruction> program, Known& known) {
+  std::vector<int> stack;
+  const auto pop = [&stack] {
+    const int top = stack.back();
+    stack.pop_back();
+    return top;
+  };
+  for (const Instruction& instruction : program) {
+    Node node{.kind = instruction.kind, .number = instruction.number, .function = instruction.function};
+    switch (instruction.kind) {
+      case Kind::number: break;
+      case Kind::variable: stack.push_back(instruction.index); continue;
+      case Kind::whole_power: node.index = instruction.index; [[fallthrough]];
+      case Kind::negate: node.a = pop(); break;
+      case Kind::call:
+        if (instruction.function->arity == 2) node.b = pop();
+        node.a = pop();
+        break;
+      default:
+        node.b = pop();
+        node.a = pop();
+        // The order of operands makes no other value.
+        if ((node.kind == Kind::add || node.kind == Kind::multiply) && node.a > node.b) std::swap(node.a, node.b);
+    }
+    stack.push_back(add(node, known));
+  }
+  return stack.back();
+}
+
+void ExpressionGraph::set_numbers(double* table) const {
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (nodes_[i].kind == Kind::number) std::fill_n(table + i * block, block, nodes_[i].number);
+}
+
+void ExpressionGraph::evaluate(double* table, std::size_t points) const {
+  evaluate_nodes(table, points, nodes_.size());
+}
+
+void ExpressionGraph::evaluate_first(double* table, std::size_t points) const {
+  evaluate_nodes(table, points, first_end_);
+}
+
+void ExpressionGraph::evaluate_nodes(double* table, std::size_t points, std::size_t end) const {
+  const auto row = [table](int node) { return table + static_cast<std::size_t>(node) * block; };
+  for (std::size_t i = static_cast<std::size_t>(variables_); i < end; ++i) {
+    const Node& node = nodes_[i];
+    double* const out = table + i * block;
+    switch (node.kind) {
+      case Kind::number:
+      case Kind::variable: break;
+      case Kind::add: seiche::add(row(node.a), row(node.b), out, points); break;
+      case Kind::subtract: subtract(row(node.a), row(node.b), out, points); break;
+      case Kind::multiply: multiply(row(node.a), row(node.b), out, points); break;
+      case Kind::divide: divide(row(node.a), row(node.b), out, points); break;
+      case Kind::negate: negate(row(node.a), out, points); break;
+      case Kind::power:
+        for (std::size_t j = 0; j < points; ++j) out[j] = std::pow(row(node.a)[j], row(node.b)[j]);
+        break;
+      case Kind::whole_power: raise(row(node.a), node.index, out, points); break;
+      case Kind::call: call(*node.function, row(node.a), node.b < 0 ? nullptr : row(node.b), out, points); break;
+    }
+  }
+}
+
+}  // namespace seiche

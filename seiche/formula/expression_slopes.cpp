@@ -1,0 +1,181 @@
+// What a graph of operations tells beside its values: mean slopes, sizes of terms, and Taylor coefficients of
+// polynomials.
+#include <seiche/formula/expression_graph.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace seiche {
+namespace {
+
+using Kind = Instruction::Kind;
+constexpr std::size_t block = ExpressionGraph::block;
+
+// Mean slope of x^y, which is exp(y log x) where y changes: slopes of x and y go into it with these factors.
+struct PowerFactors {
+  double base, exponent;
+};
+
+PowerFactors power_factors(double xa, double xb, double ya, double yb, bool exponent_is_number) {
+  if (exponent_is_number) return {mean_slope_of_power(xa, xb, ya), 0};
+  static const FormulaFunction& exp = *find_formula_function("exp");
+  static const FormulaFunction& log = *find_formula_function("log");
+  const double la = std::log(xa), lb = std::log(xb);
+  const double outer = exp.mean_slope(ya * la, yb * lb);
+  return {outer * (ya + yb) / 2 * log.mean_slope(xa, xb), outer * (la + lb) / 2};
+}
+
+}  // namespace
+
+void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b, int directions, std::size_t points,
+                 double* slopes) {
+  const std::span<const ExpressionGraph::Node> nodes = graph.nodes();
+  const auto width = static_cast<std::size_t>(directions) * block;
+  const std::size_t last = graph.output(0);
+  const auto at = [](const double* table, int node, std::size_t j) {
+    return table[static_cast<std::size_t>(node) * block + j];
+  };
+  // out ← f·(slopes of x) + g·(slopes of y), where x and y are nodes and f and g functions of the point
+  const auto combine = [&](std::size_t i, int x, int y, const auto& f, const auto& g) {
+    double* const out = slopes + i * width;
+    const double* const of_x = slopes + static_cast<std::size_t>(x) * width;
+    const double* const of_y = y < 0 ? of_x : slopes + static_cast<std::size_t>(y) * width;
+    for (std::size_t j = 0; j < points; ++j) {
+      const double fx = f(j);
+      const double gy = y < 0 ? 0.0 : g(j);
+      for (std::size_t d = 0; d < width; d += block)
+        out[d + j] = y < 0 ? fx * of_x[d + j] : fx * of_x[d + j] + gy * of_y[d + j];
+    }
+  };
+  const auto none = [](std::size_t) { return 0.0; };
+  const auto one = [](std::size_t) { return 1.0; };
+  const auto minus_one = [](std::size_t) { return -1.0; };
+  for (std::size_t i = 0; i <= last; ++i) {
+    const ExpressionGraph::Node& node = nodes[i];
+    const int x = node.a, y = node.b;
+    const auto power = [&](int base, int exponent, std::size_t j) {
+      return power_factors(at(a, base, j), at(b, base, j), at(a, exponent, j), at(b, exponent, j),
+                           nodes[static_cast<std::size_t>(exponent)].kind == Kind::number);
+    };
+    const auto mean = [&](int of, std::size_t j) { return (at(a, of, j) + at(b, of, j)) / 2; };
+    switch (node.kind) {
+      case Kind::number:
+      case Kind::variable:
+        std::fill_n(slopes + i * width, width, 0.0);
+        if (node.kind == Kind::variable && node.index < directions)
+          std::fill_n(slopes + i * width + static_cast<std::size_t>(node.index) * block, block, 1.0);
+        break;
+      case Kind::add: combine(i, x, y, one, one); break;
+      case Kind::subtract: combine(i, x, y, one, minus_one); break;
+      case Kind::negate: combine(i, x, -1, minus_one, none); break;
+      case Kind::multiply:
+        combine(
+            i, x, y, [&](std::size_t j) { return mean(y, j); }, [&](std::size_t j) { return mean(x, j); });
+        break;
+      case Kind::divide:  // x · (1/y)
+        combine(
+            i, x, y, [&](std::size_t j) { return (1 / at(a, y, j) + 1 / at(b, y, j)) / 2; },
+            [&](std::size_t j) { return -mean(x, j) / (at(a, y, j) * at(b, y, j)); });
+        break;
+      case Kind::whole_power:
+        combine(
+            i, x, -1, [&](std::size_t j) { return mean_slope_of_whole_power(at(a, x, j), at(b, x, j), node.index); },
+            none);
+        break;
+      case Kind::power:
+        combine(
+            i, x, y, [&](std::size_t j) { return power(x, y, j).base; },
+            [&](std::size_t j) { return power(x, y, j).exponent; });
+        break;
+      case Kind::call: {
+        const auto slope = node.function->mean_slope;
+        combine(
+            i, x, -1,
+            [&](std::size_t j) {
+              return slope == nullptr ? std::numeric_limits<double>::quiet_NaN() : slope(at(a, x, j), at(b, x, j));
+            },
+            none);
+        break;
+      }
+    }
+  }
+}
+
+void term_sizes(const ExpressionGraph& graph, const double* table, std::size_t points, double* sizes) {
+  const std::span<const ExpressionGraph::Node> nodes = graph.nodes();
+  for (std::size_t i = 0; i <= graph.output(0); ++i) {
+    const ExpressionGraph::Node& node = nodes[i];
+    double* const out = sizes + i * block;
+    const double* const x = node.a < 0 ? nullptr : sizes + static_cast<std::size_t>(node.a) * block;
+    const double* const y = node.b < 0 ? nullptr : sizes + static_cast<std::size_t>(node.b) * block;
+    for (std::size_t j = 0; j < points; ++j) {
+      switch (node.kind) {
+        case Kind::add:
+        case Kind::subtract: out[j] = x[j] + y[j]; break;
+        case Kind::multiply: out[j] = x[j] * y[j]; break;
+        case Kind::negate: out[j] = x[j]; break;
+        default: out[j] = std::abs(table[i * block + j]); break;
+      }
+    }
+  }
+}
+
+void add_taylor(const ExpressionGraph& graph, std::span<const double> p, std::span<const double> q, int degree,
+                double* scratch, std::span<double> coefficients) {
+  const std::span<const ExpressionGraph::Node> nodes = graph.nodes();
+  const auto length = static_cast<std::size_t>(degree) + 1;
+  const auto row = [&](int node) { return scratch + static_cast<std::size_t>(node) * length; };
+  // out ← x·y; out is neither.
+  const auto multiply = [length](const double* x, const double* y, double* out) {
+    for (std::size_t k = 0; k < length; ++k) {
+      out[k] = 0;
+      for (std::size_t i = 0; i <= k; ++i) out[k] += x[i] * y[k - i];
+    }
+  };
+  double* const product = scratch + nodes.size() * length;
+  for (std::size_t i = 0; i <= graph.output(0); ++i) {
+    const ExpressionGraph::Node& node = nodes[i];
+    double* const out = scratch + i * length;
+    switch (node.kind) {
+      case Kind::number:
+      case Kind::variable: {
+        std::fill_n(out, length, 0.0);
+        const auto v = static_cast<std::size_t>(node.index);
+        out[0] = node.kind == Kind::number ? node.number : p[v];
+        if (node.kind == Kind::variable && length > 1) out[1] = q[v];
+        break;
+      }
+      case Kind::add:
+        for (std::size_t k = 0; k < length; ++k) out[k] = row(node.a)[k] + row(node.b)[k];
+        break;
+      case Kind::subtract:
+        for (std::size_t k = 0; k < length; ++k) out[k] = row(node.a)[k] - row(node.b)[k];
+        break;
+      case Kind::negate:
+        for (std::size_t k = 0; k < length; ++k) out[k] = -row(node.a)[k];
+        break;
+      case Kind::multiply: multiply(row(node.a), row(node.b), out); break;
+      case Kind::divide:  // by what does not change along the line
+        for (std::size_t k = 0; k < length; ++k) out[k] = row(node.a)[k] / row(node.b)[0];
+        break;
+      case Kind::whole_power:
+        std::fill_n(out, length, 0.0);
+        out[0] = node.index < 0 ? std::pow(row(node.a)[0], node.index) : 1;  // of what does not change along the line
+        for (int n = 0; n < node.index; ++n) {
+          multiply(out, row(node.a), product);
+          std::copy_n(product, length, out);
+        }
+        break;
+      default:  // functions and powers of what does not change along the line
+        std::fill_n(out, length, 0.0);
+        out[0] = node.kind == Kind::power    ? std::pow(row(node.a)[0], row(node.b)[0])
+                 : node.function->arity == 2 ? node.function->two(row(node.a)[0], row(node.b)[0])
+                                             : node.function->one(row(node.a)[0]);
+    }
+  }
+  const double* const all = scratch + graph.output(0) * length;
+  for (std::size_t k = 0; k < std::min(length, coefficients.size()); ++k) coefficients[k] += all[k];
+}
+
+}  // namespace seiche

@@ -1,0 +1,140 @@
+#include <seiche/formula/formula_text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+using TokenKind = FormulaToken::Kind;
+
+// Without <cctype>, whose answers depend on the locale.
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }  // in UTF-8
+
+std::size_t characters(std::string_view text) {
+  return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_character));
+}
+
+std::size_t end_of_character(std::string_view text, std::size_t position) {
+  ++position;
+  while (position < text.size() && continues_character(text[position])) ++position;
+  return position;
+}
+
+std::string_view advice(std::string_view character) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> hints = {{
+      {"=", "; a formula is a value, not an equation"},
+      {"[", "; write ( )"},
+      {"{", "; write ( )"},
+      {";", "; write , between arguments"},
+      {"·", "; write *"},
+      {"×", "; write *"},
+      {"÷", "; write /"},
+      {"−", "; write -"},
+      {"²", "; write ^2"},
+      {"³", "; write ^3"},
+      {"π", "; write pi"},
+      {"√", "; write sqrt( )"},
+  }};
+  for (const auto& [sign, hint] : hints)
+    if (sign == character) return hint;
+  return "";
+}
+
+// digits [. digits] [e [±] digits]; an e that no digits follow is the start of a name.
+std::size_t end_of_number(std::string_view text, std::size_t at) {
+  const auto skip_digits = [&](std::size_t i) {
+    while (i < text.size() && is_digit(text[i])) ++i;
+    return i;
+  };
+  at = skip_digits(at);
+  if (at < text.size() && text[at] == '.') at = skip_digits(at + 1);
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    std::size_t digits = at + 1;
+    if (digits < text.size() && (text[digits] == '+' || text[digits] == '-')) ++digits;
+    if (digits < text.size() && is_digit(text[digits])) at = skip_digits(digits);
+  }
+  return at;
+}
+
+FormulaToken number_token(std::string_view text, std::size_t begin, std::size_t end) {
+  const std::string_view digits = text.substr(begin, end - begin);
+  double value = 0.0;
+  const auto [rest, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (status == std::errc::result_out_of_range || !std::isfinite(value))
+    throw formula_error(text, begin, fmt::format("{} is too large or too small for a double", digits));
+  if (status != std::errc() || rest != digits.data() + digits.size())
+    throw formula_error(text, begin, fmt::format("'{}' is not a number", digits));
+  return {.kind = TokenKind::number, .text = digits, .position = begin, .value = value};
+}
+
+}  // namespace
+
+Error formula_error(std::string_view text, std::size_t position, std::string_view sentence) {
+  constexpr std::size_t reach = 40;  // bytes shown on either side
+  std::size_t begin = position > reach ? position - reach : 0;
+  while (begin > 0 && continues_character(text[begin])) --begin;
+  std::size_t end = std::min(text.size(), position + reach);
+  while (end < text.size() && continues_character(text[end])) ++end;
+
+  std::string shown(text.substr(begin, end - begin));
+  std::replace_if(shown.begin(), shown.end(), is_space, ' ');
+  const std::string_view before = begin > 0 ? "…" : "";
+  const std::size_t indent = characters(text.substr(begin, position - begin)) + (begin > 0 ? 1 : 0);
+  return Error("formula, column {}: {}\n  {}{}{}\n  {}^", characters(text.substr(0, position)) + 1, sentence, before,
+               shown, end < text.size() ? "…" : "", std::string(indent, ' '));
+}
+
+std::string hint_on_neighbours(std::string_view name, const std::vector<std::string>& names) {
+  const auto known = [&](const std::string& other) {
+    return std::find(names.begin(), names.end(), other) != names.end();
+  };
+  if (known(fmt::format("d{}", name)))
+    return fmt::format("d{0} is the difference to the next point, {0}_{{j+1}} − {0}_j", name);
+  return known(fmt::format("{}_x", name)) ? fmt::format("{0}_x is its derivative along x", name) : "";
+}
+
+std::vector<FormulaToken> tokenise_formula(std::string_view text, const std::vector<std::string>& names) {
+  if (text.size() > longest_formula)
+    throw Error("a formula of {} characters is too long: at most {} are read", text.size(), longest_formula);
+
+  std::vector<FormulaToken> tokens;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t begin = at;
+    const char c = text[at];
+    if (is_space(c)) {
+      ++at;
+    } else if (is_digit(c) || (c == '.' && at + 1 < text.size() && is_digit(text[at + 1]))) {
+      at = end_of_number(text, at);
+      tokens.push_back(number_token(text, begin, at));
+    } else if (is_letter(c)) {
+      while (at < text.size() && (is_letter(text[at]) || is_digit(text[at]))) ++at;
+      tokens.push_back({.kind = TokenKind::name, .text = text.substr(begin, at - begin), .position = begin});
+    } else if (text.substr(at, 2) == "**") {
+      throw formula_error(text, at, "a power is written with ^, not **");
+    } else if (std::string_view("+-*/^(),").find(c) != std::string_view::npos) {
+      ++at;
+      tokens.push_back({.kind = TokenKind::symbol, .text = text.substr(begin, 1), .position = begin});
+    } else {
+      const std::string_view character = text.substr(at, end_of_character(text, at) - at);
+      const bool shows = static_cast<unsigned char>(c) >= 0x20U && c != 0x7F;
+      if (c == '[' && !tokens.empty() && tokens.back().kind == TokenKind::name)
+        if (const std::string hint = hint_on_neighbours(tokens.back().text, names); !hint.empty())
+          throw formula_error(text, at, fmt::format("{} has no index: {}", tokens.back().text, hint));
+      const std::string sign =
+          shows ? fmt::format("'{}'", character) : fmt::format("with code {}", static_cast<int>(c));
+      throw formula_error(text, at, fmt::format("the character {} has no meaning here{}", sign, advice(character)));
+    }
+  }
+  tokens.push_back({.kind = TokenKind::end, .text = {}, .position = text.size()});
+  return tokens;
+}
+
+}  // namespace seiche

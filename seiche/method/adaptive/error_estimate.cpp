@@ -1,0 +1,110 @@
+#include <seiche/core/step_cache.hpp>
+#include <seiche/method/adaptive/error_estimate.hpp>
+#include <seiche/method/nonlinear_force.hpp>
+
+#include <limits>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+class Estimated final : public AdaptiveStepper {
+ public:
+  Estimated(const System& system, std::unique_ptr<Stepper> stepper)
+      : system_(system),
+        stepper_(std::move(stepper)),
+        phi_(system.make_phi()),
+        force_(system),
+        cache_(cached_step_sizes(system.space->size())) {
+    const Index size = system.space->size();
+    forces_.assign(3, Vector::Zero(size));
+    out_.assign(1, Vector::Zero(size));
+    physical_.setZero(system.space->physical_size());
+  }
+
+  void begin(State& s) override {
+    stepper_->begin(s);
+    end_force_is_known_ = false;
+  }
+  StepReport step(State& s, double h) override { return stepper_->step(s, h); }
+  EnergyReading energy(const State& s) const override { return stepper_->energy(s); }
+  bool has_modified_energy() const override { return stepper_->has_modified_energy(); }
+  void keep_ledger() override { stepper_->keep_ledger(); }
+  void expect(double error_rate) override { stepper_->expect(error_rate); }
+  int order() const override { return 2; }
+
+  StepReport attempt(State& s, double h) override {
+    before_ = s;
+    h_ = h;
+    StepReport report = stepper_->step(s, h);
+    if (!report.solved()) end_force_is_known_ = false;
+    return report;
+  }
+
+  std::optional<double> error(const State& s) override {
+    const Maps& maps = cache_.at(h_, [this] { return std::make_unique<Maps>(make_maps()); });
+    if (end_force_is_known_)
+      forces_[0].swap(forces_[2]);
+    else
+      force(before_.t, before_.z, forces_[0]);
+    maps.middle->apply(before_.z, {forces_.data(), 1}, out_);
+    force(before_.t + h_ / 2, out_[0], forces_[1]);
+    force(s.t, s.z, forces_[2]);
+    end_force_is_known_ = true;
+    maps.end->apply(before_.z, forces_, out_);
+    out_[0] -= s.z;
+    system_.space->to_physical(out_[0], physical_);
+    if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
+    return physical_.lpNorm<Eigen::Infinity>();
+  }
+
+  void undo(State& s) override {
+    s = before_;
+    if (end_force_is_known_) forces_[0].swap(forces_[2]);  // that of the left end, which is the end again
+  }
+
+  void interpolate(const State& s, double t, Vector& z) override {
+    between_ = before_;
+    if (stepper_->step(between_, t - before_.t).solved())
+      z = between_.z;
+    else  // between two states that are good
+      z = before_.z + ((t - before_.t) / h_) * (s.z - before_.z);
+  }
+
+  void forget(State&) override { end_force_is_known_ = false; }
+  void restart(State& s) override { begin(s); }
+
+ private:
+  void force(double t, const Vector& z, Vector& out) {
+    out = z;
+    force_.evaluate(t, out);
+  }
+
+  struct Maps {
+    std::unique_ptr<PhiMap> middle, end;
+  };
+  Maps make_maps() const {
+    const PhiRows middle{.rows = {{0.5, {0.5}}}, .forces = 1, .order = 1, .kind = force_.kind()};
+    const PhiRows end{.rows = {{1.0, {1, -3, 4, 0, 4, -8, 0, -1, 4}}}, .forces = 3, .order = 3, .kind = force_.kind()};
+    return {phi_->map(middle, h_), phi_->map(end, h_)};
+  }
+
+  const System& system_;
+  std::unique_ptr<Stepper> stepper_;
+  std::unique_ptr<PhiEvaluator> phi_;
+  NonlinearForce force_;
+  StepCache<Maps> cache_;
+  State before_, between_;
+  double h_ = 0;
+  bool end_force_is_known_ = false;  // forces_[2] is N at the state
+  std::vector<Vector> forces_, out_;
+  Vector physical_;
+};
+
+}  // namespace
+
+std::unique_ptr<AdaptiveStepper> with_error_estimate(const System& system, std::unique_ptr<Stepper> stepper) {
+  return std::make_unique<Estimated>(system, std::move(stepper));
+}
+
+}  // namespace seiche

@@ -1,0 +1,76 @@
+#include <seiche/core/error.hpp>
+#include <seiche/core/text/number_text.hpp>
+#include <seiche/method/closure/directed_multiplier.hpp>
+
+#include <cmath>
+
+namespace seiche {
+
+DirectedMultiplier::DirectedMultiplier(const System& system)
+    : system_(system),
+      start_(system.space->size()),
+      equation_(*system.potential, system.space->size()),
+      q_(system.space->size()) {}
+
+StepReport DirectedMultiplier::advance(Vector& z, Propagators& propagators, double h, std::optional<double> energy,
+                                       int depth) {
+  start_.prepare(*system_.potential, propagators.at(h), z);
+  return finish(z, start_, propagators, h, energy, depth);
+}
+
+//   z⁺ = z₁ + λ Fd,   d = δ₁ = z₁ − z,   (ḡ(λ) − ĝ − λd)ᵀ(d + λFd) = 0
+StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Propagators& propagators, double h,
+                                      std::optional<double> energy, int depth) {
+  constexpr int max_iterations = 8;
+  StepReport report;
+  const Vector& d = start.delta;
+  propagators.at(h).force(d, q_);
+  equation_.set({.z = z, .z_plus = start.z_plus, .delta = d, .q = q_, .g = start.g, .e = d});
+  if (energy) equation_.make_up_for(system_.energy(z) - *energy);
+  const MultiplierEquation::Root root = equation_.newton(max_iterations, MultiplierEquation::Stop::residual);
+  report.scalar_iterations = root.iterations;
+
+  // λd stands in for ḡ − ĝ: a root that asks for much more is another one.
+  const Potential::Support support = system_.potential->support();
+  const double correction = std::abs(root.x) * d.segment(support.begin, support.size).stableNorm();
+  const bool near =
+      correction <= 4 * equation_.gradient_gap() && equation_.gradient_gap() <= equation_.mean_gradient_norm();
+  if (root.converged && (near || equation_.at(0).is_negligible())) {
+    if (keeps_ledger_) report.ledger.scalar = equation_.change(root.x);
+    z = start.z_plus + root.x * q_;
+    return report;
+  }
+  if (depth == 0) {
+    report.status = StepReport::Status::failed;
+    report.message = fmt::format(
+        "the directed multiplier was not found in a substep of h = {:.6g} (λ = {}, |λd| = "
+        "{:.3g}, |ḡ − ĝ| = {:.3g}, |ḡ| = {:.3g}); a smaller h will do",
+        h, number_text(root.x, 3), correction, equation_.gradient_gap(), equation_.mean_gradient_norm());
+    return report;
+  }
+  ++report.fallbacks;
+  for (int half = 0; half < 2 && report.solved(); ++half) report += advance(z, propagators, h / 2, energy, depth - 1);
+  return report;
+}
+
+namespace {
+
+class DmClosure final : public Closure {
+ public:
+  explicit DmClosure(const System& system) : Closure(system), multiplier_(system), conserves_(nothing_changes_H()) {}
+  void begin(State& s) override { s.energy = system().energy(s.z); }
+  StepReport advance(State& s, Propagators& propagators, double /*t*/, double h) override {
+    return multiplier_.advance(s.z, propagators, h, conserves_ ? std::optional(s.energy) : std::nullopt);
+  }
+  void keep_ledger() override { multiplier_.keep_ledger(); }
+
+ private:
+  DirectedMultiplier multiplier_;
+  bool conserves_;
+};
+
+}  // namespace
+
+std::unique_ptr<Closure> make_dm_closure(const System& system) { return std::make_unique<DmClosure>(system); }
+
+}  // namespace seiche

@@ -1,0 +1,172 @@
+#include <seiche/core/error.hpp>
+#include <seiche/core/text/number_text.hpp>
+#include <seiche/method/closure/sav.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+class SavClosure final : public Closure {
+ public:
+  SavClosure(const System& system, const MethodOptions& options)
+      : Closure(system),
+        given_C_(options.C),
+        auxiliary_(options.auxiliary),
+        g_(Vector::Zero(system.space->size())),
+        pushed_(g_),
+        physical_(Vector::Zero(system.space->physical_size())) {}
+
+  void begin(State& s) override;
+  void damp(State& s, double t, double h) override;
+  void kick(State& s, double t, double h) override;
+  StepReport advance(State& s, Propagators& propagators, double t, double h) override {
+    return advance_damped(s, propagators, t, h, {});
+  }
+  // r² does not move with half-flows that leave V alone.
+  bool takes_half_flows() const override {
+    return !system().damping->touches_potential() && auxiliary_ != AuxiliaryMode::refresh;
+  }
+  StepReport advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) override;
+  bool has_modified_energy() const override { return true; }
+  void expect(double error_rate) override { error_rate_ = error_rate; }
+
+ protected:
+  void read_modified(const State& s, const ValueAndMagnitude& quadratic, EnergyReading& reading) const override;
+
+ private:
+  double margin_against_drift(double drift, double margin);
+  bool keep_margin(State& s, double quadratic_energy, double v_mid, double against_drift) const;
+
+  std::optional<double> given_C_;
+  AuxiliaryMode auxiliary_;
+  double error_rate_ = 0;  // that steps may have; 0: nobody knows
+  Vector g_, pushed_, physical_;
+};
+
+// C = 2E₀ keeps V + C well away from 0 where √(V + C) would lose digits, without drowning V in C.
+void SavClosure::begin(State& s) {
+  const double v = potential().value(s.z);
+  s.energy_scale = system().linear->quadratic_energy(s.z) + std::abs(v);
+  s.shift = given_C_.value_or(s.energy_scale > 0 ? 2 * s.energy_scale : 1.0);
+  s.r_squared = v + s.shift;
+  constexpr double largest = 1e10;
+  if (given_C_ && s.energy_scale > 0 && std::abs(s.shift) > largest * s.energy_scale) {
+    throw Error("C = {} drowns the energy {:.6g} in round-off; at most {:.3g} makes sense, and C = \"auto\" is good",
+                s.shift, s.energy_scale, largest * s.energy_scale);
+  }
+  if (!(s.r_squared > 0)) {
+    throw Error("C = {} is too small: V(z₀) + C = {:.6g} must be > 0; C = {:.6g} would do, or C = \"auto\"", s.shift,
+                s.r_squared, 2 * s.energy_scale);
+  }
+}
+
+// The damping flow must change H̃ by what it changes H: r² moves with V (transport). The paper keeps r (frozen), which
+// is consistent only where the damping does not touch V.
+void SavClosure::damp(State& s, double t, double h) {
+  const bool transports = auxiliary_ == AuxiliaryMode::transport && system().damping->touches_potential();
+  const double v_before = transports ? potential().value(s.z) : 0.0;
+  Closure::damp(s, t, h);
+  if (transports) s.r_squared += potential().value(s.z) - v_before;
+  if (auxiliary_ == AuxiliaryMode::refresh) s.r_squared = potential().value(s.z) + s.shift;
+}
+
+void SavClosure::kick(State& s, double t, double h) {
+  const bool transports = system().force->touches_potential();
+  const double v_before = transports ? potential().value(s.z) : 0.0;
+  Closure::kick(s, t, h);
+  if (transports) s.r_squared += potential().value(s.z) - v_before;
+}
+
+StepReport left_the_numbers(double v_mid, double t, double h) {
+  return {.status = StepReport::Status::failed,
+          .message = fmt::format("the solution left the numbers: V(ẑ) = {} at t = {:.6g} with h = {:.6g}",
+                                 number_text(v_mid), t, h)};
+}
+
+// The errors of all steps are left in r² − (V + C) = δ, and the force is r/√(V + C) ≈ 1 + δ/(2(V + C)) times what it
+// should be: an error per unit of time that no step size lowers, and a larger C does. Returns the V + C from which on
+// it is a small share of what steps may have, for ĝ in g_; or something smaller than `margin`, if that is enough.
+double SavClosure::margin_against_drift(double drift, double margin) {
+  constexpr double share = 0.1;
+  system().linear->apply_S(g_, pushed_);
+  const double wanted = std::abs(drift) / (2 * share * error_rate_);
+  if (wanted * pushed_.norm() < margin) return 0;  // which bounds the max norm, and saves a transform
+  system().space->to_physical(pushed_, physical_);
+  return wanted * physical_.lpNorm<Eigen::Infinity>();
+}
+
+// Where V + C or r² has become small against the energy, or drifts too far apart, C and r² rise together: H̃ does not
+// change. A large positive V(ẑ) is no reason to: at steps far too long ẑ is meaningless, and a C to match it would
+// drown H̃ in round-off.
+bool SavClosure::keep_margin(State& s, double quadratic_energy, double v_mid, double against_drift) const {
+  if (auxiliary_ == AuxiliaryMode::frozen) return false;
+  constexpr double tiny = 1e-300;
+  constexpr double most = 1e8;  // of C for the energy: H̃ keeps half its digits
+  constexpr double seldom = 4;  // more than is needed now, so that C rises in few steps
+  const double scale = std::max({s.energy_scale, quadratic_energy + std::max(0.0, -v_mid), tiny});
+  const double margin = std::min(s.r_squared, v_mid + s.shift);
+  const double against = std::min(against_drift, most * scale);
+  if (margin >= std::max(0.1 * scale, against)) return false;
+  const double rise = std::max(2 * scale, seldom * against) - margin;
+  s.shift += rise;
+  s.r_squared += rise;
+  return true;
+}
+
+//   z⁺ = Ez⁻ + F r̄g,   r⁺ − r = ½ gᵀ(z⁺ − z⁻),   r̄ = ½(r⁺ + r),   g = ĝ/√(V(ẑ) + C),   ĝ = ∇V(ẑ)           (3.1),
+//   (4.2)
+StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) {
+  StepReport report;
+  const Propagator& propagator = propagators.at(h);
+  double drift = 0;
+  if (error_rate_ > 0)
+    drift = s.r_squared - (potential().value_and_gradient(s.z, g_) + s.shift);
+  else
+    potential().gradient(s.z, g_);
+  propagator.predict(s.z, g_, g_, flows.before);                // ẑ, from z⁻
+  const double v_mid = potential().value_and_gradient(g_, g_);  // V(ẑ) and ĝ
+  if (!std::isfinite(v_mid)) return left_the_numbers(v_mid, t, h);
+  const double against_drift = drift != 0 ? margin_against_drift(drift, v_mid + s.shift) : 0;
+
+  bool solved = false;
+  const double r_squared = s.r_squared;
+  const double shift = s.shift;
+  propagator.advance(
+      s.z, g_,
+      [&](const Propagator::Powers& power) {
+        const double quadratic_energy =
+            power.quadratic_energy ? *power.quadratic_energy : system().linear->quadratic_energy(s.z);
+        report.fallbacks += keep_margin(s, quadratic_energy, v_mid, against_drift) ? 1 : 0;
+        const double to_g = 1 / std::sqrt(v_mid + s.shift);
+        const double gd = to_g * power.of_increment;     // gᵀFMz⁻
+        const double gq = to_g * to_g * power.of_force;  // gᵀFg
+        const double r = std::sqrt(s.r_squared);
+        const double r_mid = (r + gd / 4) / (1 - gq / 4);  // denominator ≥ 1, since gᵀFg ≤ 0
+        solved = std::isfinite(r_mid * to_g);              // not so where V(ẑ) + C ≤ 0
+        if (solved) s.r_squared = square(2 * r_mid - r);
+        return r_mid * to_g;
+      },
+      flows.before, flows.after);
+  if (solved) return report;
+  s.r_squared = r_squared;
+  s.shift = shift;
+  if (v_mid + s.shift > 0) return left_the_numbers(v_mid, t, h);
+  return {.status = StepReport::Status::failed,
+          .message = fmt::format("V(ẑ) + C = {:.6g} must be > 0 at t = {:.6g}; C = {:.6g} would do", v_mid + s.shift, t,
+                                 s.shift + 2 * (s.energy_scale + std::abs(v_mid)))};
+}
+
+void SavClosure::read_modified(const State& s, const ValueAndMagnitude& quadratic, EnergyReading& reading) const {
+  reading.modified = quadratic.value + (s.r_squared - s.shift);
+  reading.modified_round_off = 50 * epsilon * (2 * quadratic.magnitude + s.r_squared + std::abs(s.shift));
+}
+
+}  // namespace
+
+std::unique_ptr<Closure> make_sav_closure(const System& system, const MethodOptions& options) {
+  return std::make_unique<SavClosure>(system, options);
+}
+
+}  // namespace seiche

@@ -1,0 +1,157 @@
+#include <seiche/core/error.hpp>
+#include <seiche/core/text/number_text.hpp>
+#include <seiche/method/composition/compositions.hpp>
+
+#include <cmath>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+class Composed : public Stepper {
+ public:
+  Composed(const System& system, PropagatorKind propagator, std::unique_ptr<Closure> closure)
+      : propagators_(*system.linear, propagator), closure_(std::move(closure)) {}
+
+  void begin(State& s) override {
+    const double H = closure_->energy(s).H;
+    if (!std::isfinite(H))
+      throw Error("the energy of the initial state is not a finite number (H = {})", number_text(H));
+    closure_->begin(s);
+  }
+
+  StepReport step(State& s, double h) override {
+    StepReport report = compose(s, h);
+    if (!report.solved()) return report;
+    s.t += h;
+    ++s.n;
+    return report;
+  }
+
+  EnergyReading energy(const State& s) const override { return closure_->energy(s); }
+  bool has_modified_energy() const override { return closure_->has_modified_energy(); }
+  void keep_ledger() override {
+    keeps_ledger_ = true;
+    closure_->keep_ledger();
+  }
+  void expect(double error_rate) override { closure_->expect(error_rate); }
+
+ protected:
+  bool keeps_ledger() const { return keeps_ledger_; }
+
+  // The change of H in a part of the step, where a ledger is kept.
+  template <class Part>
+  double change(const State& s, const Part& part) {
+    if (!keeps_ledger_) {
+      part();
+      return 0;
+    }
+    const double before = closure_->energy(s).H;
+    part();
+    return closure_->energy(s).H - before;
+  }
+
+  StepReport substep(State& s, double t, double h) {
+    if (!keeps_ledger_) return closure_->advance(s, propagators_, t, h);
+    const EnergyReading before = closure_->energy(s);
+    StepReport report = closure_->advance(s, propagators_, t, h);
+    const EnergyReading after = closure_->energy(s);
+    report.ledger.substep = (after.modified - before.modified) - report.ledger.scalar;
+    report.ledger.auxiliary = (after.H - after.modified) - (before.H - before.modified);
+    return report;
+  }
+
+  // On failure s is left as it was.
+  virtual StepReport compose(State& s, double h) = 0;
+
+  // The same around parts that may fail with s anywhere between.
+  template <class Parts>
+  StepReport or_restore(State& s, double h, const Parts& parts) {
+    saved_ = s;
+    StepReport report = parts();
+    if (report.solved() && !s.z.allFinite()) {
+      report.status = StepReport::Status::failed;
+      report.message = fmt::format("the solution left the numbers in the step from t = {:.6g} with h = {:.6g}", s.t, h);
+    }
+    if (!report.solved()) s = saved_;
+    return report;
+  }
+
+  Closure& closure() { return *closure_; }
+  Propagators& propagators() { return propagators_; }
+
+ private:
+  Propagators propagators_;
+  std::unique_ptr<Closure> closure_;
+  State saved_;
+  bool keeps_ledger_ = false;
+};
+
+class Whole final : public Composed {
+ public:
+  using Composed::Composed;
+
+ private:
+  StepReport compose(State& s, double h) override {
+    if (closure().takes_half_flows() && !keeps_ledger()) return closure().advance_damped(s, propagators(), s.t, h, {});
+    return or_restore(s, h, [&] { return substep(s, s.t, h); });
+  }
+};
+
+class Strang final : public Composed {
+ public:
+  Strang(const System& system, PropagatorKind propagator, std::unique_ptr<Closure> closure)
+      : Composed(system, propagator, std::move(closure)),
+        damping_(*system.damping),
+        has_force_(system.force != nullptr) {
+    const auto fields = static_cast<std::size_t>(system.fields);
+    before_.resize(fields);
+    after_.resize(fields);
+  }
+
+ private:
+  StepReport compose(State& s, double h) override {
+    const double middle = s.t + h / 2;
+    if (closure().takes_half_flows() && !keeps_ledger() && !has_force_ && damping_.field_factors(s.t, h / 2, before_) &&
+        damping_.field_factors(middle, h / 2, after_))
+      return closure().advance_damped(s, propagators(), s.t, h, {before_, after_});
+    return or_restore(s, h, [&] {
+      const std::int64_t corrections = damping_.corrections();
+      const double pushed = kick(s, s.t, h / 2);
+      const double left = damp(s, s.t, h / 2);
+      StepReport report = substep(s, s.t, h);
+      report.ledger.work = pushed;
+      report.ledger.damping_left = left;
+      if (report.solved()) {
+        report.ledger.damping_right = damp(s, middle, h / 2);
+        report.ledger.work += kick(s, middle, h / 2);
+      }
+      report.fallbacks += static_cast<int>(damping_.corrections() - corrections);
+      return report;
+    });
+  }
+
+  double damp(State& s, double t, double h) {
+    return change(s, [&] { closure().damp(s, t, h); });
+  }
+  double kick(State& s, double t, double h) {
+    return has_force_ ? change(s, [&] { closure().kick(s, t, h); }) : 0.0;
+  }
+
+  const Damping& damping_;
+  bool has_force_;
+  std::vector<double> before_, after_;  // of each field
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_whole(const System& system, PropagatorKind propagator, std::unique_ptr<Closure> closure) {
+  return std::make_unique<Whole>(system, propagator, std::move(closure));
+}
+
+std::unique_ptr<Stepper> make_strang(const System& system, PropagatorKind propagator,
+                                     std::unique_ptr<Closure> closure) {
+  return std::make_unique<Strang>(system, propagator, std::move(closure));
+}
+
+}  // namespace seiche

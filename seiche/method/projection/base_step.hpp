@@ -1,0 +1,49 @@
+// A step without a law, for Projected to end with one.
+#pragma once
+
+#include <seiche/core/simd/squared_norm.hpp>
+#include <seiche/core/state.hpp>
+#include <seiche/method/projection/step_dissipation.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+namespace seiche {
+
+// May ẑ be a solution? `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN; a
+// solution that has faded until its square underflows is one.
+inline bool may_be_solution(const Vector& z, double size) {
+  constexpr double gross_growth = 1e3;
+  const double grown = squared_norm(z);
+  return std::isfinite(grown) && (grown < std::numeric_limits<double>::min() || grown <= square(gross_growth * size));
+}
+
+class BaseStep {
+ public:
+  virtual ~BaseStep() = default;
+
+  // z ← ẑ, the solution at t + h from s.z at t. False, with z anything, where ẑ is no solution.
+  virtual bool compute(const State& s, double t, double h, Vector& z) = 0;
+  virtual std::string_view failure() const = 0;  // what has happened then; a literal
+  virtual std::string_view remedy() const { return "a smaller h"; }
+
+  // Of the step just computed, where a projection is a part of it: how often that found nothing better than bisection,
+  // and did it move anything far?
+  virtual int fallbacks() const { return 0; }
+  virtual bool moved_far() const { return false; }
+
+  virtual StepDissipation::Kind dissipation_kind() const = 0;
+  // Of the step just computed to z with H = H(z), where the kind is not `none`.
+  virtual StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double H) = 0;
+  // Of the same step: what `fine` of that amount misses of the linear flow; 0 where it is no quadrature.
+  virtual double flow_missed(const State& /*s*/, double /*h*/) { return 0; }
+  // Makes what that needs for steps of h, so that none of them allocates.
+  virtual void prepare_flow(double /*h*/) {}
+
+  // The step just computed will be taken: s is still as before it but for what this changes, and never z, t and n.
+  // Not resolved: e^{hL}z was taken instead of ẑ.
+  virtual void accept(State& /*s*/, double /*h*/, bool /*resolved*/) {}
+};
+
+}  // namespace seiche

@@ -1,0 +1,133 @@
+#include <seiche/core/simd/squared_norm.hpp>
+#include <seiche/method/projection/energy_projection.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+constexpr int max_secants = 8;
+constexpr double max_lambda = 0.9;
+constexpr int max_bisections = 60;
+constexpr double blurred = 1e-13;     // moves relative to z that round-off in H may ask for
+constexpr double least_slope = 0.05;  // relative to its terms: below, H hardly changes along the line
+
+// By how much H may pass the cap: its round-off at a point, but for points whose energies have grown beyond reason. The
+// terms alone may grow by much, where a mean drifts and ½zᵀMz sees none of it.
+double slack(const EnergyLine::Parts& parts, const EnergyTarget& aim) {
+  const double most = EnergyProjection::gross_growth * aim.terms;
+  const bool grown = most > 0 && !(parts.values() <= most);  // at rest nothing has a size yet
+  return grown ? std::min(parts.loss(), 16 * epsilon * most) : parts.loss();
+}
+
+}  // namespace
+
+EnergyProjection::EnergyProjection(const System& system, const PhiEvaluator& phi)
+    : system_(system),
+      phi_(phi),
+      rest_(system.potential->value(Vector::Zero(system.space->size()))),
+      scratch_(system) {}
+
+EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
+  using Direction = EnergyLine::Direction;
+  Outcome outcome;
+  EnergyLine::Parts start;
+  EnergyTarget aim;
+  {
+    EnergyLine line(system_, phi_, scratch_, z, Direction::casimir_free);
+    start = line.at(0);
+    outcome.H = outcome.computed = start.H();
+    outcome.loss = start.loss();
+    outcome.values = start.values();
+    outcome.terms = start.size;
+    aim = wanted(outcome.computed);
+    if (std::abs(start.H() - aim.H) <= start.round_off() && start.H() <= aim.cap + slack(start, aim)) {
+      outcome.admissible = true;
+      outcome.H = aim.H;
+      return outcome;
+    }
+    const EnergyLine::Slope slope = line.slope();
+    // Near rest H is flat: to mend round-off in H, z would move by far more than its own.
+    if (std::abs(start.H() - aim.H) <= start.loss() && start.H() <= aim.cap + slack(start, aim) &&
+        start.loss() > blurred * std::abs(slope.value)) {
+      outcome.admissible = true;
+      outcome.H = aim.H;
+      return outcome;
+    }
+    const bool conditioned = std::abs(slope.value) >= least_slope * slope.size;
+    if (!conditioned && aim.H < aim.cap && start.H() <= aim.cap) {
+      outcome.admissible = true;
+      return outcome;
+    }
+    if (conditioned && solve(line, start, aim, z, outcome)) return outcome;
+  }
+  {
+    EnergyLine line(system_, phi_, scratch_, z, Direction::steepest);
+    if (solve(line, line.at(0), aim, z, outcome)) return outcome;
+  }
+  outcome.by_bisection = true;
+  outcome.H = std::min(start.H(), aim.cap);
+  outcome.admissible = start.H() <= aim.cap + slack(start, aim);  // below what it should be: safe all the same
+  if (outcome.admissible) return outcome;
+
+  // H falls from H(z) > goal to H(Πz) or H(0) ≤ goal: there is a root between (intermediate value theorem).
+  const double goal = rest_ <= aim.cap ? std::max(aim.H, rest_) : aim.H;
+  for (const Direction direction : {Direction::casimir_free, Direction::ray})
+    if (bisect(EnergyLine(system_, phi_, scratch_, z, direction), goal, z, outcome)) break;
+  return outcome;
+}
+
+bool EnergyProjection::moved_far(const Outcome& outcome, const Vector& z) const {
+  if (std::abs(outcome.computed - outcome.H) <= 0.01 * std::abs(outcome.H - rest_)) return false;  // saves the norm
+  return squared_norm(z) < square(10 * outcome.displacement);
+}
+
+// z from `here` on its line to where H is what it should be; false, with z as it was, if the secant iteration does not
+// find it.
+bool EnergyProjection::solve(EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z,
+                             Outcome& outcome) {
+  const auto miss = [&](const EnergyLine::Parts& p) { return std::abs(p.H() - aim.H); };
+  double lambda = (aim.H - here.H()) / line.slope().value;
+  for (int i = 0; miss(here) > here.round_off() && i < max_secants; ++i) {
+    if (!(std::abs(lambda) < max_lambda)) return false;  // or no number
+    const EnergyLine::Parts next = line.at(lambda);
+    ++outcome.iterations;
+    if (next.H() == here.H()) break;  // as near as numbers come
+    lambda = next.lambda + (aim.H - next.H()) * (next.lambda - here.lambda) / (next.H() - here.H());
+    here = next;
+  }
+  if (!(miss(here) <= here.loss()) || !(here.H() <= aim.cap + slack(here, aim))) return false;
+  if (here.lambda != 0) {
+    outcome.displacement = std::abs(here.lambda) * line.direction().norm();
+    line.move(z, here.lambda);
+  }
+  outcome.admissible = true;
+  outcome.H = aim.H;
+  outcome.terms = here.size;
+  return true;
+}
+
+// z towards the origin of the line, λ = −1, to a point with H ≤ goal; false, with z as it was, if H is above it even
+// there.
+bool EnergyProjection::bisect(const EnergyLine& line, double goal, Vector& z, Outcome& outcome) {
+  EnergyLine::Parts low = line.at(-1);
+  double high = 0;
+  if (!(low.H() <= goal)) return false;
+  for (int i = 0; i < max_bisections; ++i) {
+    const EnergyLine::Parts parts = line.at((low.lambda + high) / 2);
+    ++outcome.iterations;
+    if (parts.H() <= goal)
+      low = parts;
+    else
+      high = parts.lambda;
+  }
+  outcome.displacement = std::abs(low.lambda) * line.direction().norm();
+  line.move(z, low.lambda);
+  outcome.admissible = true;
+  outcome.H = low.H();
+  outcome.terms = low.size;
+  return true;
+}
+
+}  // namespace seiche

@@ -1,0 +1,239 @@
+#include <seiche/core/error.hpp>
+#include <seiche/core/simd/squared_norm.hpp>
+#include <seiche/core/text/number_text.hpp>
+#include <seiche/method/projection/energy_interval.hpp>
+#include <seiche/method/projection/projected.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+constexpr int max_halvings = 8;
+
+}  // namespace
+
+Projected::Projected(const System& system, const PhiEvaluator& phi, BaseStep& base, EnergyLaw law)
+    : system_(system),
+      phi_(phi),
+      base_(base),
+      law_(law),
+      may_flow_freely_(!system.force && system.damping->is_linear()),
+      feeds_(phi.dissipation().is_quadratic && !phi.dissipation().is_nonnegative),
+      projection_(system, phi),
+      free_(cached_step_sizes(system.space->size())),
+      z_(Vector::Zero(system.space->size())) {
+  saved_.z = z_;
+}
+
+void Projected::read_energy(State& s) const {
+  const EnergyTerms terms = system_.energy_terms(s.z);
+  s.energy = terms.sum();
+  s.energy_terms = terms.quadratic.magnitude + terms.potential.magnitude;
+}
+
+void Projected::begin(State& s) {
+  read_energy(s);
+  if (!std::isfinite(s.energy))
+    throw Error("the energy of the initial state is not a finite number (H = {})", number_text(s.energy));
+}
+
+EnergyReading Projected::energy(const State& s) const {
+  EnergyReading reading;
+  const EnergyTerms terms = system_.energy_terms(s.z);
+  reading.H = reading.modified = terms.sum();
+  reading.round_off = reading.modified_round_off = terms.round_off();
+  return reading;
+}
+
+StepReport Projected::step(State& s, double h) {
+  StepReport report;
+  const double t = s.t;
+  const std::int64_t n = s.n;
+  const Taken taken = take(s, t, h, law_ == EnergyLaw::none, report);
+  if (taken == Taken::unresolved && law_ == EnergyLaw::none) {
+    fail(report, s, h, taken, 0);
+    return report;
+  }
+  if (taken != Taken::whole) {
+    saved_ = s;
+    if (!take_halves(s, t, h, 1, report)) {
+      s = saved_;
+      fail(report, s, h, taken, max_halvings);
+      return report;
+    }
+    report.halved = 1;
+  }
+  s.n = n + 1;
+  s.t = t + h;
+  return report;
+}
+
+StepReport Projected::attempt(State& s, double h) {
+  StepReport report;
+  const Taken taken = take(s, s.t, h, true, report);
+  if (taken != Taken::whole) {
+    fail(report, s, h, taken, 0);
+    return report;
+  }
+  ++s.n;
+  s.t += h;
+  return report;
+}
+
+void Projected::undo(State& s) {
+  s.z.swap(z_);
+  s.energy = last_.energy;
+  s.energy_terms = last_.energy_terms;
+  s.t = last_.t;
+  --s.n;
+}
+
+void Projected::keep_between(const State& s, Vector& z) {
+  if (law_ == EnergyLaw::none || last_.gained) return;  // H may rise between: no law to keep
+  const double low = std::min(s.energy, last_.energy);
+  projection_.project(z, [&](double computed) {
+    return EnergyTarget{.H = std::clamp(computed, low, last_.energy), .cap = last_.energy, .terms = last_.energy_terms};
+  });
+}
+
+void Projected::fail(StepReport& report, const State& s, double h, Taken taken, int halvings) const {
+  report.status = StepReport::Status::failed;
+  if (taken == Taken::unresolved)
+    report.message = fmt::format("{} in the step from t = {:.6g} with h = {:.6g}{}", base_.failure(), s.t, h,
+                                 halvings > 0 ? fmt::format(", nor in {} halvings of it", halvings) : "");
+  else
+    report.message = fmt::format(
+        "no point near the solution has an energy H ≤ {:.9g} in the step from t = {:.6g} with h = {:.6g}{}: H(0) = {}",
+        s.energy, s.t, h, halvings > 0 ? fmt::format(", nor after {} halvings of it", halvings) : "",
+        number_text(projection_.energy_of_rest(), 6));
+}
+
+// One step; s stays as it was where it is not taken. t and n are the caller's.
+Projected::Taken Projected::take(State& s, double t, double h, bool strict, StepReport& report) {
+  if (law_ == EnergyLaw::none) return take_without_law(s, t, h, report);
+  const auto make_free = [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); };
+  if (!strict) {  // now: later steps of this length are to allocate nothing
+    if (may_flow_freely_) free_.at(h, make_free);
+    if (law_ == EnergyLaw::interval) base_.prepare_flow(h);
+  }
+  const StepDissipation::Kind kind = base_.dissipation_kind();
+  bool resolved = base_.compute(s, t, h, z_);
+  report.fallbacks += base_.fallbacks();
+  StepDissipation::Amount amount;
+  // The guard asks whether H may rise, and a nonnegative form says no.
+  const bool asked = law_ == EnergyLaw::interval || kind == StepDissipation::Kind::general || keeps_ledger_;
+  EnergyProjection::Outcome outcome;
+  bool widened = false;
+  if (resolved) {
+    outcome = projection_.project(z_, [&](double computed) {
+      if (asked && kind != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, computed);
+      // What is looked at node by node may be missed where steps do not resolve the flow. Gains below round-off H
+      // cannot show.
+      amount.negative = feeds_ || (amount.negative && amount.gain > 16 * epsilon * s.energy_terms);
+      EnergyTarget target = energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount, kind,
+                                          [&] { return base_.flow_missed(s, h); });
+      widened = target.widened;
+      target.terms = s.energy_terms;
+      return target;
+    });
+    resolved = std::isfinite(outcome.terms) && !has_grown_beyond_reason(outcome, s, t, h);
+  }
+  if (!resolved) {
+    if (strict || !may_flow_freely_) return Taken::unresolved;
+    amount = {};
+    free_.at(h, make_free).apply(s.z, {}, {&z_, 1});
+    if (!z_.allFinite()) return Taken::unresolved;
+    ++report.fallbacks;
+    outcome = projection_.project(z_, [&](double computed) {
+      const bool conserves = kind == StepDissipation::Kind::none;
+      return EnergyTarget{.H = conserves ? s.energy : std::min(computed, s.energy),
+                          .cap = s.energy,
+                          .terms = s.energy_terms};
+    });
+  }
+  report.scalar_iterations += outcome.iterations;
+  report.fallbacks += outcome.by_bisection ? 1 : 0;
+  if (!outcome.admissible || !std::isfinite(outcome.terms)) return Taken::inadmissible;
+  if (!resolved)
+    note_replaced(report, s, base_.failure());
+  else if (base_.moved_far() || projection_.moved_far(outcome, z_))
+    note_replaced(
+        report, s,
+        "what the scheme gave was moved by more than a tenth of its length to have an energy that the law allows");
+  if (widened && resolved) report.widened = 1;
+  finish(s, t, h, resolved, amount, outcome, report);
+  return Taken::whole;
+}
+
+// Are |½ẑᵀMẑ| and |V(ẑ)| more than the terms of Hⁿ and what the force N gives z from rest within the step explain? s is
+// still as it was before the step.
+bool Projected::has_grown_beyond_reason(const EnergyProjection::Outcome& outcome, const State& s, double t, double h) {
+  constexpr double growth = EnergyProjection::gross_growth;
+  if (outcome.values <= growth * s.energy_terms) return false;
+  if (!force_) force_ = std::make_unique<NonlinearForce>(system_, PhiRows::Forces::states);
+  Vector push = s.z;
+  force_->evaluate(t, push);
+  push *= h;
+  if (system_.force) system_.force->kick(t, h, push);
+  const ValueAndMagnitude pushed = system_.linear->quadratic(push);
+  return !(outcome.values <= growth * (s.energy_terms + pushed.magnitude));
+}
+
+// s is still as it was before the step, and z_ what it is to become.
+void Projected::note_replaced(StepReport& report, const State& s, std::string_view why) const {
+  constexpr double least = 0.1;
+  const bool ruinous = squared_norm(z_) < square(least) * squared_norm(s.z);
+  report.replaced = {.count = 1, .ruinous = report.replaced.ruinous || ruinous, .why = why, .remedy = base_.remedy()};
+}
+
+Projected::Taken Projected::take_without_law(State& s, double t, double h, StepReport& report) {
+  const bool resolved = base_.compute(s, t, h, z_);
+  report.fallbacks += base_.fallbacks();
+  if (!resolved) return Taken::unresolved;
+  StepDissipation::Amount amount;
+  EnergyProjection::Outcome outcome;
+  if (keeps_ledger_) {
+    s.energy = system_.energy(s.z);
+    outcome.H = outcome.computed = system_.energy(z_);
+    if (base_.dissipation_kind() != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, outcome.H);
+  }
+  finish(s, t, h, true, amount, outcome, report);
+  return Taken::whole;
+}
+
+void Projected::finish(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
+                       const EnergyProjection::Outcome& outcome, StepReport& report) {
+  base_.accept(s, h, resolved);
+  const double asked = std::abs(outcome.computed - outcome.H);
+  const double blurred = outcome.displacement > 0 ? std::min(1.0, outcome.loss / asked) : 0;
+  last_ = {.t = t,
+           .energy = s.energy,
+           .energy_terms = s.energy_terms,
+           .displacement = outcome.displacement,
+           .blur = blurred * outcome.displacement,
+           .gained = amount.negative};
+  s.energy = outcome.H;
+  s.energy_terms = outcome.terms;
+  report.ledger += {.work = amount.work,
+                    .damping_left = -(amount.fine + amount.work),
+                    .substep = outcome.computed - last_.energy + amount.fine,
+                    .projection = outcome.H - outcome.computed};
+  s.z.swap(z_);
+}
+
+// The same time in two steps, or more where that does not help either.
+bool Projected::take_halves(State& s, double t, double h, int depth, StepReport& report) {
+  if (depth > max_halvings) return false;
+  ++report.fallbacks;
+  for (const double begin : {t, t + h / 2}) {
+    s.history_h = 0;
+    if (take(s, begin, h / 2, false, report) != Taken::whole && !take_halves(s, begin, h / 2, depth + 1, report))
+      return false;
+  }
+  s.history_h = 0;
+  return true;
+}
+
+}  // namespace seiche

@@ -1,0 +1,263 @@
+#include <seiche/core/error.hpp>
+#include <seiche/core/step_cache.hpp>
+#include <seiche/method/splitting/crkn.hpp>
+#include <seiche/method/splitting/momentum_form.hpp>
+#include <seiche/method/splitting/nystrom_scheme.hpp>
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+class Nystrom : public BaseStep {
+ public:
+  Nystrom(const System& system, const PhiEvaluator& phi, int order)
+      : system_(system),
+        form_(momentum_form(system)),
+        scheme_(nystrom_scheme(order)),
+        kind_(StepDissipation::kind_of(system, phi)) {
+    if (!form_.kicks)
+      throw Error("it kicks momenta by ∇V of the positions, and here S∇V moves what V depends on; use etdrk4 or egc4");
+    if (!system.damping->is_frozen())
+      throw Error("its linear flow needs a damping that is the same at all times and points; use etdrk4 or egc4");
+    if (!phi.dissipation().is_quadratic)
+      throw Error("its damping must act on momenta alone, and here it moves what V depends on; use etdrk4 or egc4");
+  }
+
+  std::string_view failure() const override { return "the Runge–Kutta–Nyström splitting left the numbers"; }
+  StepDissipation::Kind dissipation_kind() const override { return kind_; }
+  StepDissipation::Amount dissipated(const State&, double, double, const Vector&, double) override {
+    return {.fine = taken_, .negative = kind_ == StepDissipation::Kind::general};
+  }
+
+ protected:
+  const System& system() const { return system_; }
+  const MomentumForm& form() const { return form_; }
+  const NystromScheme& scheme() const { return scheme_; }
+  void set_taken(double by_damping) { taken_ = by_damping; }  // of the step
+  bool dissipates() const { return kind_ != StepDissipation::Kind::none; }
+
+ private:
+  const System& system_;
+  MomentumForm form_;
+  const NystromScheme& scheme_;
+  StepDissipation::Kind kind_;
+  double taken_ = 0;
+};
+
+// A flow, a kick, a flow, …, each by the operators of the system.
+class OneByOne : public Nystrom {
+ public:
+  OneByOne(const System& system, const PhiEvaluator& phi, int order) : Nystrom(system, phi, order) {
+    for (Vector* v : {&gradient_, &kick_}) v->setZero(system.space->size());
+  }
+
+  bool compute(const State& s, double, double h, Vector& z) override {
+    z = s.z;
+    prepare(h);
+    const std::vector<double>& b = scheme().b;
+    const double force = kick(b[0] * h, z) / std::abs(b[0]);
+    double taken = 0;
+    for (std::size_t i = 0; i < scheme().flows(); ++i) {
+      taken += flow(i, z);
+      kick(b[i + 1] * h, z);
+    }
+    set_taken(taken);
+    return may_be_solution(z, s.z.norm() + force) || flow_alone(s, h, z);
+  }
+
+ protected:
+  virtual void prepare(double h) = 0;
+  // A solution that has faded: backward flows of its damping overflow in long steps, and kicks are nothing beside it.
+  // Then all flows are one, forward. False where that is not so.
+  virtual bool flow_alone(const State& /*s*/, double /*h*/, Vector& /*z*/) { return false; }
+  // The i-th A-flow of a step; returns what the damping takes from H in it, where it takes any.
+  virtual double flow(std::size_t i, Vector& z) = 0;
+  virtual double kick(double h, Vector& z) = 0;  // returns the length of the kick
+
+  // z += h S g with g in gradient_, zero outside the positions; returns the length of it.
+  double kick_by_gradient(double h, Vector& z) {
+    const auto g = gradient_.segment(form().positions.begin, form().positions.size);
+    if (form().canonical) {
+      z.tail(form().positions.size) -= h * g;
+      return std::abs(h) * g.norm();
+    }
+    system().linear->apply_S(gradient_, kick_);
+    z += h * kick_;
+    return std::abs(h) * kick_.norm();
+  }
+
+  Vector gradient_, kick_;
+};
+
+class ExactFlows final : public OneByOne {
+ public:
+  ExactFlows(const System& system, const PhiEvaluator& phi, int order)
+      : OneByOne(system, phi, order),
+        phi_(phi),
+        cache_(cached_step_sizes(system.space->size())),
+        work_(Vector::Zero(system.space->size())) {}
+
+ private:
+  using Flows = std::vector<std::unique_ptr<PhiMap>>;
+
+  void prepare(double h) override {
+    flows_ = &cache_.at(h, [&] {
+      auto flows = std::make_unique<Flows>();
+      for (std::size_t i = 0; i < scheme().distinct_flows(); ++i)
+        flows->push_back(phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, scheme().a[i] * h));
+      return flows;
+    });
+  }
+
+  double flow(std::size_t i, Vector& z) override {
+    const double before = dissipates() ? system().linear->quadratic_energy(z) : 0;
+    (*flows_)[scheme().which(i)]->apply(z, {}, {&work_, 1});
+    z.swap(work_);
+    return dissipates() ? before - system().linear->quadratic_energy(z) : 0;
+  }
+
+  double kick(double h, Vector& z) override {
+    system().potential->gradient(z, gradient_);
+    return kick_by_gradient(h, z);
+  }
+
+  // Every stage is a time inside the step, although some flows lead back.
+  bool flow_alone(const State& s, double h, Vector& z) override {
+    const double nothing = epsilon * s.z.lpNorm<Eigen::Infinity>();
+    const double before = system().linear->quadratic_energy(s.z);
+    double time = 0;
+    z = s.z;
+    for (std::size_t i = 0; i <= scheme().flows(); ++i) {
+      work_ = z;
+      if (!(kick(h, work_) <= nothing)) return false;
+      if (i == scheme().flows()) break;
+      time = i + 1 < scheme().flows() ? time + scheme().a[i] : 1;
+      phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, time * h)->apply(s.z, {}, {&work_, 1});
+      z = work_;
+      if (!z.allFinite()) return false;
+    }
+    set_taken(dissipates() ? before - system().linear->quadratic_energy(z) : 0);
+    return true;
+  }
+
+  const PhiEvaluator& phi_;
+  StepCache<Flows> cache_;
+  const Flows* flows_ = nullptr;
+  Vector work_;
+};
+
+constexpr std::string_view remedy_of_kicks = "a smaller h, or linear = \"exact\"";
+
+// The kicks by all forces and the drifts u += length · ∇T(v), v *= decay of a step without exponentials.
+class ExplicitStages {
+ public:
+  ExplicitStages(const MomentumForm& form, const NystromScheme& scheme) : scheme_(scheme) {
+    if (!form.separable)
+      throw Error(
+          "linear = \"explicit\" needs H = T(v) + U(u), with S that couples u and v alone; use linear = \"exact\"");
+    if (!form.rate)
+      throw Error("linear = \"explicit\" needs a damping that is one number on all momenta; use linear = \"exact\"");
+    gamma_ = *form.rate;
+  }
+
+  // All but the last kick. Made anew where h is another than before.
+  const std::vector<Kicks::KickAndDrift>& at(double h) {
+    if (h == h_) return stages_;
+    h_ = h;
+    stages_.clear();
+    for (std::size_t i = 0; i < scheme_.flows(); ++i) {
+      const double t = scheme_.a[i] * h;
+      const double length = gamma_ == 0 ? t : -std::expm1(-gamma_ * t) / gamma_;
+      stages_.push_back({scheme_.b[i] * h, length, std::exp(-gamma_ * t)});
+    }
+    return stages_;
+  }
+
+ private:
+  const NystromScheme& scheme_;
+  double gamma_ = 0, h_ = 0;
+  std::vector<Kicks::KickAndDrift> stages_;
+};
+
+class Drifts final : public OneByOne {
+ public:
+  Drifts(const System& system, const PhiEvaluator& phi, int order)
+      : OneByOne(system, phi, order), stages_(form(), scheme()) {
+    for (Vector* v : {&Mz_, &momenta_}) v->setZero(system.space->size());
+  }
+
+  std::string_view remedy() const override { return remedy_of_kicks; }
+
+ private:
+  void prepare(double h) override { of_h_ = stages_.at(h); }
+
+  double flow(std::size_t i, Vector& z) override {
+    const double length = of_h_[i].length;
+    const double decay = of_h_[i].decay;
+    const Potential::Support u = form().positions;
+    if (form().canonical) {
+      const double twice_T = dissipates() ? z.tail(u.size).squaredNorm() : 0;
+      z.head(u.size) += length * z.tail(u.size);
+      z.tail(u.size) *= decay;
+      return twice_T * (1 - decay * decay) / 2;
+    }
+    momenta_ = z;
+    momenta_.segment(u.begin, u.size).setZero();
+    system().linear->apply_M(momenta_, Mz_);
+    const double twice_T = momenta_.dot(Mz_);
+    system().linear->apply_S(Mz_, kick_);
+    z += (decay - 1) * momenta_ + length * kick_;
+    return twice_T * (1 - decay * decay) / 2;
+  }
+
+  double kick(double h, Vector& z) override {
+    const Potential::Support u = form().positions;
+    gradient_.segment(u.begin, u.size).setZero();  // where there is no V, its gradient is never written
+    system().potential->gradient(z, gradient_);
+    system().linear->apply_M(z, Mz_);
+    gradient_.segment(u.begin, u.size) += Mz_.segment(u.begin, u.size);
+    return kick_by_gradient(h, z);
+  }
+
+  ExplicitStages stages_;
+  std::span<const Kicks::KickAndDrift> of_h_;
+  Vector Mz_, momenta_;
+};
+
+// The same where the backend has kicks of its own.
+class FewPasses final : public Nystrom {
+ public:
+  FewPasses(const System& system, const PhiEvaluator& phi, int order)
+      : Nystrom(system, phi, order), stages_(form(), scheme()), kicks_(system.make_kicks()) {}
+
+  std::string_view remedy() const override { return remedy_of_kicks; }
+
+  bool compute(const State& s, double, double h, Vector& z) override {
+    const std::vector<double>& b = scheme().b;
+    const Kicks::Report report = kicks_->split(stages_.at(h), b.back() * h, s.z, z);
+    set_taken(report.taken);
+    // |p| and |p − b₀hF| bound b₀h|F|. That is looser than |zⁿ| + h|F|, and costs no pass of its own.
+    const double before = std::sqrt(squared_norm(s.z));
+    return may_be_solution(z, before + (before + std::sqrt(report.kicked)) / std::abs(b[0]));
+  }
+
+ private:
+  ExplicitStages stages_;
+  std::unique_ptr<Kicks> kicks_;
+};
+
+}  // namespace
+
+std::unique_ptr<BaseStep> conformal_nystrom(const System& system, const PhiEvaluator& phi, int order) {
+  return std::make_unique<ExactFlows>(system, phi, order);
+}
+
+std::unique_ptr<BaseStep> explicit_nystrom(const System& system, const PhiEvaluator& phi, int order) {
+  if (system.make_kicks) return std::make_unique<FewPasses>(system, phi, order);
+  return std::make_unique<Drifts>(system, phi, order);
+}
+
+}  // namespace seiche

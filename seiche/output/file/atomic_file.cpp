@@ -1,0 +1,168 @@
+#include <seiche/core/error.hpp>
+#include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/file/folder_open.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+constexpr std::size_t buffer = 1U << 16U;
+
+Error cannot_write(const std::filesystem::path& path, int error_number) {
+  return Error("cannot write {}: {}", path.string(), std::strerror(error_number));
+}
+
+// Byte behind the last line feed of an open file.
+std::uintmax_t end_of_lines(int file) {
+  std::uintmax_t end = 0, read = 0;
+  std::array<char, buffer> piece{};
+  for (;;) {
+    const ::ssize_t size = ::pread(file, piece.data(), piece.size(), static_cast<::off_t>(read));
+    if (size <= 0) return end;
+    const std::string_view text(piece.data(), static_cast<std::size_t>(size));
+    if (const std::size_t last = text.rfind('\n'); last != std::string_view::npos) end = read + last + 1;
+    read += text.size();
+  }
+}
+
+}  // namespace
+
+PartialPath::PartialPath(Folder folder, std::string name)
+    : folder_(std::move(folder)), name_(std::move(name)), temporary_(name_ + ".partial") {}
+
+PartialPath::PartialPath(const std::filesystem::path& path)
+    : PartialPath(Folder(path.parent_path()), path.filename().string()) {}
+
+PartialPath::~PartialPath() {
+  const bool is_ours = file_ < 0 || FileIdentity(folder_.descriptor(), temporary_) == FileIdentity(file_);
+  if (!kept_ && is_ours) ::unlinkat(folder_.descriptor(), temporary_.c_str(), 0);
+  if (file_ >= 0) ::close(file_);
+}
+
+int PartialPath::open() {
+  folder_.require_lock();
+  const int in_the_way = ::unlinkat(folder_.descriptor(), temporary_.c_str(), 0) == 0 ? 0 : errno;
+  file_ = ::openat(folder_.descriptor(), temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (file_ < 0) throw cannot_write(path(), errno == EEXIST && in_the_way != 0 ? in_the_way : errno);
+  return file_;
+}
+
+void PartialPath::commit() {
+  folder_.require_lock();
+  int failure = 0;
+  if (file_ >= 0) {
+    const FileIdentity ours(file_);
+    if (ours != FileIdentity() && ours != FileIdentity(folder_.descriptor(), temporary_))
+      throw Error("cannot write {}: {} was removed or replaced while it was being written", path().string(),
+                  temporary_);
+    // Some file systems tell only here that there was no room.
+    if (::close(std::exchange(file_, -1)) != 0) failure = errno;
+    if (failure != 0 && !kept_) throw cannot_write(path(), failure);
+  }
+  if (::renameat(folder_.descriptor(), temporary_.c_str(), folder_.descriptor(), name_.c_str()) != 0)
+    throw cannot_write(path(), errno);
+  kept_ = true;
+  if (failure != 0) throw cannot_write(path(), failure);
+}
+
+AtomicFile::AtomicFile(const Folder& folder, const std::string& name) : path_(folder, name), file_(path_.open()) {}
+AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), file_(path_.open()) {}
+
+AtomicFile::~AtomicFile() {
+  try {
+    if (keeps_lines_) flush();
+  } catch (const std::exception&) {  // those that are there stay
+    failure_ = EIO;
+  }
+}
+
+void AtomicFile::keep_lines() {
+  keeps_lines_ = true;
+  path_.keep();
+}
+
+void AtomicFile::write(std::string_view text) {
+  if (waiting_.capacity() < buffer) waiting_.reserve(2 * buffer);  // once, and not again while rows are recorded
+  waiting_ += text;
+  if (waiting_.size() >= buffer) flush();
+}
+
+void AtomicFile::flush() {
+  std::size_t written = 0;
+  while (failure_ == 0 && written < waiting_.size()) {
+    const ::ssize_t size = ::write(file_, waiting_.data() + written, waiting_.size() - written);
+    if (size > 0) {
+      written += static_cast<std::size_t>(size);
+    } else if (size == 0) {
+      failure_ = ENOSPC;  // nothing was written, and nothing would be if it were tried again
+    } else if (errno != EINTR) {
+      failure_ = errno;
+    }
+  }
+  waiting_.clear();
+  if (failure_ != 0) throw cannot_write(path_.path(), failure_);
+}
+
+void AtomicFile::commit() {
+  flush();
+  path_.commit();
+}
+
+void AtomicFile::commit_lines() {
+  path_.keep();
+  const bool was_said = failure_ != 0;
+  std::string failure;
+  try {
+    flush();
+  } catch (const Error& error) {
+    failure = error.what();
+  }
+  if (failure_ != 0 && ::ftruncate(file_, static_cast<::off_t>(end_of_lines(file_))) != 0)
+    throw cannot_write(path_.path(), errno);
+  path_.commit();
+  if (!failure.empty() && !was_said) throw Error("{}", failure);
+}
+
+void write_file(const Folder& folder, const std::string& name, std::string_view text) {
+  AtomicFile file(folder, name);
+  file.write(text);
+  file.commit();
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  write_file(Folder(path.parent_path()), path.filename().string(), text);
+}
+
+void remove_file(const Folder& folder, const std::string& name) noexcept {
+  try {
+    folder.require_lock();
+    ::unlinkat(folder.descriptor(), name.c_str(), 0);
+  } catch (const std::exception&) {  // another run's
+  }
+}
+
+std::uintmax_t end_of_lines(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) throw Error("cannot read {}: {}", path.string(), std::strerror(errno));
+  const std::uintmax_t end = end_of_lines(file);
+  ::close(file);
+  return end;
+}
+
+void make_directory(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw Error("cannot make the directory {}: {}", path.string(), std::strerror(error.value()));
+  // create_directories is content with a regular file of that name.
+  if (!std::filesystem::is_directory(path, error)) throw cannot_write(path, error ? error.value() : ENOTDIR);
+}
+
+}  // namespace seiche

@@ -1,0 +1,57 @@
+#include <seiche/core/error.hpp>
+#include <seiche/output/file/folder.hpp>
+#include <seiche/output/file/folder_open.hpp>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace seiche {
+
+Folder::Open::~Open() {
+  if (descriptor >= 0) ::close(descriptor);
+}
+
+Folder::Folder(const std::filesystem::path& path) : open_(std::make_shared<Open>()) {
+  open_->path = path.empty() ? "." : path;
+  open_->descriptor = ::open(open_->path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (open_->descriptor < 0) throw Error("cannot open the folder {}: {}", open_->path.string(), std::strerror(errno));
+}
+
+const std::filesystem::path& Folder::path() const { return open_->path; }
+int Folder::descriptor() const { return open_->descriptor; }
+
+bool Folder::is_at_its_path() const {
+  struct stat named = {};
+  return ::stat(path().c_str(), &named) == 0 && FileIdentity(named) == FileIdentity(descriptor());
+}
+
+bool Folder::has_lock() const {
+  return open_->lock < 0 || FileIdentity(descriptor(), lock_name) == FileIdentity(open_->lock);
+}
+
+void Folder::require_lock() const {
+  if (!has_lock())
+    throw Error(
+        "cannot write into {}: it was removed, or its lock was, while this run went on, and its names may be those of "
+        "another run",
+        path().string());
+}
+
+FileIdentity::FileIdentity(int file) {
+  struct stat status = {};
+  if (::fstat(file, &status) == 0) *this = FileIdentity(status);
+}
+
+FileIdentity::FileIdentity(int folder, const std::string& name) {
+  struct stat status = {};
+  if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0) *this = FileIdentity(status);
+}
+
+FileIdentity::FileIdentity(const struct stat& status)
+    : device(static_cast<std::uint64_t>(status.st_dev)), number(static_cast<std::uint64_t>(status.st_ino)) {}
+
+}  // namespace seiche

@@ -1,0 +1,50 @@
+#include <seiche/core/error.hpp>
+#include <seiche/output/file/folder_lock.hpp>
+#include <seiche/output/file/folder_open.hpp>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace seiche {
+namespace {
+
+// Whoever held the lock before may have removed the file between our opening and locking it.
+bool is_still_there(int file, const Folder& folder) {
+  return FileIdentity(file) == FileIdentity(folder.descriptor(), lock_name);
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const Folder& folder) : folder_(folder) {
+  for (;;) {
+    // Not for the programs that draw: they would hold the lock as long as they live.
+    const int file = ::openat(folder.descriptor(), lock_name, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (file < 0) throw Error("cannot write {}: {}", (folder.path() / lock_name).string(), std::strerror(errno));
+    folder_.open_->lock = file;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) {
+      if (is_still_there(file, folder)) return;
+    } else if (errno == EWOULDBLOCK) {
+      folder_.open_->lock = -1;
+      ::close(file);
+      throw Error("another run is writing into {}: wait until it has ended, or give another folder",
+                  folder.path().string());
+    } else if (errno != EINTR) {
+      return;
+    }
+    ::close(file);
+  }
+}
+
+FolderLock::~FolderLock() {
+  const int file = folder_.open_->lock;
+  // While it is locked, so that no other one's file goes.
+  if (is_still_there(file, folder_)) ::unlinkat(folder_.descriptor(), lock_name, 0);
+  folder_.open_->lock = -1;
+  ::close(file);
+}
+
+}  // namespace seiche

@@ -1,0 +1,245 @@
+#include <seiche/core/error.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
+#include <seiche/output/hdf5/hdf5_calls.hpp>
+#include <seiche/output/hdf5/hdf5_driver.hpp>
+
+#include <fcntl.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <functional>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+
+namespace seiche {
+
+static_assert(std::is_same_v<hid_t, Hdf5Handle::Id> && std::is_same_v<herr_t, int>);
+
+Hdf5Handle& Hdf5Handle::operator=(Hdf5Handle&& other) noexcept {
+  if (this == &other) return *this;
+  close();
+  id_ = std::exchange(other.id_, -1);
+  close_ = other.close_;
+  return *this;
+}
+
+bool Hdf5Handle::close() {
+  const Id id = std::exchange(id_, -1);
+  if (id < 0) return true;
+  const Hdf5Quiet quiet;
+  return close_(id) >= 0;
+}
+
+namespace {
+
+constexpr unsigned compression = 1;  // of 9: more takes much longer and gains little on doubles
+
+std::vector<hsize_t> sizes(const Hdf5Shape& shape) { return {shape.begin(), shape.end()}; }
+
+Hdf5Shape shape_of(Hdf5Handle::Id dataset) {
+  const Hdf5Handle space = hdf5_handle(H5Dget_space(dataset), H5Sclose, "an HDF5 data set has no shape");
+  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space.id()), 0)));
+  H5Sget_simple_extent_dims(space.id(), shape.data(), nullptr);
+  return {shape.begin(), shape.end()};
+}
+
+// The rows from `first` on, chosen in the file.
+Hdf5Handle chosen_rows(Hdf5Handle::Id dataset, const Hdf5Shape& shape, std::uint64_t first, std::uint64_t count) {
+  Hdf5Handle space = hdf5_handle(H5Dget_space(dataset), H5Sclose, "an HDF5 data set has no shape");
+  std::vector<hsize_t> start(shape.size(), 0), size = sizes(shape);
+  start[0] = first;
+  size[0] = count;
+  hdf5_check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr),
+             "rows of an HDF5 data set cannot be chosen");
+  return space;
+}
+
+Hdf5Handle flat_space(std::size_t size) {
+  const hsize_t length = size;
+  return hdf5_handle(H5Screate_simple(1, &length, nullptr), H5Sclose, "no HDF5 space for values");
+}
+
+}  // namespace
+
+Hdf5Dataset::Hdf5Dataset(Hdf5Handle handle, std::string name)
+    : handle_(std::move(handle)), name_(std::move(name)), shape_(shape_of(handle_.id())) {
+  if (shape_.empty()) throw Error("the HDF5 data set {} is a number and no array", name_);
+}
+
+std::uint64_t Hdf5Dataset::row_size() const {
+  return std::accumulate(shape_.begin() + 1, shape_.end(), std::uint64_t{1}, std::multiplies<>());
+}
+
+void Hdf5Dataset::append(std::span<const double> rows) {
+  const Hdf5Quiet quiet;
+  const std::uint64_t first = shape_[0];
+  const std::uint64_t count = rows.size() / row_size();
+  if (count == 0) return;
+  shape_[0] = first + count;
+  const std::string what = fmt::format("cannot write {} rows of {}", count, name_);
+  hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), what);
+  const Hdf5Handle memory = flat_space(rows.size());
+  const Hdf5Handle place = chosen_rows(id(), shape_, first, count);
+  hdf5_check(H5Dwrite(id(), H5T_NATIVE_DOUBLE, memory.id(), place.id(), H5P_DEFAULT, rows.data()), what);
+}
+
+void Hdf5Dataset::write_in_place(std::uint64_t first, std::span<const double> rows) {
+  const Hdf5Quiet quiet;
+  const std::string what =
+      fmt::format("cannot write rows {} to {} of {}", first, first + rows.size() / row_size(), name_);
+  const Hdf5Handle options = hdf5_handle(H5Dget_create_plist(id()), H5Pclose, what);
+  std::vector<hsize_t> chunk(shape_.size());
+  hdf5_check(H5Pget_chunk(options.id(), static_cast<int>(chunk.size()), chunk.data()), what);
+  std::vector<double> whole(chunk[0] * row_size(), 0.0);
+  std::copy(rows.begin(), rows.end(), whole.begin());
+  shape_[0] = first + rows.size() / row_size();
+  hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), what);
+  std::vector<hsize_t> corner(shape_.size(), 0);
+  corner[0] = first;
+  constexpr std::uint32_t no_filter = 0xffffffff;
+  hdf5_check(H5Dwrite_chunk(id(), H5P_DEFAULT, no_filter, corner.data(), whole.size() * sizeof(double), whole.data()),
+             what);
+}
+
+void Hdf5Dataset::cut(std::uint64_t rows) {
+  const Hdf5Quiet quiet;
+  if (rows >= shape_[0]) return;
+  shape_[0] = rows;
+  hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), fmt::format("cannot cut {}", name_));
+}
+
+void Hdf5Dataset::read(std::uint64_t first, std::span<double> values) const {
+  const Hdf5Quiet quiet;
+  const std::uint64_t count = values.size() / std::max<std::uint64_t>(row_size(), 1);
+  if (count == 0) return;
+  if (first + count > rows())
+    throw Error("rows {} to {} of {} were asked for, and it has {}", first, first + count - 1, name_, rows());
+  const Hdf5Handle memory = flat_space(values.size());
+  const Hdf5Handle place = chosen_rows(id(), shape_, first, count);
+  hdf5_check(H5Dread(id(), H5T_NATIVE_DOUBLE, memory.id(), place.id(), H5P_DEFAULT, values.data()),
+             fmt::format("cannot read {}", name_));
+}
+
+Hdf5File::Hdf5File(std::filesystem::path path, Hdf5Handle handle)
+    : path_(std::move(path)), handle_(std::move(handle)) {}
+
+namespace {
+
+// What is the same for every new file.
+Hdf5Handle creation() {
+  Hdf5Handle options = hdf5_handle(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "HDF5 does not work");
+  H5Pset_obj_track_times(options.id(), false);  // the same run leaves the same bytes
+  // NetCDF-4 lists what is in a file in this order.
+  H5Pset_link_creation_order(options.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  H5Pset_attr_creation_order(options.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  // Attributes stay in the header, where one of them is changed by one write.
+  constexpr unsigned many = 64;
+  H5Pset_attr_phase_change(options.id(), many, many);
+  return options;
+}
+
+}  // namespace
+
+Hdf5File Hdf5File::create(const std::filesystem::path& path) {
+  const Hdf5Quiet quiet;
+  return Hdf5File(path, hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation().id(), H5P_DEFAULT), H5Fclose,
+                                    fmt::format("cannot write {}", path.string())));
+}
+
+Hdf5File Hdf5File::create(int file, const std::filesystem::path& path) {
+  const Hdf5Quiet quiet;
+  const Hdf5Handle access = ordered_file_access(file);
+  return Hdf5File(path, hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation().id(), access.id()), H5Fclose,
+                                    fmt::format("cannot write {}", path.string())));
+}
+
+Hdf5File Hdf5File::open(const std::filesystem::path& path) {
+  const Hdf5Quiet quiet;
+  return Hdf5File(path, hdf5_handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
+                                    fmt::format("cannot read {}", path.string())));
+}
+
+Hdf5File Hdf5File::open(const Folder& folder, const std::string& name, bool to_write) {
+  const Hdf5Quiet quiet;
+  const std::filesystem::path path = folder.path() / name;
+  const std::string what = fmt::format("cannot {} {}", to_write ? "write" : "read", path.string());
+  const int flags = (to_write ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW;
+  const int file = ::openat(folder.descriptor(), name.c_str(), flags);
+  if (file < 0) throw Error("{}: {}", what, std::strerror(errno));
+  const Hdf5Handle access = ordered_file_access(file);
+  const Hdf5Handle::Id opened = H5Fopen(path.c_str(), to_write ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id());
+  ::close(file);  // the driver has its own
+  return Hdf5File(path, hdf5_handle(opened, H5Fclose, what));
+}
+
+Hdf5File Hdf5File::open(const Folder& folder, const std::string& name) { return open(folder, name, false); }
+Hdf5File Hdf5File::open_to_write(const Folder& folder, const std::string& name) { return open(folder, name, true); }
+
+void Hdf5File::make_group(const std::string& name) {
+  const Hdf5Quiet quiet;
+  const std::string what = fmt::format("cannot make the group {} in {}", name, path_.string());
+  const Hdf5Handle options = hdf5_handle(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, what);
+  H5Pset_obj_track_times(options.id(), false);
+  hdf5_handle(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, options.id(), H5P_DEFAULT), H5Gclose, what);
+}
+
+Hdf5Dataset Hdf5File::make_dataset(const std::string& name, const Hdf5Layout& layout) {
+  const Hdf5Quiet quiet;
+  std::vector<hsize_t> size = {0}, most = {H5S_UNLIMITED};
+  for (const std::uint64_t n : layout.row) {
+    size.push_back(n);
+    most.push_back(n);
+  }
+  const std::string what = fmt::format("cannot make {} in {}", name, path_.string());
+  const Hdf5Handle space =
+      hdf5_handle(H5Screate_simple(static_cast<int>(size.size()), size.data(), most.data()), H5Sclose, what);
+  const Hdf5Handle options = hdf5_handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
+  hdf5_check(H5Pset_chunk(options.id(), static_cast<int>(layout.chunk.size()), sizes(layout.chunk).data()), what);
+  if (layout.compressed) {
+    hdf5_check(H5Pset_shuffle(options.id()), what);
+    hdf5_check(H5Pset_deflate(options.id(), compression), what);
+  }
+  H5Pset_obj_track_times(options.id(), false);  // the same run leaves the same bytes
+  H5Pset_attr_creation_order(options.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  return {hdf5_handle(H5Dcreate2(id(), name.c_str(), layout.whole_numbers ? H5T_STD_I64LE : H5T_NATIVE_DOUBLE,
+                                 space.id(), H5P_DEFAULT, options.id(), H5P_DEFAULT),
+                      H5Dclose, what),
+          name};
+}
+
+Hdf5Dataset Hdf5File::dataset(const std::string& name) const {
+  const Hdf5Quiet quiet;
+  return {hdf5_handle(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose,
+                      fmt::format("there is no {} in {}", name, path_.string())),
+          name};
+}
+
+bool Hdf5File::has(const std::string& name) const {
+  const Hdf5Quiet quiet;
+  return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+void Hdf5File::flush() {
+  const Hdf5Quiet quiet;
+  hdf5_check(H5Fflush(id(), H5F_SCOPE_LOCAL), fmt::format("cannot write {}", path_.string()));
+}
+
+void Hdf5File::close() {
+  flush();  // tells what a data set that was closed did not
+  const Hdf5Quiet quiet;
+  hdf5_check(handle_.close() ? 0 : -1, fmt::format("cannot write {}", path_.string()));
+}
+
+void hdf5_without_cleanup_at_exit() { H5dont_atexit(); }
+
+std::string hdf5_version() {
+  unsigned major = 0, minor = 0, release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
+}  // namespace seiche

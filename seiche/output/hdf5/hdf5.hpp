@@ -1,0 +1,118 @@
+// HDF5 through its C interface: files, data sets that grow along their first axis, attributes, dimension scales.
+// Handles close themselves, and what fails throws Error with the reason that HDF5 gives.
+#pragma once
+
+#include <seiche/output/file/folder.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace seiche {
+
+class Hdf5Handle {
+ public:
+  using Id = std::int64_t;  // hid_t, without the header of HDF5
+  using Close = int (*)(Id);
+
+  Hdf5Handle() = default;
+  Hdf5Handle(Id id, Close closing) : id_(id), close_(closing) {}
+  ~Hdf5Handle() { close(); }
+  Hdf5Handle(Hdf5Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept;
+  Hdf5Handle(const Hdf5Handle&) = delete;
+  Hdf5Handle& operator=(const Hdf5Handle&) = delete;
+
+  Id id() const { return id_; }
+  bool close();  // false where HDF5 could not; the handle is gone in any case
+
+ private:
+  Id id_ = -1;
+  Close close_ = nullptr;
+};
+
+using Hdf5Shape = std::vector<std::uint64_t>;
+
+// An array of doubles (or of whole numbers, which are shown as doubles too), in the order of C: the last axis runs
+// fastest.
+class Hdf5Dataset {
+ public:
+  Hdf5Dataset(Hdf5Handle handle, std::string name);
+
+  const std::string& name() const { return name_; }
+  Hdf5Handle::Id id() const { return handle_.id(); }
+  const Hdf5Shape& shape() const { return shape_; }
+  std::uint64_t rows() const { return shape_.front(); }
+  std::uint64_t row_size() const;  // values in one row, which is what belongs to one index of the first axis
+
+  void append(std::span<const double> rows);  // whole rows, behind the last one
+  // Whole rows from `first` on, with which a chunk begins, and no more than it holds; the last ones of the data set
+  // from now on. The chunk stays uncompressed and where it is, however often it is written. Its rows must not be
+  // divided among chunks.
+  void write_in_place(std::uint64_t first, std::span<const double> rows);
+  void cut(std::uint64_t rows);  // those behind are gone
+  // Whole rows from `first` on, as many as `values` holds.
+  void read(std::uint64_t first, std::span<double> values) const;
+
+ private:
+  Hdf5Handle handle_;
+  std::string name_;
+  Hdf5Shape shape_;
+};
+
+struct Hdf5Layout {
+  Hdf5Shape row = {};    // the shape of one row; empty: a number
+  Hdf5Shape chunk = {};  // of rows and row: compressed as one piece
+  bool compressed = true;
+  bool whole_numbers = false;
+};
+
+class Hdf5File {
+ public:
+  static Hdf5File create(const std::filesystem::path& path);  // in place of a file of this name
+  // Into an open file, which can be read whenever the program ends, with the rows of the last flush (hdf5_driver.hpp).
+  static Hdf5File create(int file, const std::filesystem::path& path);
+  static Hdf5File open_to_write(const Folder& folder, const std::string& name);  // likewise
+  static Hdf5File open(const std::filesystem::path& path);                       // to be read
+  static Hdf5File open(const Folder& folder, const std::string& name);
+
+  void make_group(const std::string& name);
+  Hdf5Dataset make_dataset(const std::string& name, const Hdf5Layout& layout);  // with no row yet; "group/name" works
+  Hdf5Dataset dataset(const std::string& name) const;
+  bool has(const std::string& name) const;  // a data set or a group
+
+  Hdf5Handle::Id id() const { return handle_.id(); }
+  void flush();
+  void close();                        // after all of its data sets
+  void abandon() { handle_.close(); }  // as close, and never throws
+
+ private:
+  explicit Hdf5File(std::filesystem::path path, Hdf5Handle handle);
+  static Hdf5File open(const Folder& folder, const std::string& name, bool to_write);
+
+  std::filesystem::path path_;
+  Hdf5Handle handle_;
+};
+
+// Of a file or a data set. Texts are of variable length, in UTF-8.
+void set_attribute(Hdf5Handle::Id object, const std::string& name, std::string_view text);
+std::string text_attribute(Hdf5Handle::Id object, const std::string& name);  // "" if there is none
+
+// Dimension scales, by which xarray and NetCDF-4 know the axes: every data set that is no scale itself, with the
+// scales of its axes in their order.
+struct Hdf5Axes {
+  const Hdf5Dataset* data;
+  std::vector<const Hdf5Dataset*> scales;
+};
+void attach_scales(const Hdf5File& file, const std::vector<Hdf5Axes>& all);
+
+std::string hdf5_version();  // of the library in use
+
+// For programs, before anything else of HDF5: when a disk is full and a file cannot be closed, HDF5 1.10 tries it again
+// when the program ends, and crashes. Files must be closed then; those here are.
+void hdf5_without_cleanup_at_exit();
+
+}  // namespace seiche

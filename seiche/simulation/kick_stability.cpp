@@ -1,0 +1,75 @@
+#include <seiche/method/splitting/nystrom_scheme.hpp>
+#include <seiche/simulation/auto_method.hpp>
+#include <seiche/simulation/kick_stability.hpp>
+#include <seiche/simulation/sparse_work.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace seiche {
+
+std::string beyond_stability(const Simulation& simulation, double h) {
+  const MethodEntry& method = simulation.method();
+  if (simulation.method_options().linear != LinearTreatment::explicit_kicks) return "";
+  const double fastest = rates_of(simulation.system()).linear;
+  const double largest = stability_of_kicks(nystrom_scheme(method.order)) / fastest;
+  if (!(h > largest)) return "";
+  return fmt::format(
+      "h = {:.4g} is beyond the stability of {} with linear = \"explicit\": the linear part has rates up to {:.4g}, and kicks need h "
+      "≤ {:.3g} there; take a smaller h, or linear = \"exact\"",
+      h, method.name, fastest, largest);
+}
+
+std::string beyond_rate(const Simulation& simulation, double h, double t_end) {
+  constexpr int samples = 4096;
+  const Composition composition = simulation.method().composition;
+  const RatePointer& rate = simulation.problem().damping.rate;
+  const bool holds_rate_of_start = composition == Composition::collocation || composition == Composition::runge_kutta;
+  if (!holds_rate_of_start || !rate || rate->is_constant()) return "";
+  const double held = frozen_rate(simulation.problem());
+  double farthest = held;
+  for (int i = 0; i <= samples; ++i) {
+    const double gamma = rate->value(t_end * i / samples);
+    if (std::abs(gamma - held) > std::abs(farthest - held)) farthest = gamma;
+  }
+  if (!(h * std::abs(farthest - held) > 1)) return "";
+  return fmt::format(
+      "the rate {} reaches {:.3g}, and the exponential of {} holds the {:.3g} of the start: for what changes h ≤ {:.2g} is needed; or take "
+      "a splitting such as seisav, which takes the integral of the rate, or a tolerance",
+      rate->text(), farthest, simulation.method().name, held, 1 / std::abs(farthest - held));
+}
+
+// A force F against γ ≫ 1/h: the exact momentum is F/γ, and behind a splitting hF/2.
+std::string beyond_splitting(const Simulation& simulation, double h) {
+  const Composition composition = simulation.method().composition;
+  if (composition != Composition::strang && composition != Composition::chin) return "";
+  const System& system = simulation.system();
+  Vector pushed(system.initial.size()), damped(pushed), damped_twice(pushed);
+  system.right_hand_side(0, system.initial, pushed);
+  system.damping->apply_frozen(system.initial, damped);
+  pushed += damped;
+  system.damping->apply_frozen(pushed, damped);
+  system.damping->apply_frozen(damped, damped_twice);
+  const double length = damped.norm();
+  const double rate = length > 0 ? damped_twice.norm() / length : 0;
+  if (!(h * rate > 2)) return "";
+  const bool is_chin = composition == Composition::chin;
+  return fmt::format(
+      "{} splits the damping from the forces, and {}: it is {:.3g} with h = {:.4g} and γ = {:.4g}; take h ≤ {:.2g}, or a method with the damping "
+      "in its exponential (egc4, eisav)",
+      simulation.method().name,
+      is_chin ? "is of order four only where hγ < 2" : "where the two balance, momenta are wrong by the factor hγ/2",
+      is_chin ? h * rate : h * rate / 2, h, rate, 1 / rate);
+}
+
+std::vector<std::string> notes_on_step_size(const Simulation& simulation, const SparseOptions& options, double h,
+                                            double t_end) {
+  std::vector<std::string> notes;
+  for (const std::string& note : {beyond_stability(simulation, h), beyond_rate(simulation, h, t_end),
+                                  beyond_splitting(simulation, h), work_of_exponentials(simulation, options, h, t_end)})
+    if (!note.empty()) notes.push_back(note);
+  return notes;
+}
+
+}  // namespace seiche

@@ -1,0 +1,35 @@
+#include <seiche/simulation/remembering_stepper.hpp>
+
+namespace seiche {
+
+void RememberingStepper::note(double h) {
+  if (keeps_ == Keeps::none) return;
+  while (!taken_.empty() && (keeps_ == Keeps::last || taken_.back().left.t >= left_.t)) taken_.pop_back();
+  taken_.push_back({left_, h});
+}
+
+StepReport RememberingStepper::step(State& state, double h) {
+  if (keeps_ != Keeps::none) left_ = state;
+  StepReport report = stepper_.step(state, h);
+  if (report.solved()) note(h);
+  return report;
+}
+
+StepReport RememberingStepper::attempt(State& state, double h) {
+  if (keeps_ != Keeps::none) left_ = state;
+  StepReport report = adaptive_->attempt(state, h);
+  if (report.solved()) note(h);
+  return report;
+}
+
+void RememberingStepper::undo(State& state) {
+  adaptive_->undo(state);
+  if (!taken_.empty()) taken_.pop_back();
+}
+
+std::vector<TakenStep> RememberingStepper::release(double t_end) {
+  while (!taken_.empty() && taken_.back().left.t >= t_end) taken_.pop_back();
+  return std::move(taken_);
+}
+
+}  // namespace seiche

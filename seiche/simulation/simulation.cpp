@@ -1,0 +1,124 @@
+#include <seiche/core/error.hpp>
+#include <seiche/core/physical_memory.hpp>
+#include <seiche/law/law.hpp>
+#include <seiche/simulation/auto_method.hpp>
+#include <seiche/simulation/run_memory.hpp>
+#include <seiche/simulation/simulation.hpp>
+
+namespace seiche {
+namespace {
+
+Problem as_integrated(const MethodEntry& method, const Problem& problem) {
+  if (method.composition != Composition::whole) return problem;
+  try {
+    return with_damping_merged(problem);
+  } catch (const Error& error) {
+    throw Error("{} does not apply: {}", method.name, error.what());
+  }
+}
+
+bool is_automatic(const SimulationOptions& options) { return options.method == "auto"; }
+
+// Lanczos iteration would ask of M what kicks have no use for.
+bool kicks_suit(const SimulationOptions& options) {
+  return options.backend_options.sparse.exponential == ExponentialKind::pade;
+}
+
+const BackendEntry& choose_backend(const SimulationOptions& options, const Problem& problem,
+                                   const MethodOptions& method_options) {
+  if (options.backend != "auto") return find_backend(options.backend);
+  return automatic_backend(problem, method_options.linear == LinearTreatment::explicit_kicks && kicks_suit(options));
+}
+
+bool is_sparse(const std::string& backend) { return backend == "sparse"; }
+
+// Is there a backend for kicks that "auto" may take, or is it the one in use? It runs on one thread, and keeps
+// matrices.
+bool may_choose_kicks(const SimulationOptions& options, const Problem& problem, const std::string& backend) {
+  constexpr Index most_unknowns = Index{1} << 23;
+  if (is_sparse(backend)) return kicks_suit(options);
+  return options.backend == "auto" && kicks_suit(options) && options.backend_options.threads == 1 &&
+         problem.size() <= most_unknowns && automatic_backend(problem, true).name != backend;
+}
+
+void require_memory(const MethodEntry& method, const Problem& problem, bool variable_steps,
+                    const std::string& backend) {
+  const double bytes = run_bytes(method, problem, variable_steps, backend);
+  if (bytes > physical_memory())
+    throw Error("{} on {} unknowns needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points{}",
+                method.name, problem.size(), bytes, physical_memory(),
+                method.closure == ClosureKind::sav ? "" : ", or seisav, which needs the least");
+}
+
+void require_gradient(const Problem& problem) {
+  if (!problem.potential || problem.initial.size() != problem.size()) return;
+  const Index n = problem.grid.unknowns();
+  const std::string complaint =
+      problem.potential->complaint({problem.initial.data() + problem.potential_field * n,
+                                    static_cast<std::size_t>(problem.potential->fields() * n)});
+  if (!complaint.empty()) throw Error(complaint);
+}
+
+}  // namespace
+
+Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
+    : method_(is_automatic(options) ? nullptr : &find_method(options.method)),
+      problem_(method_ != nullptr ? as_integrated(*method_, problem) : problem),
+      method_options_(options.method_options) {
+  require_gradient(problem_);
+  const BackendEntry& backend = choose_backend(options, problem_, method_options_);
+  backend_name_ = backend.name;
+  if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps, backend_name_);
+  system_ = backend.system(problem_, options.backend_options);
+  if (method_ == nullptr) {
+    MethodChoice choice = choose_method(problem_, system_,
+                                        {.tolerance = options.tolerance,
+                                         .t_end = options.t_end,
+                                         .by_kicks = may_choose_kicks(options, problem_, backend_name_),
+                                         .by_krylov = is_sparse(backend_name_)},
+                                        options.method_options);
+    method_ = &find_method(choice.method);
+    method_options_ = choice.options;
+    reason_ = std::move(choice.reason);
+    const BackendEntry& better = choose_backend(options, problem_, method_options_);
+    if (better.name != backend_name_) {
+      backend_name_ = better.name;
+      system_ = System{};  // before the other takes its memory
+      system_ = better.system(problem_, options.backend_options);
+    }
+    require_memory(*method_, problem_, options.variable_steps, backend_name_);
+  }
+  if (options.variable_steps && problem_.friction && problem_.friction->smoothness() == Friction::Smoothness::jump)
+    throw Error(
+        "a tolerance cannot be met with the friction {}, which jumps at v = 0: while a velocity stays there, the error of a "
+        "step is of the size of the step; write method.h",
+        problem_.friction->text());
+  if (options.variable_steps) {
+    auto stepper = make_adaptive_stepper(*method_, system_, method_options_);
+    adaptive_ = stepper.get();
+    stepper_ = std::move(stepper);
+  } else {
+    stepper_ = make_stepper(*method_, system_, method_options_);
+  }
+  restart();
+}
+
+AdaptiveStepper& Simulation::adaptive_stepper() {
+  if (adaptive_ == nullptr) throw Error("this simulation was made for steps of one size; set variable_steps");
+  return *adaptive_;
+}
+
+void Simulation::restart() {
+  state_ = State{};
+  state_.z = system_.initial;
+  stepper_->begin(state_);
+}
+
+LawPromise promise_energy_law(const Simulation& simulation, double t_end) {
+  const std::string objection = simulation.method_options().objection(simulation.method());
+  LawPromise promise = promise_energy_law(simulation.problem(), t_end);
+  if (!objection.empty()) promise.withdraw(objection);
+  return promise;
+}
+
+}  // namespace seiche

@@ -1,0 +1,187 @@
+#include <seiche/core/commuting_damping.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/physical_memory.hpp>
+#include <seiche/law/law.hpp>
+#include <seiche/run/integrate.hpp>
+#include <seiche/simulation/kick_stability.hpp>
+#include <seiche/simulation/solution_recorder.hpp>
+#include <seiche/simulation/solve.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+void validate(const Problem& problem, const SolveOptions& o) {
+  if (std::isnan(o.t_end)) throw Error("give t_end, the time at which the run is to end");
+  if (!std::isfinite(o.t_start) || !std::isfinite(o.t_end) || o.t_end < o.t_start)
+    throw Error("t_end = {} must not lie before t_start = {}, and both must be finite", o.t_end, o.t_start);
+  if (!o.tolerance && !(o.h > 0)) throw Error("give a step size h > 0 or a tolerance; h is {}", o.h);
+  if (o.record_every < 1) throw Error("record_every = {} must be ≥ 1", o.record_every);
+  if (o.z0 && o.z0->size() != problem.size())
+    throw Error("z0 has {} entries, but the state of {} has {}: {} fields of {}", o.z0->size(), problem.name,
+                problem.size(), problem.field_count(), problem.grid.unknowns());
+  if (o.z0 && !o.z0->allFinite()) throw Error("z0 holds a number that is not finite");
+  for (std::size_t i = 0; i < o.events.size(); ++i)
+    if (!o.events[i].g) throw Error("event {} has no function", i + 1);
+  if (o.ledger && o.t_eval)
+    throw Error(
+        "the ledger is kept at the ends of steps, and t_eval asks for times inside them: leave out one of the two");
+  if (o.ledger && o.tolerance && !o.events.empty())
+    throw Error(
+        "an event inside a step of variable size leaves the ledger with a step too many: give h instead of a tolerance");
+  if (!o.t_eval) return;
+  if (!std::is_sorted(o.t_eval->begin(), o.t_eval->end())) throw Error("the times of t_eval must ascend");
+  for (const double t : *o.t_eval)
+    if (!(t >= o.t_start && t <= o.t_end))
+      throw Error("t_eval holds {}, which is outside the run from {} to {}", t, o.t_start, o.t_end);
+}
+
+// Of what is recorded; with variable steps nobody knows.
+void require_memory(const Problem& problem, const SolveOptions& o) {
+  const double steps = o.tolerance ? 0.0 : (o.t_end - o.t_start) / o.h;
+  const double recorded =
+      o.t_eval ? static_cast<double>(o.t_eval->size()) : steps / static_cast<double>(o.record_every);
+  const double bytes =
+      (recorded + (o.dense_output ? steps : 0.0)) * static_cast<double>(problem.size() * sizeof(double));
+  if (bytes > physical_memory())
+    throw Error(
+        "the solution would take {:.3g} bytes, and this machine has {:.3g}; give t_eval, or a larger record_every{}",
+        bytes, physical_memory(), o.dense_output ? ", and no dense_output" : "");
+}
+
+SimulationOptions simulation_options(const SolveOptions& o) {
+  return {.method = o.method,
+          .backend = o.backend,
+          .method_options = o.method_options,
+          .backend_options = o.backend_options,
+          .variable_steps = o.tolerance.has_value(),
+          .tolerance = o.tolerance.value_or(0.0),
+          .t_end = o.t_end};
+}
+
+Problem with_initial(Problem problem, const std::optional<Vector>& z0) {
+  if (z0) problem.initial = *z0;
+  return problem;
+}
+
+// Rates before t = 0 were not looked at.
+LawPromise promise(const Certificate& certificate, const Problem& problem, double t_start) {
+  const bool varies = !has_constant_rates(problem.damping) || problem.friction;
+  if (certificate.law.promised && t_start < 0 && varies)
+    return {false, fmt::format("the damping changes in time, and the run starts at t = {:.6g} < 0", t_start)};
+  return certificate.law;
+}
+
+// The events of the options in the coordinates of the state, with their records.
+std::vector<Event> physical_events(const SolveOptions& options, const Space& space, Solution& solution) {
+  std::vector<Event> events;
+  for (std::size_t i = 0; i < options.events.size(); ++i) {
+    const SolveEvent& event = options.events[i];
+    Solution::Events& record = solution.events[i];
+    events.push_back({.g = [&event, &space](double t, const Vector& z) { return event.g(t, space.physical(z)); },
+                      .action =
+                          [&event, &space, &record, &solution](State& state) {
+                            Vector values = space.physical(state.z);
+                            record.t.push_back(state.t);
+                            record.z.insert(record.z.end(), values.begin(), values.end());
+                            if (event.action) {
+                              event.action(state.t, values);
+                              if (values.size() != space.physical_size())
+                                throw Error("the action of an event left {} entries in z, which has {}", values.size(),
+                                            space.physical_size());
+                              space.from_physical(values, state.z);
+                            }
+                            const bool ends = event.ends_at > 0 && std::ssize(record.t) >= event.ends_at;
+                            solution.ended_by_event |= ends;
+                            return !ends;
+                          },
+                      .direction = event.direction});
+  }
+  return events;
+}
+
+RememberingStepper::Keeps kept(const SolveOptions& options) {
+  using Keeps = RememberingStepper::Keeps;
+  return options.dense_output ? Keeps::all : options.t_eval ? Keeps::last : Keeps::none;
+}
+
+class Run {
+ public:
+  Run(const Problem& problem, const SolveOptions& options)
+      : options_(options),
+        problem_(with_initial(problem, options.z0)),
+        simulation_(std::make_shared<Simulation>(problem_, simulation_options(options))),
+        adaptive_(options.tolerance ? &simulation_->adaptive_stepper() : nullptr),
+        steps_(simulation_->stepper(), adaptive_, kept(options)),
+        replay_(simulation_->stepper(), adaptive_) {
+    solution_.size = problem_.size();
+    solution_.events.resize(options.events.size());
+    solution_.method = simulation_->method().name;
+    solution_.backend = simulation_->backend();
+    solution_.method_reason = simulation_->reason();
+    if (!options.tolerance)
+      solution_.notes = notes_on_step_size(*simulation_, options.backend_options.sparse, options.h, options.t_end);
+    solution_.certificate = certify(problem_, {.method = solution_.method,
+                                               .method_options = simulation_->method_options(),
+                                               .t_start = options.t_start,
+                                               .t_end = options.t_end,
+                                               .sample_solution = false,
+                                               .at_start = simulation_.get()});
+    if (options.ledger) simulation_->stepper().keep_ledger();
+    simulation_->state().t = options.t_start;
+  }
+
+  Solution solve() {
+    integrate_all();
+    solution_.ended_by_event &= solution_.success();
+    if (solution_.ended_by_event)
+      solution_.report.message =
+          fmt::format("an event ended the run at t = {:.9g}; {}", solution_.report.t, solution_.report.message);
+    for (const std::string& note : solution_.notes) solution_.report.message += "; " + note;
+    if (options_.dense_output)
+      solution_.sol = std::make_shared<DenseOutput>(simulation_, options_.tolerance.has_value(),
+                                                    steps_.release(simulation_->state().t), simulation_->state());
+    return std::move(solution_);
+  }
+
+ private:
+  void integrate_all() {
+    const System& system = simulation_->system();
+    SolutionRecorder recorder(options_, *simulation_, steps_, replay_, stop_, solution_);
+    const std::vector<Observer*> observers = {&recorder};
+    const std::vector<Event> events = physical_events(options_, *system.space, solution_);
+    const LawPromise law = promise(solution_.certificate, problem_, options_.t_start);
+    const auto objection = [this] { return negative_rate(simulation_->problem()); };
+    solution_.report = integrate_either(system, steps_, adaptive_ != nullptr ? &steps_ : nullptr, simulation_->state(),
+                                        {.tolerance = options_.tolerance.value_or(0.0),
+                                         .t_end = options_.t_end,
+                                         .first_h = options_.h,
+                                         .largest_h = options_.h_max,
+                                         .law = law,
+                                         .objection = objection,
+                                         .stop = &stop_,
+                                         .events = events},
+                                        observers);
+  }
+
+  const SolveOptions& options_;
+  Problem problem_;
+  std::shared_ptr<Simulation> simulation_;
+  AdaptiveStepper* adaptive_;
+  RememberingStepper steps_;
+  StepReplay replay_;
+  std::atomic<bool> stop_ = false;
+  Solution solution_;
+};
+
+}  // namespace
+
+Solution solve(const Problem& problem, const SolveOptions& options) {
+  validate(problem, options);
+  require_memory(problem, options);
+  return Run(problem, options).solve();
+}
+
+}  // namespace seiche

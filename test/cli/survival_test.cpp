@@ -1,0 +1,256 @@
+// What a run leaves when something goes wrong: a disk that fails at any write, a program that is killed, a folder
+// that is taken away, signals one after the other.
+#include <test/support/background.hpp>
+#include <test/support/program.hpp>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <seiche/core/error.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seiche::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class Survival : public Cli {
+ protected:
+  // As `run`, with rows enough for several chunks.
+  static constexpr const char* short_run =
+      "run case.toml --out out --quiet --set problem.points=128 method.h=1/128 time.end=10 output.snapshot_every=1 "
+      "output.energy_every=8";
+
+  static std::vector<std::string> endless(const std::string& problem = "") {
+    std::vector<std::string> words = {"run",
+                                      "case.toml",
+                                      "--out",
+                                      "out",
+                                      "--quiet",
+                                      "--set",
+                                      "time.end=1e6",
+                                      "output.snapshot_every=4",
+                                      "output.energy_every=8"};
+    if (!problem.empty()) words.push_back(problem);
+    return words;
+  }
+  bool has(const fs::path& name) const { return fs::exists(directory / name); }
+  // A run that has rows on the disk.
+  bool is_under_way() const {
+    return Background::wait_until([&] {
+      try {
+        return SolutionReader(directory / "out/solution.h5.partial").count() > 0;
+      } catch (const Error&) {  // not yet
+        return false;
+      }
+    });
+  }
+  void expect_beginning_of(const SolutionReader& whole, const fs::path& left, const std::string& where) const {
+    const SolutionReader solution(directory / left);
+    for (Index k = 0; k < solution.count(); ++k) {
+      ASSERT_EQ(solution.time(k), whole.time(k)) << where;
+      ASSERT_EQ(state(solution, k), state(whole, k)) << where;
+    }
+    EXPECT_FALSE(solution.text("status").empty()) << where;
+    EXPECT_FALSE(solution.text("case").empty()) << where;
+  }
+};
+
+TEST_F(Survival, WhicheverWriteFailsTheRowsBeforeItAreReadable) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  ASSERT_EQ(seiche(short_run).exit, 0) << text("stderr.txt");
+  fs::rename(directory / "out", directory / "whole");
+  const SolutionReader whole(directory / "whole/solution.h5");
+  Index most = 0;
+  for (const auto& [error, once] : {std::pair(ENOSPC, false), std::pair(EIO, true), std::pair(EIO, false)}) {
+    for (int n = once ? 2 : 1;; n += 17) {
+      fs::remove_all(directory / "out");
+      const std::string where = fmt::format("write {} fails with {}{}", n, error, once ? " once" : "");
+      const Result result =
+          seiche(short_run, fmt::format("LD_PRELOAD='{}' SEICHE_FAIL_AT={} SEICHE_FAIL_WITH={} {}",
+                                        failing_writes_path(), n, error, once ? "SEICHE_FAIL_ONCE=1" : ""));
+      if (result.exit == 0) break;
+      if (result.exit == 2) continue;  // before the first step
+      ASSERT_EQ(result.exit, 1) << where << result.err;
+      EXPECT_THAT(result.err, HasSubstr(std::strerror(error))) << where;
+      expect_beginning_of(whole, "out/solution.h5", where);
+      if (once) {
+        EXPECT_EQ(json::parse(text("out/summary.json"))["status"], "failed") << where;
+      }
+      most = std::max(most, SolutionReader(directory / "out/solution.h5").count());
+      ASSERT_LT(n, 1000) << "it never succeeds";
+    }
+  }
+  EXPECT_GT(most, whole.count() / 2) << "late writes failed too";
+}
+
+// Repeated, it would never end.
+TEST_F(Survival, AWriteThatWritesNothingIsAFullDisk) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  for (const int n : {2, 40, 100}) {
+    fs::remove_all(directory / "out");
+    const Result result =
+        seiche(short_run, fmt::format("LD_PRELOAD='{}' SEICHE_FAIL_AT={} SEICHE_FAIL_WITH=0 timeout 60",
+                                      failing_writes_path(), n));
+    EXPECT_THAT(result.exit, AnyOf(1, 2)) << n << result.err;
+    EXPECT_THAT(result.err, HasSubstr(std::strerror(ENOSPC))) << n;
+  }
+}
+
+TEST_F(Survival, ARunThatWasKilledIsNotErasedByTheNextOne) {
+  write_case();
+  Background run(directory, endless());
+  ASSERT_TRUE(is_under_way()) << text("stderr.txt");
+  EXPECT_EQ(run.end(SIGKILL), -SIGKILL);
+  const std::uintmax_t rows = fs::file_size(directory / "out/energy.csv.partial");
+  const std::string again = "run case.toml --out out --quiet";
+  for (const std::string& next :
+       {again, again + " --set ensemble.members=2 ensemble.perturb_initial=0.01",
+        std::string("paper --quick --quiet --out out"), std::string("spectrum case.toml --out out")}) {
+    const Result result = seiche(next);
+    EXPECT_EQ(result.exit, 2) << next;
+    EXPECT_THAT(result.err, AllOf(HasSubstr("energy.csv.partial ("), HasSubstr("solution.h5.partial ("),
+                                  HasSubstr("`seiche recover out`"), HasSubstr("--restart")))
+        << next;
+    EXPECT_EQ(fs::file_size(directory / "out/energy.csv.partial"), rows) << next;
+  }
+  for (const char* reader : {"audit out", "plot out"}) {
+    EXPECT_EQ(seiche(reader).exit, 2);
+    EXPECT_THAT(text("stderr.txt"), HasSubstr("`seiche recover out`")) << reader;
+  }
+  EXPECT_EQ(seiche(again + " --restart").exit, 0) << text("stderr.txt");
+  EXPECT_EQ(json::parse(text("out/summary.json"))["t"], 1.0);
+  EXPECT_FALSE(has("out/solution.h5.partial"));
+  EXPECT_FALSE(has("out/.seiche.reserve"));
+}
+
+TEST_F(Survival, WhatIsRecoveredOfAKilledRunPassesTheAudit) {
+  write_case();
+  for (const std::string problem : {"", "problem.name=truss", "method.tolerance=1e-4"}) {
+    fs::remove_all(directory / "out");
+    if (problem == "problem.name=truss")
+      write("case.toml", "[problem]\nname = \"truss\"\n[method]\nh = \"1/64\"\n[time]\nend = 1.0\n");
+    Background run(directory, endless(problem));
+    ASSERT_TRUE(is_under_way()) << problem << text("stderr.txt");
+    EXPECT_EQ(run.end(SIGKILL), -SIGKILL);
+    const Index count = SolutionReader(directory / "out/solution.h5.partial").count();
+    std::ofstream(directory / "out/energy.csv.partial", std::ios::app) << "12.25,0.000";  // as a torn line ends
+
+    const Result result = seiche("recover out");
+    EXPECT_EQ(result.exit, 0) << result.err;
+    EXPECT_THAT(result.err,
+                AllOf(HasSubstr("saved      solution.h5"), HasSubstr("bytes of a last line of energy.csv")));
+    EXPECT_EQ(text("out/energy.csv").back(), '\n');
+    const SolutionReader solution(directory / "out/solution.h5");
+    EXPECT_EQ(solution.count(), count);
+    EXPECT_EQ(solution.text("status"), "unfinished");
+    const json summary = json::parse(text("out/summary.json"));
+    EXPECT_EQ(summary["status"], "unfinished");
+    EXPECT_EQ(summary["t"], std::stod(lines("out/energy.csv").back()));
+    for (const auto& entry : fs::directory_iterator(directory / "out")) EXPECT_NE(entry.path().extension(), ".partial");
+    EXPECT_EQ(seiche("audit out").exit, 0) << problem << text("stdout.txt") << text("stderr.txt");
+
+    EXPECT_THAT(seiche("recover out").err, HasSubstr("nothing to recover"));
+    EXPECT_EQ(seiche("run case.toml --out out").exit, 2) << "nor is it erased when it was recovered";
+    EXPECT_THAT(text("stderr.txt"), HasSubstr("--restart"));
+    EXPECT_EQ(SolutionReader(directory / "out/solution.h5").count(), count);
+  }
+  EXPECT_EQ(seiche("recover none").exit, 2);
+  fs::create_directory(directory / "empty");
+  EXPECT_EQ(seiche("recover empty").exit, 2);
+  EXPECT_THAT(text("stderr.txt"), HasSubstr("holds no run"));
+}
+
+TEST_F(Survival, OfAnEnsembleThatWasKilledTheStatisticsAreKept) {
+  write_case();
+  std::vector<std::string> words = endless();
+  words.insert(words.end(), {"ensemble.members=3", "ensemble.perturb_initial=0.01"});
+  Background run(directory, words);
+  ASSERT_TRUE(Background::wait_until([&] { return lines("out/energy.csv.partial").size() > 2; })) << text("stderr.txt");
+  EXPECT_EQ(run.end(SIGKILL), -SIGKILL);
+  EXPECT_EQ(seiche("run case.toml --out out").exit, 2);
+  EXPECT_EQ(seiche("recover out").exit, 0) << text("stderr.txt");
+  EXPECT_THAT(text("stderr.txt"), HasSubstr("the members of the ensemble"));
+  EXPECT_GT(lines("out/energy.csv").size(), 2U);
+}
+
+TEST_F(Survival, ASecondSignalEndsOnlyWhatCanBeHadAgain) {
+  write_case();
+  Background run(directory, {"run", "case.toml", "--out", "out", "--quiet", "--set", "time.end=1e7",
+                             "output.snapshot_every=1", "output.energy_every=1000"});
+  ASSERT_TRUE(is_under_way()) << text("stderr.txt");
+  run.send(SIGINT);
+  ASSERT_TRUE(Background::wait_until([&] { return has("out/summary.json.partial") || has("out/summary.json"); }));
+  EXPECT_EQ(run.end(SIGINT), 130) << text("stderr.txt");
+  const json summary = json::parse(text("out/summary.json"));
+  EXPECT_EQ(summary["status"], "interrupted");
+  EXPECT_EQ(lines("out/final.txt").size(), 16U);
+  EXPECT_EQ(SolutionReader(directory / "out/solution.h5").times().back(), summary["t"].get<double>());
+  for (const auto& entry : fs::directory_iterator(directory / "out")) EXPECT_NE(entry.path().extension(), ".partial");
+}
+
+// Of the first run nothing gets a name, and the second one does not notice.
+TEST_F(Survival, ARunWhoseFolderIsRemovedLeavesTheNextOneAlone) {
+  write_case();
+  Background first(directory, endless());
+  ASSERT_TRUE(is_under_way()) << text("stderr.txt");
+  fs::remove_all(directory / "out");
+  ASSERT_EQ(seiche("run case.toml --out out --quiet").exit, 0) << text("stderr.txt");
+  const std::string final = text("out/final.txt"), summary = text("out/summary.json"), energy = text("out/energy.csv");
+  EXPECT_EQ(first.end(SIGINT), 1);
+  EXPECT_EQ(text("out/final.txt"), final);
+  EXPECT_EQ(text("out/summary.json"), summary);
+  EXPECT_EQ(text("out/energy.csv"), energy);
+  EXPECT_EQ(SolutionReader(directory / "out/solution.h5").times().back(), 1.0);
+}
+
+TEST_F(Survival, WhereALinkTakesThePlaceOfTheFolderNothingIsWrittenThroughIt) {
+  write_case();
+  ASSERT_EQ(seiche("run case.toml --out victim --quiet").exit, 0) << text("stderr.txt");
+  const std::string final = text("victim/final.txt"), report = text("victim/report.html");
+  Background run(directory, endless());
+  ASSERT_TRUE(is_under_way()) << text("stderr.txt");
+  fs::rename(directory / "out", directory / "moved");
+  fs::create_directory_symlink("victim", directory / "out");
+  EXPECT_EQ(run.end(SIGINT), 130);
+  EXPECT_EQ(text("victim/final.txt"), final);
+  EXPECT_EQ(text("victim/report.html"), report);
+  EXPECT_EQ(json::parse(text("moved/summary.json"))["status"], "interrupted") << "where the run began";
+  EXPECT_GT(SolutionReader(directory / "moved/solution.h5").count(), 2);
+}
+
+// The loader takes an empty entry for the current folder, where anybody may have put a library.
+TEST_F(Survival, NoLibraryIsLookedForInTheCurrentFolder) {
+  const std::string read =
+      "readelf -d '" + test::program_path() + "' >'" + (directory / "dynamic.txt").string() + "' 2>/dev/null";
+  if (std::system(read.c_str()) != 0) GTEST_SKIP() << "no readelf";
+  for (const std::string& line : lines("dynamic.txt")) {
+    if (line.find("RPATH") == std::string::npos && line.find("RUNPATH") == std::string::npos) continue;
+    const std::size_t begin = line.find('[') + 1;
+    const std::string path = ":" + line.substr(begin, line.rfind(']') - begin) + ":";
+    EXPECT_THAT(path, Not(HasSubstr("::"))) << line;
+    EXPECT_THAT(path, Not(HasSubstr(":."))) << line;
+  }
+}
+
+}  // namespace
+}  // namespace seiche::test

@@ -1,0 +1,356 @@
+// solution.h5 as others read it: shapes, axes, coordinates, what it costs, and what is left when a run ends early.
+#include <test/support/error_of.hpp>
+#include <test/support/paths.hpp>
+#include <test/support/temporary_directory.hpp>
+#include <test/support/text_of.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/output/solution_file.hpp>
+#include <seiche/output/solution_reader.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/oscillator.hpp>
+#include <seiche/problem/truss.hpp>
+#include <seiche/study/audit.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+using test::error_of;
+using testing::HasSubstr;
+using testing::Not;
+
+// z is the double of the physical values.
+class HalvingSpace : public Space {
+ public:
+  explicit HalvingSpace(Index size) : size_(size) {}
+  Index size() const override { return size_; }
+  Index physical_size() const override { return size_; }
+  void to_physical(const Vector& z, Vector& values) const override { values = z / 2; }
+  void from_physical(const Vector& values, Vector& z) const override { z = 2 * values; }
+
+ private:
+  Index size_;
+};
+
+class Solution : public test::InTemporaryDirectory {
+ protected:
+  fs::path file() const { return directory / "solution.h5"; }
+  std::string text(const char* name) const { return test::text_of(directory / name); }
+  // Value i of time k is 1000 k + i.
+  void write(const Problem& problem, Index times, double interval = 0) const {
+    const HalvingSpace space(problem.size());
+    SolutionFile solution(Folder(directory), problem, space, {.interval = interval}, true,
+                          {.meanings = {"displacement"}});
+    for (Index k = 0; k < times; ++k) observe(solution, problem, k);
+    solution.finish({});
+    solution.describe();
+  }
+  static void observe(SolutionFile& solution, const Problem& problem, Index k) {
+    const Vector values = Vector::LinSpaced(problem.size(), 0, static_cast<double>(problem.size() - 1));
+    const State state{.z = 2 * (values.array() + 1000.0 * static_cast<double>(k)).matrix(),
+                      .t = 0.5 * static_cast<double>(k),
+                      .n = k};
+    solution.observe(state, {.H = 7.0 - static_cast<double>(k), .modified = 8.0 - static_cast<double>(k)});
+  }
+};
+
+Problem plane() {
+  return klein_gordon(
+      {.grid = {.points = {4, 6}, .length = {2.0, 3.0}, .boundary = {Boundary::neumann, Boundary::dirichlet}}});
+}
+
+TEST_F(Solution, HoldsEveryFieldOnItsGridWithNamedAxes) {
+  write(plane(), 3);
+  const SolutionReader solution(file());
+  EXPECT_EQ(solution.fields(), (std::vector<std::string>{"u", "v"}));
+  ASSERT_EQ(solution.axes().size(), 2U);
+  EXPECT_EQ(solution.axes()[0].name, "x");
+  EXPECT_EQ(solution.axes()[0].values, (std::vector<double>{0.25, 0.75, 1.25, 1.75}));
+  EXPECT_EQ(solution.axes()[1].name, "y");
+  EXPECT_EQ(solution.axes()[1].values, (std::vector<double>{0.5, 1, 1.5, 2, 2.5}));
+  EXPECT_EQ(solution.times(), (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(solution.energies(), (std::vector<double>{7, 6, 5}));
+  Vector values;
+  solution.state(2, values);
+  EXPECT_EQ(values, Vector::LinSpaced(40, 2000, 2039)) << "physical values, in the order of z";
+  solution.field(1, 1, values);
+  EXPECT_EQ(values, Vector::LinSpaced(20, 1020, 1039));
+  EXPECT_EQ(solution.meaning(0), "displacement");
+  const Hdf5File raw = Hdf5File::open(file());
+  EXPECT_EQ(raw.dataset("u").shape(), (Hdf5Shape{3, 4, 5})) << "u[t, x, y]";
+  std::vector<double> modified(3);
+  raw.dataset("H_modified").read(0, modified);
+  EXPECT_EQ(modified, (std::vector<double>{8, 7, 6}));
+  std::vector<double> points(60);
+  raw.dataset("mesh/points").read(0, points);
+  EXPECT_EQ(std::vector<double>(points.begin() + 18, points.begin() + 21), (std::vector<double>{0.75, 1, 0}));
+}
+
+TEST_F(Solution, NamesTheAxesOfPointsWithoutAGrid) {
+  write(oscillator({}), 2);
+  EXPECT_TRUE(SolutionReader(file()).axes().empty());
+  EXPECT_EQ(Hdf5File::open(file()).dataset("q").shape(), (Hdf5Shape{2})) << "q[t]";
+
+  write(oscillator({.points = 3}), 2);
+  EXPECT_EQ(SolutionReader(file()).axes()[0].name, "point");
+  EXPECT_EQ(SolutionReader(file()).axes()[0].values, (std::vector<double>{1, 2, 3}));
+  EXPECT_TRUE(SolutionReader(file()).nodes().empty()) << "they lie nowhere";
+  EXPECT_THAT(text("solution.xdmf"), HasSubstr("solution.h5:/mesh/numbers")) << "and are not listed at every time";
+
+  const Problem bridge = truss({.panels = 3});
+  write(bridge, 2);
+  const SolutionReader solution(file());
+  EXPECT_EQ(solution.fields(), bridge.fields) << "fields called x and y are no coordinates";
+  EXPECT_EQ(solution.nodes(), (std::vector<Place>{{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2, 1, 0}}));
+}
+
+TEST_F(Solution, AFieldThatIsCalledAsAnAxisGetsAnotherName) {
+  Problem problem = klein_gordon({.grid = {.points = {8}, .length = {2.0}}});
+  problem.fields = {"x", "H"};
+  write(problem, 2);
+  EXPECT_EQ(SolutionReader(file()).fields(), (std::vector<std::string>{"x_field", "H_field"}));
+}
+
+TEST_F(Solution, IsTheSameHoweverManyRowsMakeAChunk) {
+  const Problem small = oscillator({.points = 2});
+  constexpr Index many = 2500;  // more than two chunks of rows
+  write(small, many);
+  const SolutionReader solution(file());
+  ASSERT_EQ(solution.count(), many);
+  Vector values;
+  for (const Index k : {Index{0}, Index{1023}, Index{1024}, many - 1}) {
+    solution.state(k, values);
+    EXPECT_EQ(values, Vector::LinSpaced(4, 1000.0 * static_cast<double>(k), 1000.0 * static_cast<double>(k) + 3));
+    EXPECT_EQ(solution.time(k), 0.5 * static_cast<double>(k));
+  }
+}
+
+TEST_F(Solution, ChunksOfLargeGridsArePiecesOfOneInstant) {
+  const SolutionLayout layout = solution_layout(klein_gordon({.grid = {.points = {512, 512}, .length = {2.0, 2.0}}}));
+  EXPECT_EQ(layout.chunk(), (Hdf5Shape{1, 128, 512}));
+  const SolutionLayout cube =
+      solution_layout(klein_gordon({.grid = {.points = {4, 512, 512}, .length = {2.0, 2.0, 2.0}}}));
+  EXPECT_EQ(cube.chunk(), (Hdf5Shape{1, 1, 128, 512}));
+  EXPECT_EQ(solution_layout(oscillator({})).chunk(), (Hdf5Shape{1024}));
+}
+
+long resident_pages() {
+  std::ifstream statm("/proc/self/statm");
+  long size = 0, resident = 0;
+  statm >> size >> resident;
+  return resident;
+}
+
+TEST_F(Solution, MemoryDoesNotGrowWithTheRun) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer keeps what is given back";
+#endif
+  if (!fs::exists("/proc/self/statm")) GTEST_SKIP() << "this system does not tell how much memory a program uses";
+  const Problem problem = klein_gordon({.grid = {.points = {2048}, .length = {2.0}}});
+  const HalvingSpace space(problem.size());
+  SolutionFile solution(Folder(directory), problem, space, {}, false);
+  for (Index k = 0; k < 200; ++k) observe(solution, problem, k);
+  const long before = resident_pages();
+  for (Index k = 200; k < 4200; ++k) observe(solution, problem, k);  // 131 MB of doubles
+  const long grown = (resident_pages() - before) * 4096;
+  EXPECT_LT(grown, 8 << 20);
+  solution.finish({});
+  EXPECT_EQ(SolutionReader(file()).count(), 4200);
+  EXPECT_LT(fs::file_size(file()), std::uintmax_t{4200} * 2 * 2048 * 8 / 2) << "and it is compressed";
+}
+
+TEST_F(Solution, IsThereWholeOrNotAtAll) {
+  const Problem problem = oscillator({});
+  const HalvingSpace space(problem.size());
+  { const SolutionFile solution(Folder(directory), problem, space, {}, false); }
+  EXPECT_TRUE(fs::is_empty(directory)) << "nothing is left of a run without a row";
+  {
+    SolutionFile solution(Folder(directory), problem, space, {}, false);
+    observe(solution, problem, 0);
+    EXPECT_FALSE(fs::exists(file()));
+  }
+  EXPECT_FALSE(fs::exists(file()));
+  EXPECT_EQ(SolutionReader(file().string() + ".partial").count(), 1) << "of one with a row everything";
+  {
+    SolutionFile solution(Folder(directory), problem, space, {}, false);
+    observe(solution, problem, 0);
+    RunReport report;
+    report.status = RunReport::Status::interrupted;
+    report.message = "stopped";
+    solution.finish(report);
+    solution.describe();
+  }
+  EXPECT_EQ(SolutionReader(file()).text("status"), "interrupted");
+  EXPECT_EQ(SolutionReader(file()).text("message"), "stopped");
+  EXPECT_THAT(text("solution.xdmf"), HasSubstr("solution.h5:/q"));
+}
+
+TEST_F(Solution, WhatWasComputedIsReadableBeforeTheEnd) {
+  const Problem problem = klein_gordon({.grid = {.points = {2048}, .length = {2.0}}});
+  const HalvingSpace space(problem.size());
+  SolutionFile solution(Folder(directory), problem, space, {}, false);
+  for (Index k = 0; k < 100; ++k) observe(solution, problem, k);
+  fs::copy(file().string() + ".partial", directory / "killed.h5");  // as a program leaves it that is killed now
+  const SolutionReader left(directory / "killed.h5");
+  EXPECT_EQ(left.count(), 96) << "twelve whole chunks of 8 rows";
+  EXPECT_EQ(left.text("status"), "unfinished");
+}
+
+// Half a chunk, more of it, all of it, and one that is full at once.
+TEST_F(Solution, AChunkThatIsWrittenBeforeItIsFullStaysWhereItIs) {
+  constexpr std::uint64_t rows = 512, values = 64;
+  std::vector<double> all(2 * rows * values);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::sin(static_cast<double>(i));
+  const Folder folder(directory);
+  PartialPath path(folder, "x.h5");
+  Hdf5File h5 = Hdf5File::create(path.open(), path.temporary());
+  {
+    Hdf5Dataset u = h5.make_dataset("u", {.row = {values}, .chunk = {rows, values}});
+    h5.flush();
+    std::vector<std::uintmax_t> sizes;
+    for (const std::uint64_t count : {std::uint64_t{7}, rows / 2, rows}) {
+      u.write_in_place(0, {all.data(), count * values});
+      h5.flush();
+      sizes.push_back(fs::file_size(path.temporary()));
+      const Hdf5File read = Hdf5File::open(path.temporary());
+      std::vector<double> back(count * values);
+      read.dataset("u").read(0, back);
+      EXPECT_TRUE(std::equal(back.begin(), back.end(), all.begin())) << count;
+    }
+    EXPECT_EQ(sizes.front(), sizes.back());
+    u.append(std::span(all).subspan(rows * values));
+  }
+  h5.close();
+  std::vector<double> back(all.size());
+  Hdf5File::open(path.temporary()).dataset("u").read(0, back);
+  EXPECT_EQ(back, all);
+}
+
+// As a program leaves it that is killed between two of them.
+TEST_F(Solution, AReaderCountsTheTimesForWhichAllIsThere) {
+  write(klein_gordon({.grid = {.points = {8}, .length = {2.0}}}), 6);
+  const Folder folder(directory);
+  {
+    Hdf5File h5 = Hdf5File::open_to_write(folder, "solution.h5");
+    h5.dataset("t").cut(5);
+    h5.dataset("v").cut(4);
+    set_attribute(h5.id(), "status", "unfinished");
+  }
+  {
+    const SolutionReader left(file());
+    EXPECT_EQ(left.times(), (std::vector<double>{0, 0.5, 1, 1.5}));
+    EXPECT_EQ(left.energies().size(), 4U);
+    EXPECT_EQ(left.surplus(), 1 + 2 + 2 + 2 * 8U);
+  }
+  cut_solution(folder, "solution.h5");
+  {
+    const SolutionReader cut(file());
+    EXPECT_EQ(cut.surplus(), 0U);
+    Vector values;
+    cut.state(3, values);
+    EXPECT_EQ(values, Vector::LinSpaced(16, 3000, 3015));
+  }
+  Hdf5File h5 = Hdf5File::open_to_write(folder, "solution.h5");
+  h5.dataset("v").cut(2);
+  set_attribute(h5.id(), "status", "success");
+  h5.close();
+  EXPECT_THAT(error_of([&] { SolutionReader damaged(file()); }), HasSubstr("is damaged"));
+}
+
+TEST_F(Solution, AsksForItsTimesWithAnInterval) {
+  const Problem problem = oscillator({});
+  const HalvingSpace space(problem.size());
+  SolutionFile solution(Folder(directory), problem, space, {.schedule = {.every_steps = 1}, .interval = 0.25}, false);
+  EXPECT_TRUE(solution.is_due({.z = {}, .t = 0, .n = 0}, false));
+  EXPECT_EQ(solution.next_time(), 0.25);
+  observe(solution, problem, 1);  // t = ½
+  EXPECT_EQ(solution.next_time(), 0.75);
+  EXPECT_FALSE(solution.is_due({.z = {}, .t = 0.6, .n = 2}, false));
+  EXPECT_TRUE(solution.is_due({.z = {}, .t = 0.6, .n = 2}, true));
+}
+
+TEST_F(Solution, TheSameRunLeavesTheSameBytes) {
+  write(plane(), 3);
+  const std::string first = text("solution.h5");
+  write(plane(), 3);
+  EXPECT_EQ(text("solution.h5"), first);
+}
+
+TEST_F(Solution, WhatCannotBeWrittenOrReadIsSaidInOneSentence) {
+  const Problem problem = oscillator({});
+  const HalvingSpace space(problem.size());
+  EXPECT_THAT(error_of([&] { SolutionFile solution(Folder(directory / "none"), problem, space, {}, false); }),
+              HasSubstr("none: No such file or directory"));
+  EXPECT_THAT(error_of([&] { SolutionReader solution(file()); }), HasSubstr("cannot read " + file().string()));
+  std::ofstream(file()) << "no HDF5";
+  EXPECT_THAT(error_of([&] { SolutionReader solution(file()); }), HasSubstr("cannot read " + file().string()));
+  Hdf5File::create(file()).close();
+  EXPECT_THAT(error_of([&] { SolutionReader solution(file()); }), HasSubstr("there is no t in"));
+}
+
+// One digit of one value, changed behind our back.
+void change_a_value(const fs::path& file) {
+  const hid_t h5 = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(h5, 0);
+  const hid_t data = H5Dopen2(h5, "v", H5P_DEFAULT);
+  const hid_t space = H5Dget_space(data);
+  hsize_t size[2];
+  H5Sget_simple_extent_dims(space, size, nullptr);
+  std::vector<double> values(size[0] * size[1]);
+  H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  double& changed = values[values.size() / 2];
+  changed *= 1 + 1e-8;
+  H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  H5Sclose(space);
+  H5Dclose(data);
+  H5Fclose(h5);
+}
+
+TEST_F(Solution, AnAuditSeesAChangedDigit) {
+  std::ofstream(directory / "case.toml")
+      << "[problem]\nname = \"klein_gordon\"\npoints = 8\n[method]\nname = \"seisav\"\nh = \"1/64\"\n[time]\nend = 1.0\n";
+  const std::string run = "'" + test::program_path() + "' run '" + (directory / "case.toml").string() +
+                          "' --quiet --out '" + (directory / "out").string() + "' --set output.snapshot_every=16";
+  ASSERT_EQ(std::system(run.c_str()), 0);
+  EXPECT_TRUE(audit(directory / "out").confirms());
+  change_a_value(directory / "out" / "solution.h5");
+  const Audit after = audit(directory / "out");
+  EXPECT_FALSE(after.confirms());
+  for (const AuditEntry& entry : after.entries)
+    EXPECT_EQ(entry.verdict == AuditEntry::Verdict::contradicted,
+              entry.claim.find("state in solution.h5") != std::string::npos)
+        << entry.claim;
+}
+
+// A disk that is full, by way of the largest size that the shell allows a file.
+TEST_F(Solution, AFullDiskEndsTheRunWithASentence) {
+  std::ofstream(directory / "case.toml")
+      << "[problem]\nname = \"klein_gordon\"\npoints = 512\n[method]\nname = "
+         "\"seisav\"\nh = \"1/64\"\n[time]\nend = 50.0\n[output]\nsnapshot_every = 1\n"
+         "energy_every = 100\n";
+  const std::string run = "cd '" + directory.string() + "' && trap '' XFSZ && ulimit -f 2048 && '" +
+                          test::program_path() + "' run case.toml --out out --quiet 2>stderr.txt";
+  const int status = std::system(("bash -c \"" + run + "\"").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1) << text("stderr.txt");
+  EXPECT_THAT(text("stderr.txt"), HasSubstr("solution.h5"));
+  EXPECT_THAT(text("stderr.txt"), HasSubstr("File too large"));
+  EXPECT_THAT(text("stderr.txt"), Not(HasSubstr("HDF5"))) << "which says the same in a hundred lines";
+  EXPECT_FALSE(fs::exists(directory / "out/solution.h5.partial"));
+  const SolutionReader left(directory / "out/solution.h5");
+  EXPECT_GT(left.count(), 60) << "of about a hundred rows that fit";
+  EXPECT_EQ(left.text("status"), "unfinished");
+  EXPECT_THAT(text("out/summary.json"), HasSubstr("\"status\": \"failed\""));
+  EXPECT_TRUE(fs::exists(directory / "out/final.txt"));
+}
+
+}  // namespace
+}  // namespace seiche

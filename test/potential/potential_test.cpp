@@ -1,0 +1,264 @@
+// The contracts of potentials, pointwise and in the coordinates of every backend.
+#include <test/support/cases.hpp>
+
+#include <seiche/backend/backends.hpp>
+#include <seiche/backend/grid/grid_potential.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/formula/formula_compiler.hpp>
+#include <seiche/potential/bond.hpp>
+#include <seiche/potential/cosine.hpp>
+#include <seiche/potential/formula_potential.hpp>
+#include <seiche/potential/modulus.hpp>
+#include <seiche/potential/nodal.hpp>
+#include <seiche/potential/polynomials.hpp>
+#include <seiche/potential/sum.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche::test {
+namespace {
+
+std::vector<NamedProblem> problems_with_every_kind_of_potential() {
+  std::vector<NamedProblem> list = all_cases();
+  Problem p = klein_gordon_case();
+  p.potential = nodal_polynomial({0.5, -0.3, 0.2, 0.7, -0.1, 0.05, 0.02});
+  list.push_back({"nodal_degree_6", p});
+  p.potential = bond_polynomial({0, 0, 1.0, 0.3, 0.2}, Boundary::periodic);
+  list.push_back({"bond_periodic", p});
+  p.potential = sum_of({{p.potential, 0}, {nodal_polynomial({0, 0, 0, 0.1, 0.3}), 0}}, 1);
+  list.push_back({"bonds_and_ground", p});
+  p.potential = std::make_shared<NodalPotential<Cosine>>(Cosine{});
+  list.push_back({"nodal_cosine", p});
+  return list;
+}
+
+template <class Check>
+void for_every_potential(const Check& check) {
+  std::srand(7);
+  for (const auto& [name, problem] : problems_with_every_kind_of_potential()) {
+    for (const BackendEntry& backend : backends_for(problem)) {
+      SCOPED_TRACE(name + " " + std::string(backend.name));
+      const System system = backend.system(problem, {});
+      const auto random = [&system] {
+        Vector z(system.space->size());
+        system.space->from_physical(0.3 * Vector::Random(system.space->physical_size()), z);
+        return z;
+      };
+      check(*system.potential, random(), random());
+    }
+  }
+}
+
+TEST(Potential, GradientIsTheGradientOfTheValue) {
+  for_every_potential([](const Potential& V, const Vector& z, const Vector& direction) {
+    Vector g = Vector::Zero(z.size());
+    EXPECT_NEAR(V.value_and_gradient(z, g), V.value(z), 1e-14 * (1 + V.magnitude(z)));
+    const double s = 1e-5;
+    const double slope = (V.value(z + s * direction) - V.value(z - s * direction)) / (2 * s);
+    EXPECT_NEAR(g.dot(direction), slope, 1e-6 * (1 + std::abs(slope)));
+  });
+}
+
+TEST(Potential, TheMagnitudeSumsTheSizesOfTheTerms) {
+  const auto V = nodal_polynomial({0, 1});  // V = Σu_j
+  std::vector<double> u;
+  for (int j = 0; j < 19; ++j) u.push_back(j % 3 == 0 ? -1.0 : 0.5);
+  const ValueAndMagnitude v = V->value_and_magnitude(u);
+  EXPECT_DOUBLE_EQ(v.value, -1.0);
+  EXPECT_DOUBLE_EQ(v.magnitude, 13.0);
+}
+
+// Where terms cancel, V is no measure of what round-off makes of it; nor is it where a small change of u changes V by
+// much.
+TEST(Potential, TheMagnitudeIsThatOfTermsThatCancelAndOfSteepPlaces) {
+  const std::vector<double> one = {1, 0};
+  const ModulusPotential<Polynomial<3>> modulus(Polynomial<3>{{0, 0, -1, 1}});
+  EXPECT_EQ(modulus.value(one), 0);
+  EXPECT_EQ(modulus.magnitude(one), 2);
+  EXPECT_EQ(bond_polynomial({0, 0, 0, -1, 1}, Boundary::dirichlet)->magnitude(std::vector{1.0}), 2 + 2);
+  const std::vector<double> far = {1000};
+  const auto W = compile_formula("cos(u)", {"u"});
+  const auto formula = formula_potential({.value = W, .gradient = {differentiate(*W, "u")}},
+                                         Grid{.axes = {{1, 1.0, Boundary::periodic}}});
+  EXPECT_NEAR(formula->magnitude(far), std::abs(std::cos(1000.0)) + 1000 * std::abs(std::sin(1000.0)), 1e-9);
+  const double s = std::sin(500.0);
+  EXPECT_NEAR(NodalPotential<Cosine>(Cosine{}).magnitude(far), 2 * s * s + 1000 * std::abs(std::sin(1000.0)), 1e-9);
+}
+
+TEST(Potential, ValueAndMagnitudeTogetherAreThoseApart) {
+  for_every_potential([](const Potential& V, const Vector& z, const Vector&) {
+    const ValueAndMagnitude v = V.value_and_magnitude(z);
+    EXPECT_NEAR(v.value, V.value(z), 1e-14 * (1 + v.magnitude));
+    EXPECT_NEAR(v.magnitude, V.magnitude(z), 1e-14 * (1 + v.magnitude));
+    EXPECT_LE(std::abs(v.value), v.magnitude * (1 + 1e-14));
+  });
+}
+
+class CountingTransform final : public FieldTransform {
+ public:
+  explicit CountingTransform(Index n) : n_(n) {}
+  Index unknowns() const override { return n_; }
+  Index slots() const override { return n_; }
+  void to_slots(std::span<const double> values, std::span<double> slots) const override {
+    std::copy(values.begin(), values.end(), slots.begin());
+  }
+  void to_values(std::span<double> slots, std::span<double> values) const override {
+    ++count;
+    std::copy(slots.begin(), slots.end(), values.begin());
+  }
+  double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const override {
+    std::copy(from.begin(), from.end(), slots.begin());
+    return f(slots);
+  }
+
+  mutable int count = 0;
+
+ private:
+  Index n_;
+};
+
+TEST(Potential, TheMagnitudeBesideTheValueTakesNoFurtherTransform) {
+  const auto transform = std::make_shared<CountingTransform>(5);
+  const GridPotential V(nodal_polynomial({0, 1}), 0, transform);
+  EXPECT_DOUBLE_EQ(V.value_and_magnitude(Vector::Constant(5, -2.0)).magnitude, 10.0);
+  EXPECT_EQ(transform->count, 1);
+}
+
+TEST(Potential, MeanGradientTimesTheIncrementIsTheDifferenceOfValues) {
+  for_every_potential([](const Potential& V, const Vector& a, const Vector& b) {
+    Vector mean = Vector::Zero(a.size());
+    V.mean_gradient(a, b, mean);
+    EXPECT_NEAR(mean.dot(b - a), V.value(b) - V.value(a), 1e-13 * (1 + V.magnitude(a) + V.magnitude(b)));
+  });
+}
+
+TEST(Potential, MeanGradientBetweenNeighboursLosesNoDigits) {
+  for_every_potential([](const Potential& V, const Vector& a, const Vector& b) {
+    const Vector near = a + 1e-9 * b;
+    Vector mean = Vector::Zero(a.size());
+    Vector middle = Vector::Zero(a.size());
+    V.mean_gradient(a, near, mean);
+    V.gradient(0.5 * (a + near), middle);
+    EXPECT_LE((mean - middle).norm(), 1e-13 * (1 + middle.norm()));
+  });
+}
+
+TEST(Potential, CoefficientsAlongALineGiveItsValues) {
+  for_every_potential([](const Potential& V, const Vector& p, const Vector& q) {
+    if (V.degree() == 0) return;
+    std::vector<double> c(static_cast<std::size_t>(V.degree()) + 1);
+    V.along(p, q, c);
+    for (const double x : {-1.0, 0.0, 0.4, 2.0}) {
+      double sum = 0;
+      for (std::size_t i = c.size(); i-- > 0;) sum = sum * x + c[i];
+      EXPECT_NEAR(sum, V.value(p + x * q), 1e-12 * (1 + V.magnitude(p + x * q)));
+    }
+  });
+}
+
+// Round-off of equal terms has one sign, and adds up in plain sums: to n/16 ε with eight sums side by side.
+TEST(Potential, SumsOfEqualTermsKeepTheirDigits) {
+  constexpr std::size_t n = 1 << 20;
+  const auto field = [](Index m) { return Grid{.axes = {{m, 1.0, Boundary::periodic}}}; };
+  const auto modulus = std::make_shared<ModulusPotential<Polynomial<2>>>(Polynomial<2>{{0, 0, 0.3}});
+  const auto W = compile_formula("u^4/4 - cos(u)", {"u"});
+  const auto formula = formula_potential({.value = W, .gradient = {differentiate(*W, "u")}}, field(n));
+  for (const std::shared_ptr<const PointwisePotential>& V :
+       {nodal_polynomial({0, 0, 0.1, 0.2, 0.3}), nodal_polynomial({0, 0, 0, 0, 0, 0, 0.7}),
+        std::shared_ptr<const PointwisePotential>(std::make_shared<NodalPotential<Cosine>>(Cosine{})),
+        std::shared_ptr<const PointwisePotential>(modulus), formula,
+        sum_of({{bond_polynomial({0, 0, 0.5, 0, 0.2}, Boundary::periodic), 0},
+                {nodal_polynomial({0, 0, 0, 0, 0.3}), 0}},
+               1)}) {
+    const std::vector<double> one(static_cast<std::size_t>(V->fields()), 0.7);
+    const std::vector<double> all(one.size() * n, 0.7), origin(all.size(), 0.0);
+    const double of_one = V->value(one);
+    const auto is_sum = [&](double value, double term) {
+      EXPECT_NEAR(value / (n * term), 1, 20 * epsilon) << V->fields() << " " << V->degree();
+    };
+    is_sum(V->value(all), of_one);
+    is_sum(V->value_and_magnitude(all).value, of_one);
+    is_sum(V->value_and_magnitude(all).magnitude, V->magnitude(one));
+    std::vector<double> gradient(all.size());
+    is_sum(V->value_and_gradient(all, gradient), of_one);
+    gradient = all;
+    is_sum(V->value_and_gradient_in_place(1, 1, gradient), of_one);
+    if (V->degree() == 0) continue;
+    std::vector<double> along(static_cast<std::size_t>(V->degree()) + 1), along_one(along.size());
+    V->along(origin, all, along);
+    V->along(std::vector<double>(one.size(), 0.0), one, along_one);
+    is_sum(along.back(), along_one.back());
+  }
+}
+
+TEST(Potential, OnlyTheSupportOfAGradientIsWritten) {
+  for_every_potential([](const Potential& V, const Vector& z, const Vector&) {
+    Vector g = Vector::Constant(z.size(), 7.0);
+    V.gradient(z, g);
+    const Potential::Support s = V.support();
+    EXPECT_TRUE((g.head(s.begin).array() == 7.0).all());
+    EXPECT_TRUE((g.tail(g.size() - s.begin - s.size).array() == 7.0).all());
+  });
+}
+
+TEST(Potential, AGradientInThePlaceOfItsArgumentIsTheSame) {
+  for_every_potential([](const Potential& V, const Vector& z, const Vector&) {
+    Vector g = Vector::Zero(z.size());
+    const double v = V.value_and_gradient(z, g);
+    Vector in_place = z;
+    EXPECT_DOUBLE_EQ(V.value_and_gradient(in_place, in_place), v);
+    const Potential::Support s = V.support();
+    EXPECT_EQ(in_place.segment(s.begin, s.size), g.segment(s.begin, s.size));
+  });
+}
+
+// Lines of every length beside the eight points that are taken at a time.
+TEST(Potential, OfBondsIsTheSumOverBondsOnLinesOfAnyLength) {
+  const Polynomial<3> w{{0, 0.3, 0.5, 0.2}};
+  for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet}) {
+    const BondPotential<Polynomial<3>> V(w, boundary);
+    for (std::size_t n = 1; n <= 27; ++n) {
+      std::vector<double> u(n), gradient(n), expected(n);
+      for (std::size_t j = 0; j < n; ++j) u[j] = std::sin(1.7 * static_cast<double>(j + 1));
+      double sum = 0;
+      const auto bond = [&](double left, double right, double* at_left, double* at_right) {
+        sum += w.value(right - left);
+        if (at_left) *at_left -= w.slope(right - left);
+        if (at_right) *at_right += w.slope(right - left);
+      };
+      for (std::size_t j = 0; j + 1 < n; ++j) bond(u[j], u[j + 1], &expected[j], &expected[j + 1]);
+      if (boundary == Boundary::periodic) {
+        bond(u[n - 1], u[0], &expected[n - 1], &expected[0]);
+      } else {
+        bond(0, u[0], nullptr, &expected[0]);
+        bond(u[n - 1], 0, &expected[n - 1], nullptr);
+      }
+      EXPECT_NEAR(V.value(u), sum, 1e-14 * static_cast<double>(n + 1)) << n;
+      EXPECT_NEAR(V.value_and_gradient(u, gradient), sum, 1e-14 * static_cast<double>(n + 1)) << n;
+      std::vector<double> in_place(n);
+      for (std::size_t j = 0; j < n; ++j) in_place[j] = u[j] / 2;
+      EXPECT_NEAR(V.value_and_gradient_in_place(2, 3, in_place), sum, 1e-14 * static_cast<double>(n + 1)) << n;
+      for (std::size_t j = 0; j < n; ++j) {
+        EXPECT_NEAR(gradient[j], expected[j], 1e-14) << n << " " << j;
+        EXPECT_NEAR(in_place[j], 3 * expected[j], 1e-13) << n << " " << j;
+      }
+    }
+  }
+}
+
+TEST(Potential, GrowsOutwardOnlyForEvenPowersWithPositiveCoefficients) {
+  EXPECT_TRUE(nodal_polynomial({0, 0, 1, 0, 2})->grows_outward());
+  EXPECT_FALSE(nodal_polynomial({0, 0, 1, 1e-3, 2})->grows_outward());
+  EXPECT_FALSE(nodal_polynomial({0, 0, 1, 0, -2})->grows_outward());
+}
+
+TEST(Potential, ADegreeThatIsTooHighIsRefused) {
+  EXPECT_NO_THROW(nodal_polynomial(monomial(1, max_polynomial_degree)));
+  EXPECT_THROW(nodal_polynomial(monomial(1, max_polynomial_degree + 1)), Error);
+}
+
+}  // namespace
+}  // namespace seiche::test
