@@ -19,7 +19,7 @@ std::string methods_text() {
       fmt::format(row, "name", "closure", "propagator", "composition", "order", "law", "projection", "reference");
   for (const MethodEntry& method : methods()) {
     text += fmt::format(row, method.name, to_string(method.closure), to_string(method.propagator),
-                        to_string(method.composition), method.order, method.law,
+                        to_string(method.composition), method.order, method.kept_energy,
                         method.projects() ? to_string(method.projection) : "", method.reference);
   }
   return text + fmt::format("{:<13} {}\n", "auto", what_auto_is);

@@ -284,7 +284,7 @@ std::vector<std::string> notes_on(const Members& members, const Simulation& simu
 ExitCode run_ensemble_case(const RunSpec& spec, const EnsembleRunOptions& options) {
   const Members members = make_members(spec);
   const Problem& problem = *members.list.front().problem;
-  const bool has_modified = find_method(spec.method).law == "H_modified";
+  const bool has_modified = find_method(spec.method).kept_energy == "H_modified";
   const std::unique_ptr<Simulation> simulation = first_start(members, spec);
   if (!options.quiet) print_notes(notes_on(members, *simulation, spec));
 

@@ -21,10 +21,10 @@ class Damping {
   virtual void apply(double t, const Vector& z, Vector& out) const = 0;  // D(t)z + R(t, z)
   // γ(t) where D(t)z + R(t, z) = γ(t)z for every z, and nothing where damping is no multiple of the state.
   virtual std::optional<double> factor_of_identity(double /*t*/) const { return std::nullopt; }
-  // Beside the constant D₀ that exponential methods take into L = SM − D₀ (frozen_damping): is D(t)z + R(t, z) = D₀z?
-  virtual bool is_frozen() const = 0;
+  // Beside the constant D₀ that exponential methods take into L = SM − D₀ (constant_damping): is D(t)z + R(t, z) = D₀z?
+  virtual bool is_constant() const = 0;
   virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀)z + R(t, z)
-  virtual void apply_frozen(const Vector& z, Vector& out) const = 0;          // D₀z
+  virtual void apply_D0(const Vector& z, Vector& out) const = 0;              // D₀z
   // out += (∫ₜᵗ⁺ʰ D(s) ds − h Σ wᵢD(t + cᵢh)) z: what a quadrature with these nodes and weights does not see of the
   // linear part, and what its integral does not see of jumps at the ends (BlindEnds).
   virtual void add_unseen(double /*t*/, double /*h*/, std::span<const double> /*c*/, std::span<const double> /*w*/,

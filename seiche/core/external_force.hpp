@@ -9,7 +9,7 @@ class ExternalForce {
  public:
   virtual ~ExternalForce() = default;
   virtual void add(double t, double factor, Vector& out) const = 0;  // out += factor · f(t)
-  virtual void kick(double t, double h, Vector& z) const = 0;        // z += ∫ₜᵗ⁺ʰ f
+  virtual void impulse(double t, double h, Vector& z) const = 0;     // z += ∫ₜᵗ⁺ʰ f
   virtual bool touches_potential() const = 0;                        // does it move a component that V depends on?
 };
 

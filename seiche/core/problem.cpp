@@ -97,7 +97,7 @@ Eigen::MatrixXcd rate_symbol(const Problem& problem) {
   return p;
 }
 
-double frozen_rate(const Problem& problem) {
+double rate_of_D0(const Problem& problem) {
   double rate = problem.damping.rate ? problem.damping.rate->value(0) : 0.0;
   if (!problem.damping.field_rate) return rate;
   Vector gamma(problem.grid.unknowns());
@@ -105,16 +105,16 @@ double frozen_rate(const Problem& problem) {
   return rate + gamma.mean();
 }
 
-BlockStencil frozen_damping(const Problem& problem) {
+BlockStencil constant_damping(const Problem& problem) {
   BlockStencil D = problem.damping.constant;
-  const double rate = frozen_rate(problem);
+  const double rate = rate_of_D0(problem);
   for (Index f = 0; rate != 0 && f < problem.field_count(); ++f)
     if (problem.damping.rate_fields[static_cast<std::size_t>(f)]) D(f, f) += Stencil::identity(rate);
   return D;
 }
 
-SparseMatrix frozen_damping_matrix(const Problem& problem) {
-  const double rate = frozen_rate(problem);
+SparseMatrix constant_damping_matrix(const Problem& problem) {
+  const double rate = rate_of_D0(problem);
   if (rate == 0) return problem.matrices->D;
   return problem.matrices->D + rate * rate_matrix(problem);
 }

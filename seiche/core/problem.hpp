@@ -59,9 +59,9 @@ Eigen::MatrixXcd rate_symbol(const Problem& problem);
 
 // D₀, the constant damping that stands in for D(t) in the exponentials of L = SM − D₀: the constant part, γ(0) and the
 // mean of γ(x, 0). What D(t) has beyond it, if anything, acts as a force.
-double frozen_rate(const Problem& problem);                  // γ(0) + mean γ(x, 0), the factor of P
-BlockStencil frozen_damping(const Problem& problem);         // D₀; not for problems stated by matrices
-SparseMatrix frozen_damping_matrix(const Problem& problem);  // D₀; for problems stated by matrices
+double rate_of_D0(const Problem& problem);                     // γ(0) + mean γ(x, 0), the factor of P
+BlockStencil constant_damping(const Problem& problem);         // D₀; not for problems stated by matrices
+SparseMatrix constant_damping_matrix(const Problem& problem);  // D₀; for problems stated by matrices
 
 // ż = S'∇H with S' = S − D: the form that the `whole` methods need. Possible where Dz = D∇H(z), that is where a
 // constant D acts on fields with ∇_vH = v. Throws Error with the reason where it is not.

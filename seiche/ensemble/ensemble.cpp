@@ -96,7 +96,7 @@ class Run {
     LawPromise law{false, "no law was asked for"};
     if (options_.promise) law = options_.promise(*simulation);
     books_[static_cast<std::size_t>(member)] =
-        EnergyBook(law, find_method(options_.simulation.method).law == "H_modified");
+        EnergyBook(law, find_method(options_.simulation.method).kept_energy == "H_modified");
   }
 
   bool any_runs() {

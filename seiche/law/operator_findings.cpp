@@ -94,7 +94,7 @@ OperatorFindings look_at_modes(const Problem& problem) {
   const bool has_rate = damping.rate || damping.field_rate;
   const AnyBlock projector = has_rate ? AnyBlock(rate_symbol(problem)) : AnyBlock();
   const bool together = is_one_damping(problem);
-  const BlockStencil constant_part = together ? frozen_damping(problem) : damping.constant;
+  const BlockStencil constant_part = together ? constant_damping(problem) : damping.constant;
 
   Scan<AnyBlock> metric(m, modes.count()), structure(m, modes.count());
   Scan<AnyBlock> constant(m, has_constant ? modes.count() : 0), rate(m, has_rate && !together ? modes.count() : 0);
@@ -129,7 +129,7 @@ OperatorFindings look_at_matrices(const Problem& problem) {
   const bool together = is_one_damping(problem);
   if (problem.has_constant_damping())
     findings.MD_constant =
-        look(symmetric_part(SparseMatrix(matrices.M * (together ? frozen_damping_matrix(problem) : matrices.D))));
+        look(symmetric_part(SparseMatrix(matrices.M * (together ? constant_damping_matrix(problem) : matrices.D))));
   if ((problem.damping.rate || problem.damping.field_rate) && !together)
     findings.MD_rate = look(symmetric_part(matrices.M * rate_matrix(problem)));
   return findings;

@@ -27,8 +27,8 @@ struct MethodEntry {
   PropagatorKind propagator;
   Composition composition;
   int order;
-  std::string_view law;        // the energy that never grows: "H" or "H_modified"
-  std::string_view reference;  // where the scheme comes from
+  std::string_view kept_energy;  // the one that never grows: "H" or "H_modified"
+  std::string_view reference;    // where the scheme comes from
   EnergyLaw projection =
       EnergyLaw::none;  // the strongest law that a projection can give it; none: it keeps one of its own
 

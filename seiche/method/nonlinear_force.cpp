@@ -3,7 +3,7 @@
 namespace seiche {
 
 NonlinearForce::NonlinearForce(const System& system)
-    : NonlinearForce(system, system.damping->is_frozen() && !system.force && !system.structure
+    : NonlinearForce(system, system.damping->is_constant() && !system.force && !system.structure
                                  ? PhiRows::Forces::gradients
                                  : PhiRows::Forces::states) {}
 

@@ -27,7 +27,7 @@ double rate_of_solution(const System& system) {
   Vector f(z.size()), moved(z.size()), Dz(z.size());
   const auto undamped = [&](const Vector& at, Vector& out) {
     system.right_hand_side(0, at, out);
-    system.damping->apply_frozen(at, Dz);
+    system.damping->apply_D0(at, Dz);
     out += Dz;
   };
   undamped(z, f);
@@ -81,7 +81,7 @@ std::string collocation_for(double tolerance) {
 ProblemRates rates_of(const System& system) {
   Vector Dz(system.space->size());
   const auto apply_D = [&](Vector& z) {
-    system.damping->apply_frozen(z, Dz);
+    system.damping->apply_D0(z, Dz);
     z.swap(Dz);
   };
   return {.linear = rate_of_linear_flow(system),
@@ -116,7 +116,7 @@ MethodChoice choose_method(const Problem& problem, const System& system, const M
     return choice;
   }
   const bool nystrom = momenta(problem) && system.damping->is_linear() && !system.force &&
-                       system.damping->is_frozen() && !system.damping->touches_potential();
+                       system.damping->is_constant() && !system.damping->touches_potential();
   if (nystrom && rates.damping <= stiff_damping * rates.solution) {
     choice.method = wanted > nystrom_tolerance ? "crkn4" : "crkn6";
     if (should_kick(problem, system, request, rates)) {

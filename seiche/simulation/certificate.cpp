@@ -165,7 +165,7 @@ Hypothesis hypothesis_of_margin(const Simulation& simulation) {
 
 std::string theorem(const Problem& problem, const MethodEntry& method) {
   const std::string energy =
-      method.law == "H" ? "H(zⁿ⁺¹) ≤ H(zⁿ)" : "the modified energy of step n + 1 ≤ that of step n";
+      method.kept_energy == "H" ? "H(zⁿ⁺¹) ≤ H(zⁿ)" : "the modified energy of step n + 1 ≤ that of step n";
   const std::string any = energy + " for every h: ";
   if (method.projects())
     return any + "the step ends with a projection on an energy of at most H(zⁿ) (page Theory, Order four to eight)";

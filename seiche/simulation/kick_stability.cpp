@@ -27,7 +27,7 @@ std::string beyond_rate(const Simulation& simulation, double h, double t_end) {
   const RatePointer& rate = simulation.problem().damping.rate;
   const bool holds_rate_of_start = composition == Composition::collocation || composition == Composition::runge_kutta;
   if (!holds_rate_of_start || !rate || rate->is_constant()) return "";
-  const double held = frozen_rate(simulation.problem());
+  const double held = rate_of_D0(simulation.problem());
   double farthest = held;
   for (int i = 0; i <= samples; ++i) {
     const double gamma = rate->value(t_end * i / samples);
@@ -47,10 +47,10 @@ std::string beyond_splitting(const Simulation& simulation, double h) {
   const System& system = simulation.system();
   Vector pushed(system.initial.size()), damped(pushed), damped_twice(pushed);
   system.right_hand_side(0, system.initial, pushed);
-  system.damping->apply_frozen(system.initial, damped);
+  system.damping->apply_D0(system.initial, damped);
   pushed += damped;
-  system.damping->apply_frozen(pushed, damped);
-  system.damping->apply_frozen(damped, damped_twice);
+  system.damping->apply_D0(pushed, damped);
+  system.damping->apply_D0(damped, damped_twice);
   const double length = damped.norm();
   const double rate = length > 0 ? damped_twice.norm() / length : 0;
   if (!(h * rate > 2)) return "";

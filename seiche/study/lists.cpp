@@ -22,7 +22,7 @@ std::string methods_json() {
                     {"propagator", to_string(method.propagator)},
                     {"composition", to_string(method.composition)},
                     {"order", method.order},
-                    {"law", method.law},
+                    {"law", method.kept_energy},
                     {"projection", method.projects() ? Json(to_string(method.projection)) : Json(nullptr)},
                     {"reference", method.reference}});
   }

@@ -126,7 +126,7 @@ class Rescue {
     }
     if (has("solution.xdmf")) return;
     write_xdmf(folder_, "solution.h5", solution_layout(make_problem(spec_)),
-               find_method(spec_.method).law == "H_modified");
+               find_method(spec_.method).kept_energy == "H_modified");
     found_.saved.emplace_back("solution.xdmf");
   }
 

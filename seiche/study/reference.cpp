@@ -32,7 +32,7 @@ void check(std::span<const double> z, double t, const std::atomic<bool>* stop) {
   heed(stop, t);
   if (!std::all_of(z.begin(), z.end(), [](double x) { return std::isfinite(x); })) {
     throw Error(
-        "the exact solution leaves the numbers before t = {:.6g}: it blows up, and there is no reference beyond", t);
+        "the exact solution is no longer finite before t = {:.6g}: it blows up, and there is no reference beyond", t);
   }
 }
 

@@ -106,7 +106,7 @@ class GridSpectrum {
         modes_(linear.grid),
         fields_(linear.field_count()),
         space_(fields_, modal_transform(linear.grid)),
-        D_(frozen_damping(linear)) {}
+        D_(constant_damping(linear)) {}
 
   std::vector<SpectrumRow> rows(bool is_linear) {
     if (is_linear) measure_all();
@@ -286,7 +286,7 @@ Spectrum spectrum(const Problem& problem, const SimulationOptions& options, doub
   result.method = options.method;
   result.backend = step.simulation().backend();
   result.h = h;
-  result.rates_frozen = !has_constant_rates(problem.damping);
+  result.rates_at_start = !has_constant_rates(problem.damping);
   result.has_potential = problem.potential != nullptr;
   result.has_drives = problem.friction || problem.has_forces() || problem.structure;
   const Linearity seen = linearity_of(step, random_state(problem.size(), 1), random_state(problem.size(), 2));

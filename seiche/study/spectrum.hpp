@@ -32,7 +32,7 @@ struct SpectrumRow {
 struct Spectrum {
   std::string problem, method, backend;
   double h = 0.0;
-  bool rates_frozen = false;      // γ varies in time, and was taken at t = 0
+  bool rates_at_start = false;    // γ varies in time, and was taken at t = 0
   bool has_potential = false;     // V was left out
   bool has_drives = false;        // and so were friction beyond linear, forces, or what of S changes with z
   bool is_homogeneous = true;     // R(2z) = 2Rz

@@ -30,7 +30,7 @@ std::string premise(const Spectrum& s) {
   std::string text = fmt::format("The linear part of {}", s.problem);
   if (s.has_potential) text += ", without V";
   if (s.has_drives) text += ", without friction beyond its linear part, forces and what of S changes with z";
-  if (s.rates_frozen) text += ", with γ as it is at t = 0";
+  if (s.rates_at_start) text += ", with γ as it is at t = 0";
   text += fmt::format(": one step of {} with h = {:g} (backend {})", s.method, s.h, s.backend);
   if (!s.is_homogeneous) {
     text += "; the step is not homogeneous in z: rates are those of single modes of norm 1";
@@ -159,7 +159,7 @@ std::string spectrum_json(const Spectrum& spectrum) {
                          {"h", spectrum.h},
                          {"potential_left_out", spectrum.has_potential},
                          {"drives_left_out", spectrum.has_drives},
-                         {"rates_at_start", spectrum.rates_frozen},
+                         {"rates_at_start", spectrum.rates_at_start},
                          {"homogeneous", spectrum.is_homogeneous},
                          {"linear", spectrum.is_linear},
                          {"verdict",

@@ -222,7 +222,7 @@ TEST(Spectrum, TakesRatesAtTheStart) {
   Problem p = klein_gordon_case();
   p.damping.rate = formula_rate(compile_formula("0.4 + 0.3*sin(t)", {"t"}));
   const Spectrum s = spectrum(p, {.method = "seisav"}, 1.0 / 64);
-  EXPECT_TRUE(s.rates_frozen);
+  EXPECT_TRUE(s.rates_at_start);
   EXPECT_THAT(spectrum_table(s), HasSubstr("γ as it is at t = 0"));
   for (const SpectrumRow& row : s.rows) EXPECT_NEAR(row.numerical_decay, 0.2, 1e-10);
 }

@@ -190,7 +190,7 @@ System dense_system(const Problem& problem, const BackendOptions&) {
   const Potential::Support support = system.potential->support();
   system.linear = std::make_unique<DenseLinear>(S, M, support);
   const Matrix D0 =
-      problem.matrices ? Matrix(frozen_damping_matrix(problem)) : frozen_damping(problem).matrix(problem.grid);
+      problem.matrices ? Matrix(constant_damping_matrix(problem)) : constant_damping(problem).matrix(problem.grid);
   system.make_phi = [S, M, D0, support] { return dense_phi(S, M, D0, support); };
   system.make_undamped_phi = [S, M, support] { return dense_phi(S, M, Matrix::Zero(S.rows(), S.cols()), support); };
 

@@ -21,13 +21,13 @@ class FrictionDamping final : public Damping {
   bool touches_potential() const override { return touches_potential_; }
   void flow(double t, double h, Vector& z) const override;
   void apply(double t, const Vector& z, Vector& out) const override;
-  bool is_frozen() const override { return false; }
+  bool is_constant() const override { return false; }
   void add_unseen(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
                   Vector& out) const override {
     linear_->add_unseen(t, h, c, w, z, out);
   }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
-  void apply_frozen(const Vector& z, Vector& out) const override { linear_->apply_frozen(z, out); }
+  void apply_D0(const Vector& z, Vector& out) const override { linear_->apply_D0(z, out); }
   std::int64_t corrections() const override { return friction_->corrections(); }
 
  private:

@@ -14,7 +14,7 @@ GridDamping::GridDamping(const Problem& problem, std::shared_ptr<const FieldTran
       constant_(std::move(constant)),
       make_flow_(std::move(make_flow)),
       rate_(problem.damping.rate),
-      frozen_rate_(seiche::frozen_rate(problem)),
+      rate_of_D0_(seiche::rate_of_D0(problem)),
       rate_fields_(problem.damping.rate_fields),
       touches_potential_(problem.damping_moves_potential()),
       rates_commute_(!problem.damping.field_rate && rate_commutes(problem)),
@@ -73,11 +73,11 @@ void GridDamping::apply_constant(const Vector& z, Vector& out) const {
   }
 }
 
-void GridDamping::apply_frozen(const Vector& z, Vector& out) const {
+void GridDamping::apply_D0(const Vector& z, Vector& out) const {
   apply_constant(z, out);
   for (std::size_t f = 0; f < rate_fields_.size(); ++f) {
     const Index begin = static_cast<Index>(f) * slots_;
-    if (rate_fields_[f]) out.segment(begin, slots_) += frozen_rate_ * z.segment(begin, slots_);
+    if (rate_fields_[f]) out.segment(begin, slots_) += rate_of_D0_ * z.segment(begin, slots_);
   }
 }
 
@@ -88,8 +88,8 @@ void GridDamping::apply(double t, const Vector& z, Vector& out) const {
 
 void GridDamping::apply_rest(double t, const Vector& z, Vector& out) const {
   out.setZero();
-  if (is_frozen()) return;
-  add_rates((rate_ ? rate_->value(t) : 0.0) - frozen_rate_, field_rate_ ? &field_rate_->values(t) : nullptr, z, out);
+  if (is_constant()) return;
+  add_rates((rate_ ? rate_->value(t) : 0.0) - rate_of_D0_, field_rate_ ? &field_rate_->values(t) : nullptr, z, out);
 }
 
 double GridDamping::blind_part(double t, double h) const {
@@ -105,7 +105,7 @@ double GridDamping::blind_part(double t, double h) const {
 
 void GridDamping::add_unseen(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
                              Vector& out) const {
-  if (is_frozen()) return;
+  if (is_constant()) return;
   double missed = rate_ ? rate_->integral(t, h) : 0.0;
   for (std::size_t i = 0; rate_ && i < c.size(); ++i) missed -= h * w[i] * rate_->value(t + c[i] * h);
   if (rate_) missed += std::copysign(h * blind_part(t, h), missed);

@@ -31,9 +31,9 @@ class GridDamping final : public Damping {
   void flow(double t, double h, Vector& z) const override;
   void apply(double t, const Vector& z, Vector& out) const override;
   std::optional<double> factor_of_identity(double t) const override;
-  bool is_frozen() const override { return !field_rate_ && (!rate_ || rate_->is_constant()); }
+  bool is_constant() const override { return !field_rate_ && (!rate_ || rate_->is_constant()); }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
-  void apply_frozen(const Vector& z, Vector& out) const override;
+  void apply_D0(const Vector& z, Vector& out) const override;
   void add_unseen(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
                   Vector& out) const override;
   bool field_factors(double t, double h, std::span<double> factors) const override;
@@ -51,7 +51,7 @@ class GridDamping final : public Damping {
   std::unique_ptr<LinearMap> constant_;  // null: none
   MakeFlow make_flow_;
   RatePointer rate_;
-  double frozen_rate_;
+  double rate_of_D0_;
   std::unique_ptr<FieldDecay> field_rate_;  // null: none
   std::vector<bool> rate_fields_;
   bool touches_potential_;

@@ -25,7 +25,7 @@ void GridForce::add(double t, double factor, Vector& out) const {
   }
 }
 
-void GridForce::kick(double t, double h, Vector& z) const {
+void GridForce::impulse(double t, double h, Vector& z) const {
   for (std::size_t f = 0; f < forces_.size(); ++f) {
     if (!forces_[f]) continue;
     forces_[f]->integrals(t, h, all(points_));

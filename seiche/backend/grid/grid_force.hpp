@@ -14,7 +14,7 @@ class GridForce final : public ExternalForce {
  public:
   GridForce(const Problem& problem, std::shared_ptr<const FieldTransform> transform);
   void add(double t, double factor, Vector& out) const override;
-  void kick(double t, double h, Vector& z) const override;
+  void impulse(double t, double h, Vector& z) const override;
   bool touches_potential() const override { return touches_potential_; }
 
  private:

@@ -254,7 +254,7 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
   const ModalOperators operators{.grid = problem.grid,
                                  .S = problem.S,
                                  .M = problem.M,
-                                 .D0 = frozen_damping(problem),
+                                 .D0 = constant_damping(problem),
                                  .first = problem.potential_field,
                                  .count = problem.potential ? problem.potential->fields() : 0,
                                  .threads = options.threads};

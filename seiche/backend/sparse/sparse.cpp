@@ -35,9 +35,9 @@ bool has_grid_kicks(const Problem& problem) {
 double sparse_rate(const Problem& problem) {
   if (problem.matrices)
     return spectral_radius_bound(SparseMatrix(problem.matrices->S * problem.matrices->M) -
-                                 frozen_damping_matrix(problem));
+                                 constant_damping_matrix(problem));
   return spectral_radius_bound(SparseMatrix(matrix_of(problem, problem.S) * matrix_of(problem, problem.M)) -
-                               matrix_of(problem, frozen_damping(problem)));
+                               matrix_of(problem, constant_damping(problem)));
 }
 
 System sparse_system(const Problem& problem, const BackendOptions& options) {
@@ -64,7 +64,7 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
     };
 
   const auto D0 = std::make_shared<const SparseMatrix>(
-      problem.matrices ? frozen_damping_matrix(problem) : frozen_damping(problem).sparse_matrix(problem.grid));
+      problem.matrices ? constant_damping_matrix(problem) : constant_damping(problem).sparse_matrix(problem.grid));
   const Potential::Support support = system.potential->support();
   system.make_phi = [shared, D0, support] { return sparse_phi(shared, D0, support); };
   system.make_undamped_phi = [shared, support] {

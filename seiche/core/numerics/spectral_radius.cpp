@@ -36,7 +36,7 @@ double spectral_radius(const Space& space, FunctionRef<void(Vector& z)> apply) {
 double rate_of_linear_flow(const System& system) {
   Vector Mz(system.space->size()), Dz(system.space->size());
   return spectral_radius(*system.space, [&](Vector& z) {
-    system.damping->apply_frozen(z, Dz);
+    system.damping->apply_D0(z, Dz);
     system.linear->apply_M(z, Mz);
     system.linear->apply_S(Mz, z);
     z -= Dz;

@@ -17,7 +17,7 @@ class Closure {
   // A damping half-flow, z ← Ψ(t, t+h)z, with what the closure carries beside z.
   virtual void damp(State& s, double t, double h) { system_.damping->flow(t, h, s.z); }
   // The external force over h, z += ∫f, likewise. Only where the system has one.
-  virtual void kick(State& s, double t, double h) { system_.force->kick(t, h, s.z); }
+  virtual void impulse(State& s, double t, double h) { system_.force->impulse(t, h, s.z); }
   // The Hamiltonian substep of length h within the step that starts at t. On failure s is left in any state.
   virtual StepReport advance(State& s, Propagators& propagators, double t, double h) = 0;
 

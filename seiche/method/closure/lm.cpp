@@ -114,7 +114,7 @@ StepReport LmClosure::solve_by_newton(Vector& z, double t) {
   if (!std::isfinite(root.x)) {
     report.status = StepReport::Status::failed;
     report.message = fmt::format(
-        "Newton's iteration for the multiplier η left the numbers at t = {:.6g}; "
+        "Newton's iteration for the multiplier η gave what is not finite at t = {:.6g}; "
         "scalar_solver = \"robust\" will do",
         t);
     return report;

@@ -20,7 +20,7 @@ class SavClosure final : public Closure {
 
   void begin(State& s) override;
   void damp(State& s, double t, double h) override;
-  void kick(State& s, double t, double h) override;
+  void impulse(State& s, double t, double h) override;
   StepReport advance(State& s, Propagators& propagators, double t, double h) override {
     return advance_damped(s, propagators, t, h, {});
   }
@@ -72,16 +72,16 @@ void SavClosure::damp(State& s, double t, double h) {
   if (auxiliary_ == AuxiliaryMode::refresh) s.r_squared = potential().value(s.z) + s.shift;
 }
 
-void SavClosure::kick(State& s, double t, double h) {
+void SavClosure::impulse(State& s, double t, double h) {
   const bool transports = system().force->touches_potential();
   const double v_before = transports ? potential().value(s.z) : 0.0;
-  Closure::kick(s, t, h);
+  Closure::impulse(s, t, h);
   if (transports) s.r_squared += potential().value(s.z) - v_before;
 }
 
 StepReport left_the_numbers(double v_mid, double t, double h) {
   return {.status = StepReport::Status::failed,
-          .message = fmt::format("the solution left the numbers: V(ẑ) = {} at t = {:.6g} with h = {:.6g}",
+          .message = fmt::format("the solution is no longer finite: V(ẑ) = {} at t = {:.6g} with h = {:.6g}",
                                  number_text(v_mid), t, h)};
 }
 

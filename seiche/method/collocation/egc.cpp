@@ -89,11 +89,11 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   }
 
   double unseen(const State& s) override {
-    if (system_.damping->is_frozen() && !system_.force) return 0;
+    if (system_.damping->is_constant() && !system_.force) return 0;
     const double t = projected_.last().t, h = last_.h;
     unseen_.setZero();
     if (system_.force) {
-      system_.force->kick(t, h, unseen_);
+      system_.force->impulse(t, h, unseen_);
       for (Index i = 0; i < stages(); ++i) system_.force->add(t + rule_.nodes[i] * h, -h * rule_.weights[i], unseen_);
       const BlindEnds& ends = blind_ends();
       const double width = h * BlindEnds::width;

@@ -71,7 +71,8 @@ class Composed : public Stepper {
     StepReport report = parts();
     if (report.solved() && !s.z.allFinite()) {
       report.status = StepReport::Status::failed;
-      report.message = fmt::format("the solution left the numbers in the step from t = {:.6g} with h = {:.6g}", s.t, h);
+      report.message =
+          fmt::format("the solution is no longer finite in the step from t = {:.6g} with h = {:.6g}", s.t, h);
     }
     if (!report.solved()) s = saved_;
     return report;
@@ -117,14 +118,14 @@ class Strang final : public Composed {
       return closure().advance_damped(s, propagators(), s.t, h, {before_, after_});
     return or_restore(s, h, [&] {
       const std::int64_t corrections = damping_.corrections();
-      const double pushed = kick(s, s.t, h / 2);
+      const double pushed = impulse(s, s.t, h / 2);
       const double left = damp(s, s.t, h / 2);
       StepReport report = substep(s, s.t, h);
       report.ledger.work = pushed;
       report.ledger.damping_left = left;
       if (report.solved()) {
         report.ledger.damping_right = damp(s, middle, h / 2);
-        report.ledger.work += kick(s, middle, h / 2);
+        report.ledger.work += impulse(s, middle, h / 2);
       }
       report.fallbacks += static_cast<int>(damping_.corrections() - corrections);
       return report;
@@ -134,8 +135,8 @@ class Strang final : public Composed {
   double damp(State& s, double t, double h) {
     return change(s, [&] { closure().damp(s, t, h); });
   }
-  double kick(State& s, double t, double h) {
-    return has_force_ ? change(s, [&] { closure().kick(s, t, h); }) : 0.0;
+  double impulse(State& s, double t, double h) {
+    return has_force_ ? change(s, [&] { closure().impulse(s, t, h); }) : 0.0;
   }
 
   const Damping& damping_;

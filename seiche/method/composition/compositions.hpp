@@ -11,7 +11,7 @@ namespace seiche {
 // z ← Φ_h z, for a system without damping flow: S' = S − D, or no damping at all.
 std::unique_ptr<Stepper> make_whole(const System& system, PropagatorKind propagator, std::unique_ptr<Closure> closure);
 
-// z ← Ψ(t+h/2, t+h) Φ_h Ψ(t, t+h/2) z, with exact Ψ = exp(−∫D); external forces kick z by ∫f before and after.
+// z ← Ψ(t+h/2, t+h) Φ_h Ψ(t, t+h/2) z, with exact Ψ = exp(−∫D); external forces give z the impulse ∫f before and after.
 std::unique_ptr<Stepper> make_strang(const System& system, PropagatorKind propagator, std::unique_ptr<Closure> closure);
 
 }  // namespace seiche

@@ -176,7 +176,7 @@ bool Projected::has_grown_beyond_reason(const EnergyProjection::Outcome& outcome
   Vector push = s.z;
   force_->evaluate(t, push);
   push *= h;
-  if (system_.force) system_.force->kick(t, h, push);
+  if (system_.force) system_.force->impulse(t, h, push);
   const ValueAndMagnitude pushed = system_.linear->quadratic(push);
   return !(outcome.values <= growth * (s.energy_terms + pushed.magnitude));
 }

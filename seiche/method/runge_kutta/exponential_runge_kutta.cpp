@@ -33,7 +33,7 @@ class ExponentialRungeKutta final : public BaseStep {
     return may_be_solution(z, size);
   }
 
-  std::string_view failure() const override { return "the exponential Runge–Kutta scheme left the numbers"; }
+  std::string_view failure() const override { return "the result of the exponential Runge–Kutta scheme is not finite"; }
   StepDissipation::Kind dissipation_kind() const override { return dissipation_.kind(); }
   StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double H) override {
     constexpr double safety = 2;  // the solution inside a step has an order less than its end

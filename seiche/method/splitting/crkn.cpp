@@ -20,13 +20,13 @@ class Nystrom : public BaseStep {
         kind_(StepDissipation::kind_of(system, phi)) {
     if (!form_.kicks)
       throw Error("it kicks momenta by ∇V of the positions, and here S∇V moves what V depends on; use etdrk4 or egc4");
-    if (!system.damping->is_frozen())
+    if (!system.damping->is_constant())
       throw Error("its linear flow needs a damping that is the same at all times and points; use etdrk4 or egc4");
     if (!phi.dissipation().is_quadratic)
       throw Error("its damping must act on momenta alone, and here it moves what V depends on; use etdrk4 or egc4");
   }
 
-  std::string_view failure() const override { return "the Runge–Kutta–Nyström splitting left the numbers"; }
+  std::string_view failure() const override { return "the result of the Runge–Kutta–Nyström splitting is not finite"; }
   StepDissipation::Kind dissipation_kind() const override { return kind_; }
   StepDissipation::Amount dissipated(const State&, double, double, const Vector&, double) override {
     return {.fine = taken_, .negative = kind_ == StepDissipation::Kind::general};

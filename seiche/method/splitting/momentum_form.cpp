@@ -62,7 +62,7 @@ class Probe {
 
 std::optional<double> rate_of(const System& system, const Probe& probe) {
   if (system.damping->is_zero()) return 0.0;
-  if (!system.damping->is_frozen()) return std::nullopt;
+  if (!system.damping->is_constant()) return std::nullopt;
   const Vector v = probe.with_momenta();
   if (probe.D(probe.with_positions()).norm() > 0) return std::nullopt;
   const Vector Dv = probe.D(v);

@@ -13,7 +13,7 @@ class StrangExact final : public BaseStep {
         phi_(phi),
         force_(system, PhiRows::Forces::states),
         kind_(StepDissipation::kind_of(system, phi)),
-        is_kick_(system.damping->is_frozen() && momentum_form(system).kicks &&
+        is_kick_(system.damping->is_constant() && momentum_form(system).kicks &&
                  !(system.force && system.force->touches_potential())),
         halves_(cached_step_sizes(system.space->size())) {
     for (Vector* v : {&gradient_, &rate_, &rest_, &middle_, &scratch_}) v->setZero(system.space->size());
@@ -34,7 +34,7 @@ class StrangExact final : public BaseStep {
     return may_be_solution(z, size);
   }
 
-  std::string_view failure() const override { return "the splitting left the numbers"; }
+  std::string_view failure() const override { return "the result of the splitting is not finite"; }
   StepDissipation::Kind dissipation_kind() const override { return kind_; }
 
   // By the values of Q at both ends, which is all that is known.

@@ -12,7 +12,7 @@ namespace seiche::test {
 namespace {
 
 Matrix L_of(const Problem& p) {
-  const Matrix D0 = p.matrices ? Matrix(frozen_damping_matrix(p)) : frozen_damping(p).matrix(p.grid);
+  const Matrix D0 = p.matrices ? Matrix(constant_damping_matrix(p)) : constant_damping(p).matrix(p.grid);
   return SM_of(p) - D0;
 }
 
@@ -81,7 +81,7 @@ TEST(Phi, FormsAreTheDissipationOfTheirRows) {
   for (const auto& [name, problem] : all_cases()) {
     for (const BackendEntry& backend : backends_for(problem)) {
       const System system = backend.system(problem, {});
-      if (!system.damping->is_frozen()) continue;
+      if (!system.damping->is_constant()) continue;
       const auto phi = system.make_phi();
       if (!phi->dissipation().is_quadratic || phi->dissipation().is_zero) continue;
       const Vector z = system.initial;

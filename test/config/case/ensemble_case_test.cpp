@@ -227,7 +227,7 @@ TEST_F(EnsembleProgram, SaysWhichMembersHoldReplacedSteps) {
   EXPECT_NE(lines("stderr.txt")[0].find("no solution was found"), std::string::npos) << lines("stderr.txt")[0];
 }
 
-// V is unbounded below: large waves leave the numbers.
+// V is unbounded below: large waves grow beyond all bounds.
 TEST_F(EnsembleProgram, EndsWhereNoMemberRunsAnyMore) {
   const std::string large =
       "--set problem.alpha=-1 problem.initial='{u=\"40*sin(pi*x)\",v=\"0\"}' method.name=sav method.h=1/16 method.C=1e9 "
