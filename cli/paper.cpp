@@ -5,14 +5,14 @@
 #include "versions.hpp"
 
 #include <fmt/format.h>
+#include <paper/paper.hpp>
+#include <paper/pictures.hpp>
+#include <paper/report.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/figure/paper_pictures.hpp>
-#include <seiche/figure/report.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/progress_bar.hpp>
 #include <seiche/output/run_folder.hpp>
-#include <seiche/study/paper.hpp>
 
 #include <memory>
 

@@ -2,8 +2,8 @@
 // for.
 #pragma once
 
-#include <seiche/figure/paper_pictures.hpp>
 #include <seiche/figure/plot/map_plot.hpp>
+#include <seiche/figure/plot/plot.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/study/energy_history.hpp>
 #include <seiche/study/run_files.hpp>

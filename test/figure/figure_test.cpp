@@ -3,13 +3,13 @@
 #include <test/support/temporary_directory.hpp>
 #include <test/support/text_of.hpp>
 
+#include <paper/pictures.hpp>
+#include <paper/report.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/paper_pictures.hpp>
 #include <seiche/figure/plot/coincide.hpp>
 #include <seiche/figure/plot/slope_triangle.hpp>
-#include <seiche/figure/report.hpp>
 #include <seiche/method/methods.hpp>
 
 #include <gmock/gmock.h>

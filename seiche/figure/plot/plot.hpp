@@ -45,6 +45,11 @@ struct Plot {
   std::size_t legend_room = 0;  // for at least so many entries, so that pictures side by side have one height
 };
 
+struct CurvePicture {
+  std::string caption;  // for the report
+  Plot plot;            // its stem names the files
+};
+
 // Draws <stem>.png and <stem>.pdf in the working directory, or what else is asked for.
 std::string plot_script(Plot plot, const Rendering& rendering = {});
 

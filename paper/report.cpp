@@ -1,9 +1,9 @@
+#include <paper/pictures.hpp>
+#include <paper/report.hpp>
+#include <paper/report_tables.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/paper_pictures.hpp>
-#include <seiche/figure/report.hpp>
 #include <seiche/figure/report_style.hpp>
-#include <seiche/figure/report_tables.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/run_folder.hpp>
 

@@ -1,9 +1,9 @@
+#include <paper/examples.hpp>
+#include <paper/law_checks.hpp>
+#include <paper/paper.hpp>
+#include <paper/side_studies.hpp>
+#include <paper/verdicts.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/study/examples.hpp>
-#include <seiche/study/law_checks.hpp>
-#include <seiche/study/paper.hpp>
-#include <seiche/study/side_studies.hpp>
-#include <seiche/study/verdicts.hpp>
 
 #include <chrono>
 

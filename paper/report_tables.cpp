@@ -1,7 +1,7 @@
+#include <paper/report_tables.hpp>
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/plot/curves.hpp>
 #include <seiche/figure/plot/style.hpp>
-#include <seiche/figure/report_tables.hpp>
 
 #include <fmt/format.h>
 

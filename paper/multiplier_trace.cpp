@@ -1,4 +1,4 @@
-#include <seiche/study/multiplier_trace.hpp>
+#include <paper/multiplier_trace.hpp>
 
 namespace seiche {
 

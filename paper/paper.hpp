@@ -1,8 +1,8 @@
 // All of the paper's experiments in one run: examples, side studies, verdicts.
 #pragma once
 
+#include <paper/results.hpp>
 #include <seiche/study/reference.hpp>
-#include <seiche/study/results.hpp>
 
 #include <atomic>
 #include <filesystem>

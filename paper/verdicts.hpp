@@ -1,9 +1,9 @@
 // Every claim that the paper makes about its experiments, decided from what was measured here.
 #pragma once
 
-#include <seiche/study/evidence.hpp>
-#include <seiche/study/findings.hpp>
-#include <seiche/study/results.hpp>
+#include <paper/evidence.hpp>
+#include <paper/findings.hpp>
+#include <paper/results.hpp>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
+#include <paper/paper.hpp>
 #include <seiche/output/csv_text.hpp>
 #include <seiche/output/file/atomic_file.hpp>
-#include <seiche/study/paper.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

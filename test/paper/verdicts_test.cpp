@@ -1,7 +1,7 @@
 // What the paper claims, judged by rows of numbers.
+#include <paper/paper.hpp>
+#include <paper/verdicts.hpp>
 #include <seiche/study/converge.hpp>
-#include <seiche/study/paper.hpp>
-#include <seiche/study/verdicts.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // The studies of the paper, end to end.
+#include <paper/multiplier_trace.hpp>
+#include <paper/paper.hpp>
+#include <paper/verdicts.hpp>
 #include <seiche/study/converge.hpp>
-#include <seiche/study/multiplier_trace.hpp>
-#include <seiche/study/paper.hpp>
-#include <seiche/study/verdicts.hpp>
 #include <test/support/cases.hpp>
 
 #include <gtest/gtest.h>

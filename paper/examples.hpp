@@ -1,10 +1,10 @@
 // The paper's numerical examples with all methods that apply: errors, orders, energies and cost.
 #pragma once
 
+#include <paper/evidence.hpp>
+#include <paper/results.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/study/converge.hpp>
-#include <seiche/study/evidence.hpp>
-#include <seiche/study/results.hpp>
 
 #include <atomic>
 #include <string>

@@ -1,4 +1,4 @@
-#include <seiche/study/findings.hpp>
+#include <paper/findings.hpp>
 
 #include <fmt/format.h>
 

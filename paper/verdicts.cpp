@@ -1,5 +1,5 @@
+#include <paper/verdicts.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/study/verdicts.hpp>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // What the verdicts rest on beside the data of the figures.
 #pragma once
 
-#include <seiche/study/results.hpp>
+#include <paper/results.hpp>
 
 #include <string>
 #include <vector>

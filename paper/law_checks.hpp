@@ -1,8 +1,8 @@
 // The paper's theorems as experiments: energy laws at step sizes from small to very large.
 #pragma once
 
-#include <seiche/study/evidence.hpp>
-#include <seiche/study/examples.hpp>
+#include <paper/evidence.hpp>
+#include <paper/examples.hpp>
 
 namespace seiche {
 

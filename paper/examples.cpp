@@ -1,9 +1,9 @@
+#include <paper/examples.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
-#include <seiche/study/examples.hpp>
 
 #include <fmt/format.h>
 

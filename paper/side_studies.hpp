@@ -2,7 +2,7 @@
 // figure each.
 #pragma once
 
-#include <seiche/study/examples.hpp>
+#include <paper/examples.hpp>
 
 namespace seiche {
 

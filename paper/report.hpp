@@ -1,7 +1,7 @@
 // report.html: what was measured and which claims of the paper hold, in one page that needs nothing beside it.
 #pragma once
 
-#include <seiche/study/results.hpp>
+#include <paper/results.hpp>
 
 #include <filesystem>
 #include <map>

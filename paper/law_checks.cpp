@@ -1,10 +1,10 @@
+#include <paper/law_checks.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/run/integrate.hpp>
-#include <seiche/study/law_checks.hpp>
 
 #include <algorithm>
 #include <cmath>

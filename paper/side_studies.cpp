@@ -1,9 +1,9 @@
+#include <paper/findings.hpp>
+#include <paper/multiplier_trace.hpp>
+#include <paper/side_studies.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/run/integrate.hpp>
-#include <seiche/study/findings.hpp>
-#include <seiche/study/multiplier_trace.hpp>
-#include <seiche/study/side_studies.hpp>
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include <seiche/study/verdicts.hpp>
+#include <paper/verdicts.hpp>
 
 #include <fmt/format.h>
 

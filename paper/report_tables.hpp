@@ -1,7 +1,7 @@
 // The tables of the report: verdicts, errors with orders, the full record of each run.
 #pragma once
 
-#include <seiche/study/results.hpp>
+#include <paper/results.hpp>
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 // studies. One file per picture and format.
 #pragma once
 
+#include <paper/results.hpp>
 #include <seiche/figure/plot/plot.hpp>
-#include <seiche/study/results.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -11,11 +11,6 @@
 #include <vector>
 
 namespace seiche {
-
-struct CurvePicture {
-  std::string caption;  // for the report
-  Plot plot;            // its stem names the files
-};
 
 // Orders, efficiency, energy, energy error. `quick` is said in the titles.
 std::vector<CurvePicture> example_pictures(const ExampleResult& example, bool quick = false);

@@ -1,4 +1,4 @@
-#include <seiche/study/results.hpp>
+#include <paper/results.hpp>
 
 namespace seiche {
 

@@ -1,7 +1,7 @@
 // How a kind of claim is decided from measured rows: thresholds are named here, numbers come back as text.
 #pragma once
 
-#include <seiche/study/results.hpp>
+#include <paper/results.hpp>
 
 #include <optional>
 #include <span>

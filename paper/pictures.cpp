@@ -1,7 +1,7 @@
+#include <paper/pictures.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/figure/drawing_folder.hpp>
 #include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/paper_pictures.hpp>
 #include <seiche/figure/plot/coincide.hpp>
 #include <seiche/figure/plot/curves.hpp>
 
