@@ -18,9 +18,9 @@ std::string methods_text() {
   std::string text =
       fmt::format(row, "name", "closure", "propagator", "composition", "order", "law", "projection", "reference");
   for (const MethodEntry& method : methods()) {
-    text += fmt::format(row, method.name, to_string(method.closure), to_string(method.propagator),
-                        to_string(method.composition), method.order, method.kept_energy,
-                        method.projects() ? to_string(method.projection) : "", method.reference);
+    text += fmt::format(row, method.name, method.kind.closure, to_string(method.propagator), method.kind.composition,
+                        method.order, method.kept_energy, method.projects() ? to_string(method.projection) : "",
+                        method.reference);
   }
   return text + fmt::format("{:<13} {}\n", "auto", what_auto_is);
 }

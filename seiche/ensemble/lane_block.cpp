@@ -8,8 +8,7 @@ namespace {
 constexpr Index most_lane_points = 128;
 
 bool may_take_lanes(const Problem& problem, const MethodEntry& method) {
-  return (method.closure == ClosureKind::sav || method.closure == ClosureKind::avf) &&
-         problem.grid.unknowns() <= most_lane_points;
+  return method.kind.members != MembersTogether::none && problem.grid.unknowns() <= most_lane_points;
 }
 
 // Lanczos iteration is no fixed matrix that could be read off: what it makes of z depends on z, and on the force beside

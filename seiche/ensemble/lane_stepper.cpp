@@ -24,7 +24,7 @@ void copy_scalars(const LaneState& from, LaneState& to) {
 }  // namespace
 
 LaneStepper::LaneStepper(std::unique_ptr<LaneSystem> system, const MethodEntry& method)
-    : system_(std::move(system)), splits_damping_(method.composition == Composition::strang) {
+    : system_(std::move(system)), splits_damping_(method.kind.splits_damping) {
   for (LaneState* s : {&first_, &second_, &work_}) {
     s->z = Panel(system_->size() + system_->support_size());
     s->r_squared.fill(1);  // lanes without a member rest at z = 0
@@ -150,10 +150,10 @@ void LaneStepper::energy(std::array<EnergyReading, lanes>& readings) {
 
 std::unique_ptr<LaneStepper> make_lane_stepper(LaneSimulations members, const MethodOptions& options) {
   const MethodEntry& method = members.front()->method();
-  if (method.closure != ClosureKind::sav && method.closure != ClosureKind::avf) return nullptr;
+  if (method.kind.members == MembersTogether::none) return nullptr;
   std::unique_ptr<LaneSystem> system = LaneSystem::make(members, method.propagator);
   if (!system) return nullptr;
-  if (method.closure == ClosureKind::sav) return make_lane_sav(std::move(system), method, options);
+  if (method.kind.members == MembersTogether::sav) return make_lane_sav(std::move(system), method, options);
   return make_lane_avf(std::move(system), method);
 }
 

@@ -6,6 +6,7 @@
 #include <seiche/method/closure/sav.hpp>
 #include <seiche/method/collocation/egc.hpp>
 #include <seiche/method/composition/compositions.hpp>
+#include <seiche/method/method_memory.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/method/projection/projected.hpp>
 #include <seiche/method/runge_kutta/exponential_runge_kutta.hpp>
@@ -13,99 +14,186 @@
 #include <seiche/method/splitting/crkn.hpp>
 #include <seiche/method/splitting/strang_exact.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace seiche {
 namespace {
 
-using enum ClosureKind;
 using enum PropagatorKind;
-using enum Composition;
 
 constexpr EnergyLaw interval = EnergyLaw::interval;
 constexpr EnergyLaw guard = EnergyLaw::guard;
 
-constexpr std::string_view paper = "Li, Li, Shang, Xu: energy-stable splitting exponential integrators";
-constexpr std::string_view here = "Seiche: the paper's closure, exponential, without splitting";
+// ---- Closures, in the whole equation with the damping merged into S, or with its flow split off
 
-constexpr std::string_view collocated = "Seiche: exponential Gauss collocation, page Theory";
-
-// clang-format off
-constexpr std::array list = {
-    MethodEntry{"avf",    avf, cayley,      whole,  2, "H",          "Celledoni et al. (2012), J. Comput. Phys. 231"},
-    MethodEntry{"sav",    sav, cayley,      whole,  2, "H_modified", "Shen, Xu, Yang (2019), SIAM Rev. 61"},
-    MethodEntry{"lm",     lm,  cayley,      whole,  2, "H",          "Cheng, Liu, Shen (2020), CMAME 367"},
-    MethodEntry{"savf",   avf, cayley,      strang, 2, "H",          "Liu et al. (2021), dissipation-preserving splitting"},
-    MethodEntry{"ssav",   sav, cayley,      strang, 2, "H_modified", paper},
-    MethodEntry{"slm",    lm,  cayley,      strang, 2, "H",          paper},
-    MethodEntry{"eavf",   avf, exponential, whole,  2, "H",          here},
-    MethodEntry{"eisav",  sav, exponential, whole,  2, "H_modified", paper},
-    MethodEntry{"eilm",   lm,  exponential, whole,  2, "H",          paper},
-    MethodEntry{"seavf",  avf, exponential, strang, 2, "H",          "Liu et al. (2021), dissipation-preserving splitting"},
-    MethodEntry{"seisav", sav, exponential, strang, 2, "H_modified", paper},
-    MethodEntry{"seilm",  lm,  exponential, strang, 2, "H",          paper},
-    MethodEntry{"seidm",  dm,  exponential, strang, 2, "H",          "Seiche: directed multiplier, page Theory"},
-    MethodEntry{"egc2",   none, exponential, collocation, 2, "H",    collocated, interval},
-    MethodEntry{"egc4",   none, exponential, collocation, 4, "H",    collocated, interval},
-    MethodEntry{"egc6",   none, exponential, collocation, 6, "H",    collocated, interval},
-    MethodEntry{"egc8",   none, exponential, collocation, 8, "H",    collocated, interval},
-    MethodEntry{"seimp",  none, exponential, runge_kutta, 2, "H",    "Seiche: exponential midpoint and projection", interval},
-    MethodEntry{"etdrk4", none, exponential, runge_kutta, 4, "H",    "Krogstad (2005), J. Comput. Phys. 203; with projection", interval},
-    MethodEntry{"crkn4",  none, exponential, nystrom, 4, "H",        "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
-    MethodEntry{"crkn6",  none, exponential, nystrom, 6, "H",        "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
-    MethodEntry{"strang_exact", none, exponential, kick, 2, "H",     "Strang splitting of the linear flow; with projection", guard},
-    MethodEntry{"chin4",  none, exponential, chin, 4, "H",           "Seiche: positive splitting with absorbed commutator, page Theory", guard},
-};
-// clang-format on
-
-std::unique_ptr<Closure> make_closure(const MethodEntry& method, const System& system, const MethodOptions& options) {
-  switch (method.closure) {
-    case avf: return make_avf_closure(system);
-    case sav: return make_sav_closure(system, options);
-    case lm: return make_lm_closure(system, options);
-    case dm: return make_dm_closure(system);
-    case none: break;
-  }
-  throw Error("method {} has no closure", method.name);
+std::unique_ptr<Stepper> by_closure(const MethodEntry& method, const System& system, const MethodOptions& options) {
+  std::unique_ptr<Closure> closure = method.kind.make_closure(system, options);
+  if (method.kind.splits_damping) return make_strang(system, method.propagator, std::move(closure));
+  if (!system.damping->is_zero()) throw Error("{} needs its damping merged into S first", method.name);
+  return make_whole(system, method.propagator, std::move(closure));
 }
 
-std::unique_ptr<BaseStep> make_base(const MethodEntry& method, const System& system, const PhiEvaluator& phi,
-                                    const MethodOptions& options) {
-  switch (method.composition) {
-    case runge_kutta:
-      return exponential_runge_kutta(system, phi, method.order == 2 ? exponential_midpoint() : krogstad());
-    case nystrom:
-      return options.linear == LinearTreatment::exact ? conformal_nystrom(system, phi, method.order)
-                                                      : explicit_nystrom(system, phi, method.order);
-    case kick: return strang_exact(system, phi);
-    case chin: return chin_splitting(system, phi);
-    case whole:
-    case strang:
-    case collocation: break;
-  }
-  throw Error("method {} is no base step with a projection", method.name);
+// Friction that is a flow would be a force in the formula of the estimate, which need not be smooth.
+std::unique_ptr<AdaptiveStepper> with_weights(const MethodEntry& method, const System& system,
+                                              const MethodOptions& options) {
+  std::unique_ptr<Stepper> stepper = method.kind.make(method, system, options);
+  if (!system.damping->is_linear()) return with_step_doubling(system, std::move(stepper), method.order);
+  return with_error_estimate(system, std::move(stepper));
 }
 
-void require_fit(const MethodEntry& method, const System& system) {
-  if (system.structure && method.composition != collocation && method.composition != runge_kutta)
-    throw Error("{} needs one structure matrix S; where S changes with z use egc2 … egc8, seimp or etdrk4",
-                method.name);
-  if (system.force && (method.composition == nystrom || method.composition == chin))
-    throw Error("{} has no place for an external force; egc2 … egc8, etdrk4, seimp and strang_exact take it",
-                method.name);
+constexpr MethodKind avf{.closure = "avf",
+                         .make = by_closure,
+                         .make_adaptive = with_weights,
+                         .make_closure = [](const System& s, const MethodOptions&) { return make_avf_closure(s); },
+                         .members = MembersTogether::avf,
+                         .doubles = 22};
+constexpr MethodKind sav{.closure = "sav",
+                         .make = by_closure,
+                         .make_adaptive = with_weights,
+                         .make_closure = make_sav_closure,
+                         .takes_C = true,
+                         .takes_auxiliary = true,
+                         .members = MembersTogether::sav,
+                         .doubles = 12};
+constexpr MethodKind lm{.closure = "lm",
+                        .make = by_closure,
+                        .make_adaptive = with_weights,
+                        .make_closure = make_lm_closure,
+                        .takes_auxiliary = true,
+                        .takes_solver = true,
+                        .doubles = 27};
+constexpr MethodKind dm{.closure = "dm",
+                        .make = by_closure,
+                        .make_adaptive = with_weights,
+                        .make_closure = [](const System& s, const MethodOptions&) { return make_dm_closure(s); },
+                        .doubles = 21};
+
+constexpr MethodKind whole(MethodKind kind) {
+  kind.composition = "whole";
+  kind.merges_damping = true;
+  return kind;
+}
+constexpr MethodKind strang(MethodKind kind) {
+  kind.composition = "strang";
+  kind.splits_damping = true;
+  kind.takes_refresh = kind.takes_C;
+  return kind;
 }
 
-std::unique_ptr<ProjectedStepper> make_projected(const MethodEntry& method, const System& system,
-                                                 const MethodOptions& options) {
+// ---- Steps that end with a projection
+
+std::unique_ptr<ProjectedStepper> projected(const MethodEntry& method, const System& system,
+                                            const MethodOptions& options) {
   std::unique_ptr<PhiEvaluator> phi = system.make_phi();
   std::unique_ptr<BaseStep> base;
   try {
-    base = make_base(method, system, *phi, options);
+    base = method.kind.make_base(method, system, *phi, options);
   } catch (const Error& error) {
     throw Error("{} does not apply: {}", method.name, error.what());
   }
   return std::make_unique<ProjectedStepper>(system, std::move(phi), std::move(base), options.law_of(method));
+}
+
+std::unique_ptr<Stepper> by_projection(const MethodEntry& method, const System& system, const MethodOptions& options) {
+  return projected(method, system, options);
+}
+
+std::unique_ptr<AdaptiveStepper> with_doubling(const MethodEntry& method, const System& system,
+                                               const MethodOptions& options) {
+  return with_step_doubling(system, projected(method, system, options), method.order);
+}
+
+constexpr MethodKind collocation{.composition = "collocation",
+                                 .make = [](const MethodEntry& m, const System& s, const MethodOptions& o)
+                                     -> std::unique_ptr<Stepper> { return make_egc(s, m.order / 2, o.law_of(m)); },
+                                 .make_adaptive = [](const MethodEntry& m, const System& s,
+                                                     const MethodOptions& o) -> std::unique_ptr<AdaptiveStepper> {
+                                   return make_egc(s, m.order / 2, o.law_of(m));
+                                 },
+                                 .takes_structure = true,
+                                 .holds_rate_of_start = true,
+                                 .doubles_with_tables = doubles_of_collocation};
+constexpr MethodKind runge_kutta{
+    .composition = "runge_kutta",
+    .make = by_projection,
+    .make_adaptive = with_doubling,  // the weights of with_error_estimate share the errors of the midpoint rule
+    .make_base =
+        [](const MethodEntry& m, const System& s, const PhiEvaluator& phi, const MethodOptions&) {
+          return exponential_runge_kutta(s, phi, m.order == 2 ? exponential_midpoint() : krogstad());
+        },
+    .takes_structure = true,
+    .holds_rate_of_start = true,
+    .doubles_with_tables = doubles_of_one_step};
+constexpr MethodKind nystrom{.composition = "nystrom",
+                             .make = by_projection,
+                             .make_adaptive = with_doubling,
+                             .make_base =
+                                 [](const MethodEntry& m, const System& s, const PhiEvaluator& phi,
+                                    const MethodOptions& o) {
+                                   return o.linear == LinearTreatment::exact ? conformal_nystrom(s, phi, m.order)
+                                                                             : explicit_nystrom(s, phi, m.order);
+                                 },
+                             .takes_linear = true,
+                             .takes_force = false,
+                             .doubles_with_tables = doubles_of_one_step};
+constexpr MethodKind kick{.composition = "kick",
+                          .make = by_projection,
+                          .make_adaptive = with_weights,
+                          .make_base = [](const MethodEntry&, const System& s, const PhiEvaluator& phi,
+                                          const MethodOptions&) { return strang_exact(s, phi); },
+                          .doubles_with_tables = doubles_of_one_step};
+constexpr MethodKind chin{.composition = "chin",
+                          .make = by_projection,
+                          .make_adaptive = with_doubling,
+                          .make_base = [](const MethodEntry&, const System& s, const PhiEvaluator& phi,
+                                          const MethodOptions&) { return chin_splitting(s, phi); },
+                          .takes_force = false,
+                          .splits_damping = true,
+                          .doubles_with_tables = doubles_of_one_step};
+
+// ---- The list
+
+constexpr std::string_view paper = "Li, Li, Shang, Xu: energy-stable splitting exponential integrators";
+constexpr std::string_view here = "Seiche: the paper's closure, exponential, without splitting";
+constexpr std::string_view collocated = "Seiche: exponential Gauss collocation, page Theory";
+
+// clang-format off
+constexpr std::array list = {
+    MethodEntry{"avf",    whole(avf),  cayley,      2, "H",          "Celledoni et al. (2012), J. Comput. Phys. 231"},
+    MethodEntry{"sav",    whole(sav),  cayley,      2, "H_modified", "Shen, Xu, Yang (2019), SIAM Rev. 61"},
+    MethodEntry{"lm",     whole(lm),   cayley,      2, "H",          "Cheng, Liu, Shen (2020), CMAME 367"},
+    MethodEntry{"savf",   strang(avf), cayley,      2, "H",          "Liu et al. (2021), dissipation-preserving splitting"},
+    MethodEntry{"ssav",   strang(sav), cayley,      2, "H_modified", paper},
+    MethodEntry{"slm",    strang(lm),  cayley,      2, "H",          paper},
+    MethodEntry{"eavf",   whole(avf),  exponential, 2, "H",          here},
+    MethodEntry{"eisav",  whole(sav),  exponential, 2, "H_modified", paper},
+    MethodEntry{"eilm",   whole(lm),   exponential, 2, "H",          paper},
+    MethodEntry{"seavf",  strang(avf), exponential, 2, "H",          "Liu et al. (2021), dissipation-preserving splitting"},
+    MethodEntry{"seisav", strang(sav), exponential, 2, "H_modified", paper},
+    MethodEntry{"seilm",  strang(lm),  exponential, 2, "H",          paper},
+    MethodEntry{"seidm",  strang(dm),  exponential, 2, "H",          "Seiche: directed multiplier, page Theory"},
+    MethodEntry{"egc2",   collocation, exponential, 2, "H",          collocated, interval},
+    MethodEntry{"egc4",   collocation, exponential, 4, "H",          collocated, interval},
+    MethodEntry{"egc6",   collocation, exponential, 6, "H",          collocated, interval},
+    MethodEntry{"egc8",   collocation, exponential, 8, "H",          collocated, interval},
+    MethodEntry{"seimp",  runge_kutta, exponential, 2, "H",          "Seiche: exponential midpoint and projection", interval},
+    MethodEntry{"etdrk4", runge_kutta, exponential, 4, "H",          "Krogstad (2005), J. Comput. Phys. 203; with projection", interval},
+    MethodEntry{"crkn4",  nystrom,     exponential, 4, "H",          "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
+    MethodEntry{"crkn6",  nystrom,     exponential, 6, "H",          "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
+    MethodEntry{"strang_exact", kick,  exponential, 2, "H",          "Strang splitting of the linear flow; with projection", guard},
+    MethodEntry{"chin4",  chin,        exponential, 4, "H",          "Seiche: positive splitting with absorbed commutator, page Theory", guard},
+};
+// clang-format on
+
+void require_fit(const MethodEntry& method, const System& system) {
+  if (system.structure && !method.kind.takes_structure)
+    throw Error("{} needs one structure matrix S; where S changes with z use egc2 … egc8, seimp or etdrk4",
+                method.name);
+  if (system.force && !method.kind.takes_force)
+    throw Error("{} has no place for an external force; egc2 … egc8, etdrk4, seimp and strang_exact take it",
+                method.name);
 }
 
 }  // namespace
@@ -132,34 +220,40 @@ void MethodOptions::validate(const MethodEntry& method) const {
     throw Error(
         "law = \"{}\" is more than {} can have, which knows no values inside a step to integrate the dissipation by; use \"{}\" or \"none\"",
         to_string(*law), method.name, to_string(method.projection));
-  if (C) {
-    if (method.closure != sav) throw Error("C belongs to the sav family; {} has no auxiliary variable", method.name);
-    if (!std::isfinite(*C)) throw Error("C = {} must be a finite number or \"auto\"", *C);
-  }
-  if (scalar_solver == ScalarSolver::newton && method.closure != lm) {
+  const MethodKind& kind = method.kind;
+  if (C && !kind.takes_C) throw Error("C belongs to the sav family; {} has no auxiliary variable", method.name);
+  if (C && !std::isfinite(*C)) throw Error("C = {} must be a finite number or \"auto\"", *C);
+  if (scalar_solver != ScalarSolver::robust && !kind.takes_solver)
     throw Error("scalar_solver = \"newton\" belongs to the lm family; {} solves no equation for η", method.name);
-  }
-  if (linear == LinearTreatment::explicit_kicks && method.composition != nystrom)
+  if (linear != LinearTreatment::exact && !kind.takes_linear)
     throw Error("linear = \"explicit\" belongs to crkn4 and crkn6; {} takes the linear part in one piece", method.name);
   if (auxiliary == AuxiliaryMode::transport) return;
-  if (method.closure == avf || method.closure == dm || method.closure == none) {
+  if (!kind.takes_auxiliary)
     throw Error("auxiliary belongs to the sav and lm families; {} carries no auxiliary through the damping",
                 method.name);
-  }
-  if (auxiliary == AuxiliaryMode::refresh && method.closure == lm) {
+  if (auxiliary != AuxiliaryMode::refresh || kind.takes_refresh) return;
+  if (!kind.takes_C)
     throw Error("auxiliary = \"refresh\" has no meaning for {}: V is not carried; use \"transport\" or \"frozen\"",
                 method.name);
-  }
-  if (auxiliary == AuxiliaryMode::refresh && method.composition == whole) {
-    throw Error("auxiliary = \"refresh\" acts after the damping flows, and {} has none", method.name);
-  }
+  throw Error("auxiliary = \"refresh\" acts after the damping flows, and {} has none", method.name);
+}
+
+MethodOptions MethodOptions::meant_for(const MethodEntry& method) const {
+  const MethodKind& kind = method.kind;
+  MethodOptions own;
+  if (kind.takes_C) own.C = C;
+  if (kind.takes_auxiliary) own.auxiliary = auxiliary;
+  if (kind.takes_solver) own.scalar_solver = scalar_solver;
+  if (kind.takes_linear) own.linear = linear;
+  if (law && method.projects()) own.law = std::max(*law, method.projection);
+  return own;
 }
 
 std::string MethodOptions::objection(const MethodEntry& method) const {
   if (auxiliary == AuxiliaryMode::refresh)
     return "auxiliary = \"refresh\" resets r after the damping, and the modified energy may rise there";
   const bool frozen = auxiliary == AuxiliaryMode::frozen;
-  if (scalar_solver == ScalarSolver::newton || (method.closure == lm && frozen))
+  if (scalar_solver == ScalarSolver::newton || (method.kind.takes_solver && frozen))
     return "plain Newton accepts steps whose scalar equation it did not solve";
   if (method.projects() && law_of(method) == EnergyLaw::none)
     return "law = \"none\" switches off the projection that keeps it";
@@ -169,39 +263,16 @@ std::string MethodOptions::objection(const MethodEntry& method) const {
 std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system, const MethodOptions& options) {
   options.validate(method);
   require_fit(method, system);
-  if (method.composition == collocation) return make_egc(system, method.order / 2, options.law_of(method));
-  if (method.projects()) return make_projected(method, system, options);
-  if (method.composition == whole) {
-    if (!system.damping->is_zero()) throw Error("{} needs its damping merged into S first", method.name);
-    return make_whole(system, method.propagator, make_closure(method, system, options));
-  }
-  return make_strang(system, method.propagator, make_closure(method, system, options));
+  return method.kind.make(method, system, options);
 }
 
 std::unique_ptr<AdaptiveStepper> make_adaptive_stepper(const MethodEntry& method, const System& system,
                                                        const MethodOptions& options) {
   options.validate(method);
   require_fit(method, system);
-  if (method.composition == collocation) return make_egc(system, method.order / 2, options.law_of(method));
-  // The weights of with_error_estimate stand on the same midpoint as those of the midpoint rule, and share its errors.
-  if (method.order > 2 || method.composition == runge_kutta)
-    return with_step_doubling(system, make_projected(method, system, options), method.order);
-  // Friction that is a flow here would be a force in that formula, which need not be smooth.
-  if (!system.damping->is_linear())
-    return with_step_doubling(system, make_stepper(method, system, options), method.order);
-  return with_error_estimate(system, make_stepper(method, system, options));
-}
-
-std::string to_string(ClosureKind closure) {
-  constexpr std::array names = {"avf", "sav", "lm", "dm", "none"};
-  return names[static_cast<std::size_t>(closure)];
+  return method.kind.make_adaptive(method, system, options);
 }
 
 std::string to_string(PropagatorKind propagator) { return propagator == exponential ? "exponential" : "cayley"; }
-
-std::string to_string(Composition composition) {
-  constexpr std::array names = {"whole", "strang", "collocation", "runge_kutta", "nystrom", "kick", "chin"};
-  return names[static_cast<std::size_t>(composition)];
-}
 
 }  // namespace seiche

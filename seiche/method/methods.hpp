@@ -1,5 +1,4 @@
-// The list of methods: closure × propagator × composition, and those that end their steps with a projection. One row is
-// one method.
+// The list of methods. One row is one method, and holds all that is said of it.
 #pragma once
 
 #include <seiche/core/stepper.hpp>
@@ -15,24 +14,57 @@
 
 namespace seiche {
 
-enum class ClosureKind { avf, sav, lm, dm, none };
-enum class Composition { whole, strang, collocation, runge_kutta, nystrom, kick, chin };
+class BaseStep;
+class Closure;
+struct MethodEntry;
+struct MethodOptions;
+
 enum class AuxiliaryMode { transport, frozen, refresh };
 enum class ScalarSolver { robust, newton };
 enum class LinearTreatment { exact, explicit_kicks };  // e^{hL}, or kicks by all forces between drifts
+enum class MembersTogether { none, avf, sav };         // how many members of an ensemble take a step side by side
+
+// What methods of one kind have in common, whatever their order and propagator.
+struct MethodKind {
+  std::string_view closure = "none";  // of the nonlinear part
+  std::string_view composition = "";  // of that with the linear part and the damping
+  std::unique_ptr<Stepper> (*make)(const MethodEntry&, const System&, const MethodOptions&) = nullptr;
+  // The same with errors of its steps, for variable ones.
+  std::unique_ptr<AdaptiveStepper> (*make_adaptive)(const MethodEntry&, const System&, const MethodOptions&) = nullptr;
+  // One of these, where `make` asks for it:
+  std::unique_ptr<Closure> (*make_closure)(const System&, const MethodOptions&) = nullptr;
+  std::unique_ptr<BaseStep> (*make_base)(const MethodEntry&, const System&, const PhiEvaluator&,
+                                         const MethodOptions&) = nullptr;
+
+  // Options that have a meaning for it, beside `law` of those that project:
+  bool takes_C = false, takes_auxiliary = false, takes_refresh = false, takes_solver = false, takes_linear = false;
+
+  // Problems that it applies to:
+  bool merges_damping = false;   // those that with_damping_merged can restate
+  bool takes_structure = false;  // S(z) too
+  bool takes_force = true;       // f(t) too
+
+  bool splits_damping = false;       // by its flow before and after the rest
+  bool holds_rate_of_start = false;  // what γ(t) − γ(0) does is a force for it
+  MembersTogether members = MembersTogether::none;
+
+  // What it keeps, in doubles per unknown: so many, or as many as its tables of φ-functions ask for, with `slots` real
+  // numbers to a mode.
+  double doubles = 0;
+  double (*doubles_with_tables)(int order, Index size, bool variable_steps, double slots) = nullptr;
+};
 
 struct MethodEntry {
   std::string_view name;
-  ClosureKind closure;
+  MethodKind kind;
   PropagatorKind propagator;
-  Composition composition;
   int order;
-  std::string_view kept_energy;  // the one that never grows: "H" or "H_modified"
-  std::string_view reference;    // where the scheme comes from
-  EnergyLaw projection =
-      EnergyLaw::none;  // the strongest law that a projection can give it; none: it keeps one of its own
+  std::string_view kept_energy;            // the one that never grows: "H" or "H_modified"
+  std::string_view reference;              // where the scheme comes from
+  EnergyLaw projection = EnergyLaw::none;  // the strongest law a projection can give it; none: it keeps one of its own
 
   bool projects() const { return projection != EnergyLaw::none; }
+  bool has_closure() const { return kind.make_closure != nullptr; }
 };
 
 std::span<const MethodEntry> methods();
@@ -45,7 +77,7 @@ struct MethodOptions {
   ScalarSolver scalar_solver = ScalarSolver::robust;
   std::optional<EnergyLaw> law = {};  // of methods that project; the strongest they can have if not given
 
-  LinearTreatment linear = LinearTreatment::exact;  // nystrom
+  LinearTreatment linear = LinearTreatment::exact;  // of crkn4 and crkn6
 
   EnergyLaw law_of(const MethodEntry& method) const { return law.value_or(method.projection); }
   // Why no energy law is promised with these options, or "".
@@ -53,17 +85,17 @@ struct MethodOptions {
   bool operator==(const MethodOptions&) const = default;
   // Throws Error where an option other than its default has no meaning for the method, with the reason.
   void validate(const MethodEntry& method) const;
+  // Without those that have no meaning for the method, and with a law that it can have.
+  MethodOptions meant_for(const MethodEntry& method) const;
 };
 
-// `system` outlives the stepper; for `whole` methods it comes from with_damping_merged(problem).
+// `system` outlives the stepper; for methods that merge the damping it comes from with_damping_merged(problem).
 std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system,
                                       const MethodOptions& options = {});
 // The same with errors of its steps, for variable ones.
 std::unique_ptr<AdaptiveStepper> make_adaptive_stepper(const MethodEntry& method, const System& system,
                                                        const MethodOptions& options = {});
 
-std::string to_string(ClosureKind closure);
 std::string to_string(PropagatorKind propagator);
-std::string to_string(Composition composition);
 
 }  // namespace seiche

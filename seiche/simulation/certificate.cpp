@@ -170,7 +170,7 @@ std::string theorem(const Problem& problem, const MethodEntry& method) {
   if (method.projects())
     return any + "the step ends with a projection on an energy of at most H(zⁿ) (page Theory, Order four to eight)";
   const std::string substep = "F + Fᵀ + FᵀMF ⪯ 0 for sym(S) ⪯ 0, and the closure keeps its energy exactly";
-  if (method.composition == Composition::whole || !problem.has_damping()) return any + substep;
+  if (method.kind.merges_damping || !problem.has_damping()) return any + substep;
   return any + substep +
          "; the damping flow lets H fall where sym(P_H D) ⪰ 0 (Li, Li, Shang, Xu, Theorems 1 and 2, under (1.2))";
 }
@@ -214,7 +214,7 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   };
   go_on();
   if (problem.structure) list.push_back(hypothesis_of_structure(problem, at_start().system()));
-  if (method.closure == ClosureKind::sav) list.push_back(hypothesis_of_margin(at_start()));
+  if (method.kind.takes_C) list.push_back(hypothesis_of_margin(at_start()));
   const bool bent = std::any_of(list.begin(), list.end(), [](const Hypothesis& h) {
     return h.name == "S(z) skew" && h.grade == Grade::violated;
   });

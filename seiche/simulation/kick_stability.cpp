@@ -23,10 +23,8 @@ std::string beyond_stability(const Simulation& simulation, double h) {
 
 std::string beyond_rate(const Simulation& simulation, double h, double t_end) {
   constexpr int samples = 4096;
-  const Composition composition = simulation.method().composition;
   const RatePointer& rate = simulation.problem().damping.rate;
-  const bool holds_rate_of_start = composition == Composition::collocation || composition == Composition::runge_kutta;
-  if (!holds_rate_of_start || !rate || rate->is_constant()) return "";
+  if (!simulation.method().kind.holds_rate_of_start || !rate || rate->is_constant()) return "";
   const double held = rate_of_D0(simulation.problem());
   double farthest = held;
   for (int i = 0; i <= samples; ++i) {
@@ -42,8 +40,8 @@ std::string beyond_rate(const Simulation& simulation, double h, double t_end) {
 
 // A force F against γ ≫ 1/h: the exact momentum is F/γ, and behind a splitting hF/2.
 std::string beyond_splitting(const Simulation& simulation, double h) {
-  const Composition composition = simulation.method().composition;
-  if (composition != Composition::strang && composition != Composition::chin) return "";
+  const MethodEntry& method = simulation.method();
+  if (!method.kind.splits_damping) return "";
   const System& system = simulation.system();
   Vector pushed(system.initial.size()), damped(pushed), damped_twice(pushed);
   system.right_hand_side(0, system.initial, pushed);
@@ -54,13 +52,14 @@ std::string beyond_splitting(const Simulation& simulation, double h) {
   const double length = damped.norm();
   const double rate = length > 0 ? damped_twice.norm() / length : 0;
   if (!(h * rate > 2)) return "";
-  const bool is_chin = composition == Composition::chin;
+  const bool of_order_four = method.order == 4;
   return fmt::format(
       "{} splits the damping from the forces, and {}: it is {:.3g} with h = {:.4g} and γ = {:.4g}; take h ≤ {:.2g}, or a method with the damping "
       "in its exponential (egc4, eisav)",
-      simulation.method().name,
-      is_chin ? "is of order four only where hγ < 2" : "where the two balance, momenta are wrong by the factor hγ/2",
-      is_chin ? h * rate : h * rate / 2, h, rate, 1 / rate);
+      method.name,
+      of_order_four ? "is of order four only where hγ < 2"
+                    : "where the two balance, momenta are wrong by the factor hγ/2",
+      of_order_four ? h * rate : h * rate / 2, h, rate, 1 / rate);
 }
 
 std::vector<std::string> notes_on_step_size(const Simulation& simulation, const SparseOptions& options, double h,

@@ -1,29 +1,9 @@
-#include <seiche/core/step_cache.hpp>
 #include <seiche/simulation/run_memory.hpp>
 
 #include <cmath>
 
 namespace seiche {
 namespace {
-
-// Collocation in doubles per unknown: two forces a stage and some vectors, and for each step size that is kept the
-// blocks of stages, end and forms; with variable steps also those of the extension.
-double doubles_of_collocation(int order, Index size, bool variable_steps, double slots) {
-  const double s = 0.5 * order;
-  const double blocks = s * (2 + s) + 2 * (2 + s) + (2 + s) * (3 + s) + 4;  // per mode, of two fields
-  const double of_extension = 4 * 4 * s;                                    // four ratios of step sizes, two maps each
-  const double step_sizes = variable_steps ? static_cast<double>(cached_step_sizes(size)) : 1.0;
-  return 2 * s + 14 + step_sizes * (blocks + (variable_steps ? of_extension : 0)) / (2 * slots);
-}
-
-// The same for one-step methods: their forces or what a splitting works with, and of each step size the blocks of
-// stages, end and forms, or of the linear flows.
-double doubles_of_one_step(int order, Index size, bool variable_steps, double slots) {
-  const double s = order;
-  const double blocks = 2 * (2 + 0.5 * s) * s + 2 * (2 + s) + (2 + s) * (3 + s) + 4;
-  const double step_sizes = variable_steps ? static_cast<double>(cached_step_sizes(size)) : 1.0;
-  return s + 16 + (variable_steps ? 10 : 0) + step_sizes * blocks / (2 * slots);
-}
 
 // Real numbers to a mode: of grids that are periodic along every axis two, and else one (core/grid/modes).
 double slots_of(const Grid& grid) {
@@ -33,17 +13,8 @@ double slots_of(const Grid& grid) {
 }
 
 double doubles_per_unknown(const MethodEntry& method, Index size, bool variable_steps, double slots) {
-  switch (method.closure) {
-    case ClosureKind::sav: return 12;
-    case ClosureKind::dm: return 21;
-    case ClosureKind::avf: return 22;
-    case ClosureKind::none:
-      return method.composition == Composition::collocation
-                 ? doubles_of_collocation(method.order, size, variable_steps, slots)
-                 : doubles_of_one_step(method.order, size, variable_steps, slots);
-    case ClosureKind::lm: break;
-  }
-  return 27;
+  const MethodKind& kind = method.kind;
+  return kind.doubles_with_tables ? kind.doubles_with_tables(method.order, size, variable_steps, slots) : kind.doubles;
 }
 
 // Friction, forces and what of S changes with z work on values at the points; and where such things stand, the forces
@@ -53,7 +24,7 @@ double doubles_of_drives(const MethodEntry& method, const Problem& problem, doub
   if (problem.friction) doubles += 4;
   if (problem.has_forces()) doubles += 2;
   if (problem.structure) doubles += 5;
-  return doubles + (doubles > 0 && method.closure == ClosureKind::none ? 0.7 * without : 0);
+  return doubles + (doubles > 0 && !method.has_closure() ? 0.7 * without : 0);
 }
 
 // Measured with lines of 10⁵ points and planes of 300². Matrices are stored by rows and by columns, in pieces and with
@@ -66,7 +37,7 @@ double bytes_of_sparse(const MethodEntry& method, const Problem& problem) {
                              ? static_cast<double>(problem.matrices->S.nonZeros() + problem.matrices->M.nonZeros() +
                                                    problem.matrices->D.nonZeros())
                              : static_cast<double>(problem.size()) * (2 + axes);
-  const bool factorises = method.closure != ClosureKind::none;
+  const bool factorises = method.has_closure();
   const double in_a_row = axes < 2 ? 25 : axes < 3 ? 8 * std::log2(points + 2) : 10 * std::cbrt(points);
   return of_entry * entries + (factorises ? of_factor_entry * in_a_row * points : 0);
 }

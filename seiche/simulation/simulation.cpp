@@ -9,7 +9,7 @@ namespace seiche {
 namespace {
 
 Problem as_integrated(const MethodEntry& method, const Problem& problem) {
-  if (method.composition != Composition::whole) return problem;
+  if (!method.kind.merges_damping) return problem;
   try {
     return with_damping_merged(problem);
   } catch (const Error& error) {
@@ -47,7 +47,7 @@ void require_memory(const MethodEntry& method, const Problem& problem, bool vari
   if (bytes > physical_memory())
     throw Error("{} on {} unknowns needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points{}",
                 method.name, problem.size(), bytes, physical_memory(),
-                method.closure == ClosureKind::sav ? "" : ", or seisav, which needs the least");
+                method.kind.takes_C ? "" : ", or seisav, which needs the least");
 }
 
 void require_gradient(const Problem& problem) {

@@ -80,15 +80,7 @@ RunOutcome run_one(Simulation& simulation, const RunRequest& request, const Refe
 }  // namespace
 
 MethodOptions options_for(std::string_view method, const MethodOptions& options) {
-  MethodOptions own;
-  const ClosureKind closure = find_method(method).closure;
-  if (closure == ClosureKind::sav) own.C = options.C;
-  if (closure == ClosureKind::sav || closure == ClosureKind::lm) own.auxiliary = options.auxiliary;
-  if (closure == ClosureKind::lm) own.scalar_solver = options.scalar_solver;
-  if (find_method(method).composition == Composition::nystrom) own.linear = options.linear;
-  const EnergyLaw strongest = find_method(method).projection;
-  if (options.law && strongest != EnergyLaw::none) own.law = std::max(*options.law, strongest);
-  return own;
+  return options.meant_for(find_method(method));
 }
 
 std::vector<RunOutcome> measure(const std::vector<RunRequest>& requests, const Reference& reference, int threads,

@@ -18,9 +18,9 @@ std::string methods_json() {
   Json list = Json::array();
   for (const MethodEntry& method : methods()) {
     list.push_back({{"name", method.name},
-                    {"closure", to_string(method.closure)},
+                    {"closure", method.kind.closure},
                     {"propagator", to_string(method.propagator)},
-                    {"composition", to_string(method.composition)},
+                    {"composition", method.kind.composition},
                     {"order", method.order},
                     {"law", method.kept_energy},
                     {"projection", method.projects() ? Json(to_string(method.projection)) : Json(nullptr)},

@@ -356,7 +356,7 @@ TEST(MethodStyle, EveryMethodLooksLikeNoOther) {
     const MethodStyle* style = find_method_style(method.name);
     ASSERT_NE(style, nullptr) << method.name;
     EXPECT_TRUE(colours.insert(style->line.colour).second) << method.name;
-    const bool collocation = method.composition == Composition::collocation;
+    const bool collocation = method.kind.composition == "collocation";
     const bool one_step = method.projects() && !collocation;
     const std::string marker = gnuplot_marker({.marker = style->line.marker, .filled = style->line.filled});
     EXPECT_TRUE(shapes.insert(collocation ? "long dashes, " + marker

@@ -17,7 +17,7 @@ const Reference& reference_for(const NamedProblem& c) {
   return cache[c.name] = make_reference(c.problem, sample_times(h, 50.0));
 }
 
-bool is_lm(const GoldenMethod& method) { return find_method(method.method).closure == ClosureKind::lm; }
+bool is_lm(const GoldenMethod& method) { return find_method(method.method).kind.closure == "lm"; }
 
 class GoldenErrors : public testing::TestWithParam<std::string> {};
 

@@ -276,10 +276,10 @@ std::vector<NamedProblem> all_cases() {
 
 bool applies(std::string_view method, const Problem& problem) {
   const MethodEntry& entry = find_method(method);
-  const Composition composition = entry.composition;
-  if (problem.structure) return composition == Composition::collocation || composition == Composition::runge_kutta;
-  const bool needs_momenta = composition == Composition::nystrom || composition == Composition::chin;
-  if (composition != Composition::whole && !needs_momenta) return true;
+  const MethodKind& kind = entry.kind;
+  if (problem.structure) return kind.takes_structure;
+  const bool needs_momenta = kind.composition == "nystrom" || kind.composition == "chin";
+  if (!kind.merges_damping && !needs_momenta) return true;
   try {
     if (needs_momenta)
       make_stepper(entry, find_backend("dense").system(problem, {}));

@@ -33,9 +33,7 @@ const nlohmann::json& GoldenMethod::result(double h) const {
 
 SimulationOptions GoldenMethod::options(std::string_view backend, ScalarSolver solver) const {
   SimulationOptions options{.method = method, .backend = std::string(backend)};
-  const ClosureKind closure = find_method(method).closure;
-  if (closure == ClosureKind::sav) options.method_options.C = C;
-  if (closure == ClosureKind::lm) options.method_options.scalar_solver = solver;
+  options.method_options = MethodOptions{.C = C, .scalar_solver = solver}.meant_for(find_method(method));
   if (literal) options.method_options.auxiliary = AuxiliaryMode::frozen;
   return options;
 }
