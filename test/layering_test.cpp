@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -57,7 +58,7 @@ struct ThirdParty {
 };
 const std::vector<ThirdParty> third_party = {
     {"Eigen/", {"core", "law", "backend", "method", "ensemble"}},
-    {"unsupported/Eigen/", {"method"}},
+    {"unsupported/Eigen/", {}},
     {"fftw3.h", {"backend"}},
     {"toml++/", {"config"}},
     {"ginac/", {"formula", "config"}},
@@ -267,6 +268,24 @@ TEST(Layering, ForbiddenIncludesAreRefused) {
       {"cli/main.cpp", 1, "CLI/CLI.hpp", false},
   };
   for (const Include& include : allowed) EXPECT_EQ(broken_rule(include), "") << description(include, "");
+}
+
+// Of vectors of a state in method/, run/ and simulation/ what all of it decides goes through Space, which knows who
+// else holds a part of it.
+TEST(Layering, LengthsAndMaximaOfStatesGoThroughTheirSpace) {
+  const std::regex direct(R"((\.|->)(dot|norm|squaredNorm|stableNorm|lpNorm<[^>]*>|allFinite|maxCoeff|minCoeff)\()");
+  const auto breaks = [&](const std::string& line) {
+    const std::string code = line.substr(0, line.find("//"));
+    for (std::sregex_iterator i(code.begin(), code.end(), direct), end; i != end; ++i)
+      if (!std::regex_search(i->prefix().str(), std::regex("space(_|\\(\\))?$|probe$"))) return true;
+    return false;
+  };
+  EXPECT_TRUE(breaks("  const double size = s.z.norm();"));
+  EXPECT_TRUE(breaks("  if (!z_.allFinite()) return false;"));
+  EXPECT_FALSE(breaks("  const double size = system_.space->norm(s.z) + space().dot(a, b);  // z.norm()"));
+  for (const char* folder : {"seiche/method", "seiche/run", "seiche/simulation"})
+    for (const fs::path& file : files_below(folder))
+      for (const std::string& line : lines_of(file)) EXPECT_FALSE(breaks(line)) << file << ": " << line;
 }
 
 // A room that shows more files than one looks through holds more than one idea. core/ itself is the vocabulary.

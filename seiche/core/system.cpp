@@ -20,17 +20,17 @@ System::Dissipation System::dissipation(double t, const Vector& z, const Vector&
   gradient_H += potential_gradient;
   damping->apply(t, z, scratch);
   Dissipation result;
-  result.rate = gradient_H.dot(scratch);
-  result.round_off = gradient_H.cwiseAbs().dot(scratch.cwiseAbs());
+  result.rate = space->dot(gradient_H, scratch);
+  result.round_off = space->dot(gradient_H.cwiseAbs(), scratch.cwiseAbs());
   linear->apply_S(gradient_H, scratch);
-  result.rate -= gradient_H.dot(scratch);
-  double sizes = gradient_H.cwiseAbs().dot(scratch.cwiseAbs());
+  result.rate -= space->dot(gradient_H, scratch);
+  double sizes = space->dot(gradient_H.cwiseAbs(), scratch.cwiseAbs());
   if (force) {
     scratch.setZero();
     force->add(t, 1, scratch);
-    result.work = gradient_H.dot(scratch);
+    result.work = space->dot(gradient_H, scratch);
     result.rate -= result.work;
-    sizes += gradient_H.cwiseAbs().dot(scratch.cwiseAbs());
+    sizes += space->dot(gradient_H.cwiseAbs(), scratch.cwiseAbs());
   }
   result.round_off = 100 * epsilon * (result.round_off + sizes);
   return result;

@@ -29,7 +29,7 @@ double NonlinearForce::external(double t) {
   if (!system_.force) return 0;
   rest_.setZero();
   system_.force->add(t, 1, rest_);
-  return rest_.norm();
+  return system_.space->norm(rest_);
 }
 
 void NonlinearForce::complete(double t, Vector& z) {

@@ -27,7 +27,7 @@ class AdaptiveLoop {
         events_(options.events),
         pace_(state.t, options.t_end, system.space->size()),
         time_(state.t),
-        size_(system.space->physical(state.z).lpNorm<Eigen::Infinity>()) {
+        size_(system.space->max_norm(system.space->physical(state.z))) {
     if (options.tolerance < 1e-14 * size_)
       throw Error(
           "the tolerance {:.3g} is below what double precision can tell of numbers as large as {:.3g}; write at least {:.3g}",
@@ -48,7 +48,7 @@ class AdaptiveLoop {
         return recording_.interrupt(options_.t_end);
       }
       if (!advance()) return;
-      const std::string objection = pace_.objection(state_, h_);
+      const std::string objection = pace_.objection(state_.t, h_, [&] { return system_.space->norm(state_.z); });
       if (objection.empty()) continue;
       if (unproven_) state_ = backup_;
       return recording_.fail_step(objection);
@@ -76,7 +76,7 @@ class AdaptiveLoop {
     events_.start(state_);
     Vector rate(state_.z.size());
     system_.right_hand_side(state_.t, state_.z, rate);
-    const double quotient = state_.z.norm() / rate.norm();
+    const double quotient = system_.space->norm(state_.z) / system_.space->norm(rate);
     const double left = std::min(options_.t_end, recording_.next_time()) - state_.t;
     h_ = options_.first_h > 0                      ? options_.first_h
          : std::isfinite(quotient) && quotient > 0 ? controller_.first_share() * quotient
@@ -100,7 +100,7 @@ class AdaptiveLoop {
     recording_.count(step);
     if (!step.solved()) return reject(StepController::rounded(h / 4), step.message);
     const std::optional<double> error = stepper_.error(state_);
-    const double noise = 8 * epsilon * state_.z.norm() / std::sqrt(static_cast<double>(state_.z.size()));
+    const double noise = 8 * epsilon * system_.space->norm(state_.z) / std::sqrt(static_cast<double>(state_.z.size()));
     if (!error) {
       const double unseen = stepper_.unseen(state_);
       if (unseen > noise && !controller_.accepts(unseen, h, noise)) {

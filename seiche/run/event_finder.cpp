@@ -38,7 +38,7 @@ EventFinder::Found EventFinder::begin(const System& system, const State& state) 
 
   Vector z = state.z, change(state.z.size());
   system.right_hand_side(state.t, z, change);
-  const double quotient = z.norm() / change.norm();
+  const double quotient = system.space->norm(z) / system.space->norm(change);
   const double dt = short_of * (std::isfinite(quotient) && quotient > 0 ? quotient : 1.0);
   z += dt * change;
   system.right_hand_side(state.t + dt, z, change);

@@ -47,7 +47,7 @@ bool Recording::anyone_due() const {
 bool Recording::record(bool last) {
   EnergyReading reading = stepper_.energy(state_);
   reading.ledger = ledger_;
-  if (!is_finite(reading) || !state_.z.allFinite()) {
+  if (!is_finite(reading) || !system_.space->is_finite(state_.z)) {
     fail_not_finite(is_finite(reading) ? "state" : "energy");
     return false;
   }
@@ -60,7 +60,7 @@ bool Recording::record(bool last) {
 }
 
 bool Recording::check_finite() {
-  if (state_.z.allFinite()) return true;
+  if (system_.space->is_finite(state_.z)) return true;
   fail_not_finite("state");
   return false;
 }
@@ -81,7 +81,7 @@ void Recording::show(const State& between) {
 void Recording::record_rest() {
   EnergyReading reading = stepper_.energy(state_);
   reading.ledger = ledger_;
-  if (!is_finite(reading) || !state_.z.allFinite()) {
+  if (!is_finite(reading) || !system_.space->is_finite(state_.z)) {
     state_ = good_;
     return;
   }

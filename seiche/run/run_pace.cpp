@@ -35,12 +35,12 @@ RunPace::RunPace(double t_start, double t_end, Index unknowns)
   marks_.reserve(64);
 }
 
-std::string RunPace::objection(const State& s, double h) {
+std::string RunPace::objection(double t, double h, FunctionRef<double()> size) {
   if (++attempts_ < next_) return "";
   next_ *= 2;
-  marks_.push_back({s.t, s.z.norm()});
+  marks_.push_back({t, size()});
   if (attempts_ <= beginning) usual_size_ = std::max(usual_size_, marks_.back().size);
-  return static_cast<double>(attempts_) < least_attempts ? "" : judge(s, h);
+  return static_cast<double>(attempts_) < least_attempts ? "" : judge(h);
 }
 
 double RunPace::way(std::size_t ago, std::size_t doublings) const {
@@ -56,28 +56,29 @@ bool RunPace::shrinks(double& limit) const {
   return limit < t_end_;
 }
 
-std::string RunPace::judge(const State& s, double h) const {
+std::string RunPace::judge(double h) const {
   const auto done = static_cast<double>(attempts_);
+  const Mark& now = marks_.back();
   const Mark& half = marks_[marks_.size() - 2];
   const Mark& quarter = marks_[marks_.size() - 3];
-  const double pace = (s.t - half.t) / (done / 2);
-  const double left = pace > 0 ? (t_end_ - s.t) / pace : std::numeric_limits<double>::infinity();
+  const double pace = (now.t - half.t) / (done / 2);
+  const double left = pace > 0 ? (t_end_ - now.t) / pace : std::numeric_limits<double>::infinity();
   const double work_done = done * weight_, work_left = left * weight_;
 
   double limit = 0;
-  const bool has_outgrown = s.z.norm() > outgrown * usual_size_ && work_left >= left_of_runaway;
+  const bool has_outgrown = now.size > outgrown * usual_size_ && work_left >= left_of_runaway;
   const bool is_long = work_done >= done_of_collapse && work_left >= left_of_collapse;
   if ((has_outgrown || is_long) && shrinks(limit))
     return fmt::format(
         "the steps shrink without end: the last has h = {:.3g}, every doubling of the {:.3g} attempts so far led less far than the one "
         "before, and all to come would not pass t = {:.6g}; {}",
         h, done, limit, remedies);
-  if (is_long && s.t - quarter.t < nowhere * (quarter.t - marks_.front().t))
+  if (is_long && now.t - quarter.t < nowhere * (quarter.t - marks_.front().t))
     return fmt::format(
         "the steps have collapsed: three quarters of {:.3g} attempts led from t = {:.9g} to t = {:.9g}, the last with h = {:.3g}, and t = "
         "{:.9g} would take {:.3g} more; {}",
-        done, quarter.t, s.t, h, t_end_, left, remedies);
-  const bool fades = s.z.norm() < 0.9 * half.size;
+        done, quarter.t, now.t, h, t_end_, left, remedies);
+  const bool fades = now.size < 0.9 * half.size;
   const bool is_steady = way(0, 3) <= steady * way(3, 3);
   if (is_steady && work_done >= done_of_endless * (fades ? patience : 1) && work_left > left_of_endless)
     return fmt::format(

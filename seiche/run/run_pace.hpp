@@ -1,7 +1,8 @@
 // Will a run with variable steps come to its end?
 #pragma once
 
-#include <seiche/core/state.hpp>
+#include <seiche/core/function_ref.hpp>
+#include <seiche/core/vector.hpp>
 
 #include <cstdint>
 #include <string>
@@ -19,15 +20,15 @@ namespace seiche {
 class RunPace {
  public:
   RunPace(double t_start, double t_end, Index unknowns);
-  // After every attempt, accepted or not, with the length of the last step: why the run will not come to its end; ""
-  // else.
-  std::string objection(const State& s, double h);
+  // After every attempt, accepted or not, with the length of the last step and a way to ask for |z|, which is rarely
+  // taken: why the run will not come to its end; "" else.
+  std::string objection(double t, double h, FunctionRef<double()> size);
 
  private:
   struct Mark {
     double t, size;
   };
-  std::string judge(const State& s, double h) const;
+  std::string judge(double h) const;
   double way(std::size_t ago, std::size_t doublings) const;  // in t, up to so many marks ago
   bool shrinks(double& limit) const;
 

@@ -32,7 +32,7 @@ double rate_of_solution(const System& system) {
   };
   undamped(z, f);
   const auto derivative_along = [&](const Vector& direction) -> Vector {
-    const double step = 1e-6 * (1 + z.norm()) / std::max(direction.norm(), 1e-300);
+    const double step = 1e-6 * (1 + system.space->norm(z)) / std::max(system.space->norm(direction), 1e-300);
     Vector forward(z.size()), back(z.size());
     moved = z + step * direction;
     undamped(moved, forward);
@@ -40,9 +40,9 @@ double rate_of_solution(const System& system) {
     undamped(moved, back);
     return (forward - back) / (2 * step);
   };
-  const double speed = f.norm();
+  const double speed = system.space->norm(f);
   if (!(speed > 0)) return 0;
-  return std::sqrt(derivative_along(derivative_along(f)).norm() / speed);
+  return std::sqrt(system.space->norm(derivative_along(derivative_along(f))) / speed);
 }
 
 // D = γ(t)P with P the projector on all momenta?

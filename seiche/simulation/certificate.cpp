@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/generic_state.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/law/operator_hypotheses.hpp>
 #include <seiche/run/adaptive.hpp>
@@ -70,19 +71,15 @@ Hypothesis hypothesis_of_forces(const Problem& problem) {
 // wᵀS(z)w = 0 for random z and w, as far as round-off lets one see.
 Hypothesis hypothesis_of_structure(const Problem& problem, const System& system) {
   const std::string name = "S(z) skew";
-  const Index n = system.space->physical_size();
-  Vector z(system.space->size()), w(z), out(z), values(n);
+  Vector z(system.space->size()), w(z), out(z);
   std::mt19937_64 random(1);
-  std::normal_distribution<double> normal;
   constexpr int samples = 16;
   double worst = 0;
   for (int i = 0; i < samples; ++i) {
-    for (Vector* v : {&z, &w}) {
-      for (double& x : values) x = normal(random);
-      system.space->from_physical(values, *v);
-    }
+    z = random_state(*system.space, random);
+    w = random_state(*system.space, random);
     system.structure->apply(z, w, out);
-    worst = std::max(worst, std::abs(w.dot(out)) / std::max(w.cwiseAbs().dot(out.cwiseAbs()), 1e-300));
+    worst = std::max(worst, std::abs(system.space->dot(w, out)) / std::max(system.space->absolute_dot(w, out), 1e-300));
   }
   const bool skew = worst <= 1e3 * epsilon;
   return {name, skew ? Grade::sampled : Grade::violated,

@@ -49,8 +49,8 @@ std::string beyond_splitting(const Simulation& simulation, double h) {
   pushed += damped;
   system.damping->apply_D0(pushed, damped);
   system.damping->apply_D0(damped, damped_twice);
-  const double length = damped.norm();
-  const double rate = length > 0 ? damped_twice.norm() / length : 0;
+  const double length = system.space->norm(damped);
+  const double rate = length > 0 ? system.space->norm(damped_twice) / length : 0;
   if (!(h * rate > 2)) return "";
   const bool of_order_four = method.order == 4;
   return fmt::format(

@@ -3,6 +3,7 @@
 #include <seiche/core/vector.hpp>
 #include <seiche/run/energy_book.hpp>
 #include <seiche/run/integrate.hpp>
+#include <test/support/plain_space.hpp>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -100,6 +101,7 @@ class Recorder : public Observer {
 class TimeLoop : public testing::Test {
  protected:
   TimeLoop() {
+    system.space = std::make_unique<test::PlainSpace>(2);
     system.potential = std::make_unique<NoPotential>();
     state.z = Vector::Zero(2);
   }

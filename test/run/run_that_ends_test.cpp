@@ -87,13 +87,11 @@ struct Pace {
 
   std::int64_t ended_at(std::string* why = nullptr) const {
     RunPace pace(0, t_end, unknowns);
-    State s;
-    s.z = Vector::Zero(1);
-    for (std::int64_t n = 1; n <= most && s.t < t_end; ++n) {
-      const double step = h(s.t);
-      s.t += step;
-      s.z[0] = size(s.t);
-      const std::string reason = pace.objection(s, step);
+    double t = 0;
+    for (std::int64_t n = 1; n <= most && t < t_end; ++n) {
+      const double step = h(t);
+      t += step;
+      const std::string reason = pace.objection(t, step, [&] { return size(t); });
       if (reason.empty()) continue;
       if (why != nullptr) *why = reason;
       return n;

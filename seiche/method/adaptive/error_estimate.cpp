@@ -54,8 +54,8 @@ class Estimated final : public AdaptiveStepper {
     maps.end->apply(before_.z, forces_, out_);
     out_[0] -= s.z;
     system_.space->to_physical(out_[0], physical_);
-    if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
-    return physical_.lpNorm<Eigen::Infinity>();
+    if (!system_.space->is_finite(physical_)) return std::numeric_limits<double>::infinity();
+    return system_.space->max_norm(physical_);
   }
 
   void undo(State& s) override {

@@ -56,8 +56,8 @@ class Doubled final : public AdaptiveStepper {
   std::optional<double> error(const State& s) override {
     difference_ = whole_.z - s.z;
     system_.space->to_physical(difference_, physical_);
-    if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
-    return std::max(0.0, physical_.lpNorm<Eigen::Infinity>() - moved_) / (std::exp2(order_) - 1);
+    if (!system_.space->is_finite(physical_)) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, system_.space->max_norm(physical_) - moved_) / (std::exp2(order_) - 1);
   }
 
   void undo(State& s) override { s = before_; }

@@ -11,8 +11,6 @@ namespace {
 constexpr int max_sweeps = 100;
 constexpr double stagnation = 100;  // in units of the tolerance: round-off of F may hold the update above 4ε
 
-double max_norm(const Vector& v) { return v.lpNorm<Eigen::Infinity>(); }
-
 class AvfClosure final : public Closure {
  public:
   explicit AvfClosure(const System& system)
@@ -39,8 +37,9 @@ double AvfClosure::sweep(const Vector& z, const Vector& z_plus, const Propagator
   potential().mean_gradient(z, z_plus, mean_);
   propagator.force(mean_, q_);
   next = z + start_.dz + q_;
-  const double update = (next - z_plus).lpNorm<Eigen::Infinity>();
-  return update / std::max(4 * epsilon * (max_norm(next) + max_norm(q_)), std::numeric_limits<double>::min());
+  const double update = space().max_norm(next - z_plus);
+  return update /
+         std::max(4 * epsilon * (space().max_norm(next) + space().max_norm(q_)), std::numeric_limits<double>::min());
 }
 
 bool AvfClosure::sweep_to_fixed_point(const Vector& z, const Propagator& propagator, StepReport& report) {
@@ -62,7 +61,7 @@ double AvfClosure::residual(const Vector& z, const Propagator& propagator) {
   sweep(z, start_.z_plus, propagator, next_);
   q_ = 0.5 * (start_.z_plus + next_);
   system().linear->apply_M(q_, start_.q);
-  return (start_.q + mean_).dot(start_.z_plus - next_);
+  return space().dot(start_.q + mean_, start_.z_plus - next_);
 }
 
 //   z⁺ = Ez + F ∫₀¹ ∇V(z + s(z⁺ − z)) ds
@@ -78,7 +77,7 @@ StepReport AvfClosure::advance(State& s, Propagators& propagators, double t, dou
       out = z_plus - out;
       return size;
     };
-    const NewtonKrylovReport solved = newton_krylov(residual, start_.z_plus, stagnation);
+    const NewtonKrylovReport solved = newton_krylov(space(), residual, start_.z_plus, stagnation);
     report.scalar_iterations += solved.iterations;
     if (!solved.converged) {
       report.status = StepReport::Status::failed;

@@ -25,7 +25,7 @@ bool Closure::nothing_changes_H() const {
   const Vector z = generic_state(*system_.space);
   Vector Sz(z.size());
   system_.linear->apply_S(z, Sz);
-  return std::abs(z.dot(Sz)) <= 1e-13 * z.norm() * Sz.norm();
+  return std::abs(space().dot(z, Sz)) <= 1e-13 * space().norm(z) * space().norm(Sz);
 }
 
 ExplicitStep::ExplicitStep(Index size) {

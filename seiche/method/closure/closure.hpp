@@ -43,6 +43,7 @@ class Closure {
   virtual void read_modified(const State&, const ValueAndMagnitude& /*quadratic*/, EnergyReading&) const {}
   const System& system() const { return system_; }
   const Potential& potential() const { return *system_.potential; }
+  const Space& space() const { return *system_.space; }
 
  private:
   const System& system_;

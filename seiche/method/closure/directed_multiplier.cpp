@@ -9,7 +9,7 @@ namespace seiche {
 DirectedMultiplier::DirectedMultiplier(const System& system)
     : system_(system),
       start_(system.space->size()),
-      equation_(*system.potential, system.space->size()),
+      equation_(*system.space, *system.potential),
       q_(system.space->size()) {}
 
 StepReport DirectedMultiplier::advance(Vector& z, Propagators& propagators, double h, std::optional<double> energy,
@@ -32,7 +32,7 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
 
   // λd stands in for ḡ − ĝ: a root that asks for much more is another one.
   const Potential::Support support = system_.potential->support();
-  const double correction = std::abs(root.x) * d.segment(support.begin, support.size).stableNorm();
+  const double correction = std::abs(root.x) * system_.space->stable_norm(d.segment(support.begin, support.size));
   const bool near =
       correction <= 4 * equation_.gradient_gap() && equation_.gradient_gap() <= equation_.mean_gradient_norm();
   if (root.converged && (near || equation_.at(0).is_negligible())) {

@@ -16,7 +16,7 @@ class LmClosure final : public Closure {
         solver_(options.auxiliary == AuxiliaryMode::frozen ? ScalarSolver::newton : options.scalar_solver),
         frozen_(options.auxiliary == AuxiliaryMode::frozen && system.damping->touches_potential()),
         start_(system.space->size()),
-        equation_(*system.potential, system.space->size()),
+        equation_(*system.space, *system.potential),
         directed_(system),
         conserves_(solver_ == ScalarSolver::robust && nothing_changes_H()) {
     if (frozen_ && !system.damping->is_linear())

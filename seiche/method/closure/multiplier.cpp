@@ -4,18 +4,12 @@
 #include <cmath>
 
 namespace seiche {
-namespace {
-
-double absolute_dot(const Vector& a, const Vector& b) { return (a.array() * b.array()).abs().sum(); }
-
-}  // namespace
-
-MultiplierEquation::MultiplierEquation(const Potential& potential, Index size)
-    : potential_(potential), mean_(Vector::Zero(size)) {
+MultiplierEquation::MultiplierEquation(const Space& space, const Potential& potential)
+    : space_(space), potential_(potential), mean_(Vector::Zero(space.size())) {
   if (potential.degree() > 0) {
     coefficients_.resize(static_cast<std::size_t>(std::max(potential.degree(), 2)) + 1);
   } else {
-    for (Vector* v : {&end_, &gradient_, &increment_}) v->setZero(size);
+    for (Vector* v : {&end_, &gradient_, &increment_}) v->setZero(space.size());
   }
 }
 
@@ -25,20 +19,20 @@ void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
   const Vector& end = measured_at ? measured_at->end : line.z_plus;
   const Vector& direction = measured_at ? measured_at->direction : line.q;
 
-  potential_.mean_gradient(start, end, mean_);  // ḡ(0)
-  gap_norm_ = (mean_ - line.g).stableNorm();    // squares of what has decayed would underflow
-  mean_norm_ = mean_.stableNorm();
-  gd_ = line.g.dot(line.delta);
-  linear_ = line.g.dot(line.q) + line.e.dot(line.delta);
-  eq_ = line.e.dot(line.q);
+  potential_.mean_gradient(start, end, mean_);     // ḡ(0)
+  gap_norm_ = space_.stable_norm(mean_ - line.g);  // squares of what has decayed would underflow
+  mean_norm_ = space_.stable_norm(mean_);
+  gd_ = space_.dot(line.g, line.delta);
+  linear_ = space_.dot(line.g, line.q) + space_.dot(line.e, line.delta);
+  eq_ = space_.dot(line.e, line.q);
   const Potential::Support support = potential_.support();
-  const double sizes = line.g.norm() * line.delta.segment(support.begin, support.size).norm();
+  const double sizes = space_.norm(line.g) * space_.norm(line.delta.segment(support.begin, support.size));
   cosine_ = sizes > 0 ? gd_ / sizes : 0;
-  const double work =
-      measured_at ? (mean_.array() * (end - start).array()).abs().sum() : absolute_dot(mean_, line.delta);
-  scales_ = {work + absolute_dot(line.g, line.delta),
-             absolute_dot(mean_, direction) + absolute_dot(line.g, line.q) + absolute_dot(line.e, line.delta),
-             absolute_dot(line.e, line.q)};
+  const double work = measured_at ? space_.absolute_dot(mean_, end - start) : space_.absolute_dot(mean_, line.delta);
+  scales_ = {work + space_.absolute_dot(line.g, line.delta),
+             space_.absolute_dot(mean_, direction) + space_.absolute_dot(line.g, line.q) +
+                 space_.absolute_dot(line.e, line.delta),
+             space_.absolute_dot(line.e, line.q)};
 
   if (coefficients_.empty()) {
     delta_ = &line.delta;
@@ -53,7 +47,8 @@ void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
   }
   std::fill(coefficients_.begin(), coefficients_.end(), 0.0);
   potential_.along(end, direction, std::span(coefficients_.data(), static_cast<std::size_t>(potential_.degree()) + 1));
-  coefficients_[0] = measured_at ? mean_.dot(end - start) - gd_ : (mean_ - line.g).dot(line.delta);  // F(0)
+  coefficients_[0] =
+      measured_at ? space_.dot(mean_, end - start) - gd_ : space_.dot(mean_ - line.g, line.delta);  // F(0)
   coefficients_[1] -= linear_;
   coefficients_[2] -= eq_;
 }
@@ -76,12 +71,12 @@ MultiplierEquation::Value MultiplierEquation::at_by_quadrature(double x) {
   potential_.gradient(end_, gradient_);
   double F = 0;
   if (measured_elsewhere_) {
-    F = mean_.dot(end_ - *start_) - (gd_ + x * (linear_ + x * eq_));
+    F = space_.dot(mean_, end_ - *start_) - (gd_ + x * (linear_ + x * eq_));
   } else {
     increment_ = *delta_ + x * *q_;
-    F = (mean_ - *g_ - x * *e_).dot(increment_);
+    F = space_.dot(mean_ - *g_ - x * *e_, increment_);
   }
-  return {F + left_, gradient_.dot(*direction_) - (linear_ + 2 * x * eq_),
+  return {F + left_, space_.dot(gradient_, *direction_) - (linear_ + 2 * x * eq_),
           scales_[0] + std::abs(x) * (scales_[1] + std::abs(x) * scales_[2])};
 }
 

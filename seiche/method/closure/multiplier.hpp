@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/potential.hpp>
+#include <seiche/core/space.hpp>
 
 #include <algorithm>
 #include <array>
@@ -46,7 +47,7 @@ class MultiplierEquation {
   };
   enum class Stop { residual, residual_or_update };
 
-  MultiplierEquation(const Potential& potential, Index size);
+  MultiplierEquation(const Space& space, const Potential& potential);  // which outlive it
   // The vectors of the line must live and keep their values for as long as the equation is evaluated.
   void set(const Line& line, const MeasuredAt* measured_at = nullptr);
   // What the steps before have left of the law, F is to make up for: F(x) + left = 0, until the next `set`. No more
@@ -68,6 +69,7 @@ class MultiplierEquation {
  private:
   Value at_by_quadrature(double x);
 
+  const Space& space_;
   const Potential& potential_;
   std::vector<double> coefficients_;  // of F, for polynomial V; empty otherwise
   std::array<double, 3> scales_{};    // of 1, |x|, x²

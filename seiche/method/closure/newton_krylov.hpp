@@ -1,7 +1,7 @@
 // Newton's method for G(y) = 0 with GMRES on difference quotients of G: the fallback of implicit closures.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/space.hpp>
 
 #include <functional>
 
@@ -17,6 +17,6 @@ struct NewtonKrylovReport {
 using Residual = std::function<double(const Vector& y, Vector& out)>;
 
 // Improves y until |G(y)| ≤ 1, or until it stops falling below `stagnation`. Allocates.
-NewtonKrylovReport newton_krylov(const Residual& residual, Vector& y, double stagnation);
+NewtonKrylovReport newton_krylov(const Space& space, const Residual& residual, Vector& y, double stagnation);
 
 }  // namespace seiche

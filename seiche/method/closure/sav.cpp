@@ -79,7 +79,7 @@ void SavClosure::impulse(State& s, double t, double h) {
   if (transports) s.r_squared += potential().value(s.z) - v_before;
 }
 
-StepReport left_the_numbers(double v_mid, double t, double h) {
+StepReport not_finite(double v_mid, double t, double h) {
   return {.status = StepReport::Status::failed,
           .message = fmt::format("the solution is no longer finite: V(ẑ) = {} at t = {:.6g} with h = {:.6g}",
                                  number_text(v_mid), t, h)};
@@ -92,9 +92,9 @@ double SavClosure::margin_against_drift(double drift, double margin) {
   constexpr double share = 0.1;
   system().linear->apply_S(g_, pushed_);
   const double wanted = std::abs(drift) / (2 * share * error_rate_);
-  if (wanted * pushed_.norm() < margin) return 0;  // which bounds the max norm, and saves a transform
-  system().space->to_physical(pushed_, physical_);
-  return wanted * physical_.lpNorm<Eigen::Infinity>();
+  if (wanted * space().norm(pushed_) < margin) return 0;  // which bounds the max norm, and saves a transform
+  space().to_physical(pushed_, physical_);
+  return wanted * space().max_norm(physical_);
 }
 
 // Where V + C or r² has become small against the energy, or drifts too far apart, C and r² rise together: H̃ does not
@@ -127,7 +127,7 @@ StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double
     potential().gradient(s.z, g_);
   propagator.predict(s.z, g_, g_, flows.before);                // ẑ, from z⁻
   const double v_mid = potential().value_and_gradient(g_, g_);  // V(ẑ) and ĝ
-  if (!std::isfinite(v_mid)) return left_the_numbers(v_mid, t, h);
+  if (!std::isfinite(v_mid)) return not_finite(v_mid, t, h);
   const double against_drift = drift != 0 ? margin_against_drift(drift, v_mid + s.shift) : 0;
 
   bool solved = false;
@@ -152,7 +152,7 @@ StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double
   if (solved) return report;
   s.r_squared = r_squared;
   s.shift = shift;
-  if (v_mid + s.shift > 0) return left_the_numbers(v_mid, t, h);
+  if (v_mid + s.shift > 0) return not_finite(v_mid, t, h);
   return {.status = StepReport::Status::failed,
           .message = fmt::format("V(ẑ) + C = {:.6g} must be > 0 at t = {:.6g}; C = {:.6g} would do", v_mid + s.shift, t,
                                  s.shift + 2 * (s.energy_scale + std::abs(v_mid)))};

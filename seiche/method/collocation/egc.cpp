@@ -51,7 +51,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     if (output_.kind == PhiRows::Forces::gradients) {
       moment_ = generic_state(*system.space);
       as_rate(moment_);
-      moves_itself_ = moment_.segment(of_forces_.begin, of_forces_.size).squaredNorm() > 0;
+      moves_itself_ = space().squared_norm(moment_.segment(of_forces_.begin, of_forces_.size)) > 0;
     }
   }
 
@@ -75,8 +75,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     if (last_.history_h == 0) return std::nullopt;
     const double unseen = this->unseen(s);
     system_.space->to_physical(extension_.defect(last_, forces_, s.history), physical_);
-    if (!physical_.allFinite()) return std::numeric_limits<double>::infinity();
-    const double of_linear_flow = physical_.lpNorm<Eigen::Infinity>();
+    if (!space().is_finite(physical_)) return std::numeric_limits<double>::infinity();
+    const double of_linear_flow = space().max_norm(physical_);
     const double of_polynomial = std::max({of_linear_flow, of_nonlinear_part(s, of_linear_flow), unseen});
     const double of_forces = std::max(of_polynomial, unsolved(s, of_polynomial));
     // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is
@@ -84,7 +84,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     const double displacement = projected_.last().displacement - projected_.last().blur;
     if (displacement <= of_forces) return of_forces;
     system_.space->to_physical(s.z, physical_);
-    const double share = physical_.lpNorm<Eigen::Infinity>() / physical_.norm();
+    const double share = space().max_norm(physical_) / space().norm(physical_);
     return std::max(of_forces, displacement * (std::isfinite(share) ? share : 1.0));
   }
 
@@ -107,7 +107,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     };
     system_.damping->add_unseen(t, h, of_rule(rule_.nodes), of_rule(rule_.weights), s.z, unseen_);
     system_.space->to_physical(unseen_, physical_);
-    const double largest = physical_.lpNorm<Eigen::Infinity>();
+    const double largest = space().max_norm(physical_);
     return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
   }
 
@@ -152,10 +152,10 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     if (!moves_itself_) return 0;
     extension_.moment(last_, forces_, s.history, moment_);
     as_rate(moment_);
-    const double moved = moment_.norm();
+    const double moved = space().norm(moment_);
     change_ = s.history.back() - forces_.back();
     as_rate(change_);
-    const double steepness = change_.norm() / (s.z - projected_.before()).norm();
+    const double steepness = space().norm(change_) / space().norm(s.z - projected_.before());
     constexpr double little = 0.25;
     if (!(little * steepness * moved > of_linear_flow)) return 0;
     const double t = projected_.last().t + last_.h;
@@ -167,7 +167,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     as_rate(moment_);
     system_.space->to_physical(moment_, physical_);
     constexpr double with_higher_moments = 2;  // of N′², N′³, …, and the quadrature of N itself: as large together
-    return with_higher_moments * physical_.lpNorm<Eigen::Infinity>();
+    return with_higher_moments * space().max_norm(physical_);
   }
 
   // A force, as PhiRows has it, as what it adds to ż.
@@ -191,9 +191,9 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
         calibration * last_.h * convergence_ *
         (s.history.back().segment(of_forces_.begin, of_forces_.size) - components_before_);
     as_rate(change_);
-    if (change_.norm() <= enough) return enough;  // which bounds the max norm
+    if (space().norm(change_) <= enough) return enough;  // which bounds the max norm
     system_.space->to_physical(change_, physical_);
-    return physical_.lpNorm<Eigen::Infinity>();
+    return space().max_norm(physical_);
   }
 
   struct Tables {
@@ -225,7 +225,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       forces_[0] = s.z;
       force_.evaluate(t, forces_[0]);
       for (std::size_t i = 1; i < forces_.size(); ++i) forces_[i] = forces_[0];
-      return forces_[0].segment(of_forces_.begin, of_forces_.size).norm();
+      return space().norm(forces_[0].segment(of_forces_.begin, of_forces_.size));
     }
     const double ratio = h / s.history_h;
     const Eigen::MatrixXd& extrapolation = extrapolations_.at(ratio, [&] {
@@ -240,7 +240,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   void sweep(const State& s, double t, double h, const PhiMap& nodes) {
     SweepControl control(stages(), s.history_h != 0, may_save_sweeps_);
     double change = 0, change_before = 0;
-    const auto error = [&] { return extension_.defect({h, s.history_h}, s.history, forces_).norm(); };
+    const auto error = [&] { return space().norm(extension_.defect({h, s.history_h}, s.history, forces_)); };
     do {
       components_before_ = forces_.back().segment(of_forces_.begin, of_forces_.size);
       nodes.apply(s.z, forces_, forces_);
@@ -269,7 +269,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     const Tables& of_h = tables(h, steps_are_alike_);
     double pushed = predict(s, t, h);
     for (const double c : rule_.nodes) pushed = std::max(pushed, force_.external(t + c * h));
-    const double size = s.z.norm() + h * pushed;
+    const double size = space().norm(s.z) + h * pushed;
     sweep(s, t, h, *of_h.nodes);
     coarse_ = {};
     for (std::size_t i = 0; i < seen_.size(); ++i) {
@@ -277,7 +277,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       dissipation_.add(t + rule_.nodes[at] * h, seen_[i].node, seen_[i].gradient, h * rule_.weights[at], coarse_);
     }
     of_h.end->apply(s.z, forces_, {&z, 1});
-    return may_be_solution(z, size);
+    return may_be_solution(space(), z, size);
   }
 
   std::string_view failure() const override { return "the collocation equations were not solved"; }
@@ -301,6 +301,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     s.history.swap(forces_);
     s.history_h = resolved ? h : 0;
   }
+
+  const Space& space() const { return *system_.space; }
 
   const System& system_;
   std::unique_ptr<PhiEvaluator> phi_;

@@ -11,7 +11,7 @@ namespace {
 class Composed : public Stepper {
  public:
   Composed(const System& system, PropagatorKind propagator, std::unique_ptr<Closure> closure)
-      : propagators_(*system.linear, propagator), closure_(std::move(closure)) {}
+      : space_(*system.space), propagators_(*system.linear, propagator), closure_(std::move(closure)) {}
 
   void begin(State& s) override {
     const double H = closure_->energy(s).H;
@@ -69,7 +69,7 @@ class Composed : public Stepper {
   StepReport or_restore(State& s, double h, const Parts& parts) {
     saved_ = s;
     StepReport report = parts();
-    if (report.solved() && !s.z.allFinite()) {
+    if (report.solved() && !space_.is_finite(s.z)) {
       report.status = StepReport::Status::failed;
       report.message =
           fmt::format("the solution is no longer finite in the step from t = {:.6g} with h = {:.6g}", s.t, h);
@@ -82,6 +82,7 @@ class Composed : public Stepper {
   Propagators& propagators() { return propagators_; }
 
  private:
+  const Space& space_;
   Propagators propagators_;
   std::unique_ptr<Closure> closure_;
   State saved_;

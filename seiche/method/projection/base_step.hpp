@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/simd/squared_norm.hpp>
+#include <seiche/core/space.hpp>
 #include <seiche/core/state.hpp>
 #include <seiche/method/projection/step_dissipation.hpp>
 
@@ -13,9 +14,9 @@ namespace seiche {
 
 // May ẑ be a solution? `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN; a
 // solution that has faded until its square underflows is one.
-inline bool may_be_solution(const Vector& z, double size) {
+inline bool may_be_solution(const Space& space, const Vector& z, double size) {
   constexpr double gross_growth = 1e3;
-  const double grown = squared_norm(z);
+  const double grown = space.sum(squared_norm(z));
   return std::isfinite(grown) && (grown < std::numeric_limits<double>::min() || grown <= square(gross_growth * size));
 }
 

@@ -54,15 +54,15 @@ void EnergyLine::turn_downhill(const PhiEvaluator& phi) {
   take_gradients();
   scratch_.trial += scratch_.gradient;  // ∇H
   if (!without_casimirs(system_, phi, scratch_.trial, scratch_.d)) scratch_.d = scratch_.trial;
-  const double length = scratch_.d.norm();
-  if (length > 0) scratch_.d *= z_.norm() / length;
+  const double length = system_.space->norm(scratch_.d);
+  if (length > 0) scratch_.d *= system_.space->norm(z_) / length;
 }
 
 EnergyLine::Slope EnergyLine::slope() {
   if (slope_) return *slope_;
   take_gradients();
-  const double of_K = scratch_.d.dot(scratch_.trial);
-  const double of_V = scratch_.d.dot(scratch_.gradient);
+  const double of_K = system_.space->dot(scratch_.d, scratch_.trial);
+  const double of_V = system_.space->dot(scratch_.d, scratch_.gradient);
   slope_ = Slope{of_K + of_V, std::abs(of_K) + std::abs(of_V)};
   return *slope_;
 }

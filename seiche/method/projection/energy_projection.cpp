@@ -80,7 +80,7 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
 
 bool EnergyProjection::moved_far(const Outcome& outcome, const Vector& z) const {
   if (std::abs(outcome.computed - outcome.H) <= 0.01 * std::abs(outcome.H - rest_)) return false;  // saves the norm
-  return squared_norm(z) < square(10 * outcome.displacement);
+  return system_.space->sum(squared_norm(z)) < square(10 * outcome.displacement);
 }
 
 // z from `here` on its line to where H is what it should be; false, with z as it was, if the secant iteration does not
@@ -99,7 +99,7 @@ bool EnergyProjection::solve(EnergyLine& line, EnergyLine::Parts here, const Ene
   }
   if (!(miss(here) <= here.loss()) || !(here.H() <= aim.cap + slack(here, aim))) return false;
   if (here.lambda != 0) {
-    outcome.displacement = std::abs(here.lambda) * line.direction().norm();
+    outcome.displacement = std::abs(here.lambda) * system_.space->norm(line.direction());
     line.move(z, here.lambda);
   }
   outcome.admissible = true;
@@ -122,7 +122,7 @@ bool EnergyProjection::bisect(const EnergyLine& line, double goal, Vector& z, Ou
     else
       high = parts.lambda;
   }
-  outcome.displacement = std::abs(low.lambda) * line.direction().norm();
+  outcome.displacement = std::abs(low.lambda) * system_.space->norm(line.direction());
   line.move(z, low.lambda);
   outcome.admissible = true;
   outcome.H = low.H();

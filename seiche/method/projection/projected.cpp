@@ -144,7 +144,7 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
     if (strict || !may_flow_freely_) return Taken::unresolved;
     amount = {};
     free_.at(h, make_free).apply(s.z, {}, {&z_, 1});
-    if (!z_.allFinite()) return Taken::unresolved;
+    if (!system_.space->is_finite(z_)) return Taken::unresolved;
     ++report.fallbacks;
     outcome = projection_.project(z_, [&](double computed) {
       const bool conserves = kind == StepDissipation::Kind::none;
@@ -184,7 +184,7 @@ bool Projected::has_grown_beyond_reason(const EnergyProjection::Outcome& outcome
 // s is still as it was before the step, and z_ what it is to become.
 void Projected::note_replaced(StepReport& report, const State& s, std::string_view why) const {
   constexpr double least = 0.1;
-  const bool ruinous = squared_norm(z_) < square(least) * squared_norm(s.z);
+  const bool ruinous = system_.space->sum(squared_norm(z_)) < square(least) * system_.space->sum(squared_norm(s.z));
   report.replaced = {.count = 1, .ruinous = report.replaced.ruinous || ruinous, .why = why, .remedy = base_.remedy()};
 }
 

@@ -10,6 +10,7 @@ class ExponentialRungeKutta final : public BaseStep {
  public:
   ExponentialRungeKutta(const System& system, const PhiEvaluator& phi, const ExponentialTableau& tableau)
       : tableau_(tableau),
+        space_(*system.space),
         phi_(phi),
         force_(system),
         output_(output_of(tableau.C)),
@@ -22,15 +23,15 @@ class ExponentialRungeKutta final : public BaseStep {
     const Tables& of_h = cache_.at(h, [&] { return std::make_unique<Tables>(make_tables(h)); });
     forces_[0] = s.z;
     force_.evaluate(t, forces_[0]);
-    double pushed = forces_[0].norm();
+    double pushed = space_.norm(forces_[0]);
     for (const double c : {0.5, 1.0}) pushed = std::max(pushed, force_.external(t + c * h));
-    const double size = s.z.norm() + h * pushed;
+    const double size = space_.norm(s.z) + h * pushed;
     for (std::size_t i = 1; i < forces_.size(); ++i) {
       of_h.stages[i - 1]->apply(s.z, {forces_.data(), i}, {&forces_[i], 1});
       force_.evaluate(t + tableau_.stages[i - 1].c * h, forces_[i]);
     }
     of_h.end->apply(s.z, used(), {&z, 1});
-    return may_be_solution(z, size);
+    return may_be_solution(space_, z, size);
   }
 
   std::string_view failure() const override { return "the result of the exponential Runge–Kutta scheme is not finite"; }
@@ -78,6 +79,7 @@ class ExponentialRungeKutta final : public BaseStep {
   }
 
   const ExponentialTableau& tableau_;
+  const Space& space_;
   const PhiEvaluator& phi_;
   NonlinearForce force_;
   StepOutput output_;

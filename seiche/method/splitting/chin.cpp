@@ -62,7 +62,7 @@ class Chin final : public BaseStep {
     if (!outcome.admissible) return false;
     moved_far_ = moved_far_ || projection_.moved_far(outcome, end_);
     inner_.z.swap(end_);
-    return inner_.z.allFinite();
+    return system_.space->is_finite(inner_.z);
   }
 
   const System& system_;

@@ -34,6 +34,7 @@ class Nystrom : public BaseStep {
 
  protected:
   const System& system() const { return system_; }
+  const Space& space() const { return *system_.space; }
   const MomentumForm& form() const { return form_; }
   const NystromScheme& scheme() const { return scheme_; }
   void set_taken(double by_damping) { taken_ = by_damping; }  // of the step
@@ -65,7 +66,7 @@ class OneByOne : public Nystrom {
       kick(b[i + 1] * h, z);
     }
     set_taken(taken);
-    return may_be_solution(z, s.z.norm() + force) || flow_alone(s, h, z);
+    return may_be_solution(space(), z, space().norm(s.z) + force) || flow_alone(s, h, z);
   }
 
  protected:
@@ -82,11 +83,11 @@ class OneByOne : public Nystrom {
     const auto g = gradient_.segment(form().positions.begin, form().positions.size);
     if (form().canonical) {
       z.tail(form().positions.size) -= h * g;
-      return std::abs(h) * g.norm();
+      return std::abs(h) * space().norm(g);
     }
     system().linear->apply_S(gradient_, kick_);
     z += h * kick_;
-    return std::abs(h) * kick_.norm();
+    return std::abs(h) * space().norm(kick_);
   }
 
   Vector gradient_, kick_;
@@ -126,7 +127,7 @@ class ExactFlows final : public OneByOne {
 
   // Every stage is a time inside the step, although some flows lead back.
   bool flow_alone(const State& s, double h, Vector& z) override {
-    const double nothing = epsilon * s.z.lpNorm<Eigen::Infinity>();
+    const double nothing = epsilon * space().max_norm(s.z);
     const double before = system().linear->quadratic_energy(s.z);
     double time = 0;
     z = s.z;
@@ -137,7 +138,7 @@ class ExactFlows final : public OneByOne {
       time = i + 1 < scheme().flows() ? time + scheme().a[i] : 1;
       phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, time * h)->apply(s.z, {}, {&work_, 1});
       z = work_;
-      if (!z.allFinite()) return false;
+      if (!space().is_finite(z)) return false;
     }
     set_taken(dissipates() ? before - system().linear->quadratic_energy(z) : 0);
     return true;
@@ -199,7 +200,7 @@ class Drifts final : public OneByOne {
     const double decay = of_h_[i].decay;
     const Potential::Support u = form().positions;
     if (form().canonical) {
-      const double twice_T = dissipates() ? z.tail(u.size).squaredNorm() : 0;
+      const double twice_T = dissipates() ? space().squared_norm(z.tail(u.size)) : 0;
       z.head(u.size) += length * z.tail(u.size);
       z.tail(u.size) *= decay;
       return twice_T * (1 - decay * decay) / 2;
@@ -207,7 +208,7 @@ class Drifts final : public OneByOne {
     momenta_ = z;
     momenta_.segment(u.begin, u.size).setZero();
     system().linear->apply_M(momenta_, Mz_);
-    const double twice_T = momenta_.dot(Mz_);
+    const double twice_T = space().dot(momenta_, Mz_);
     system().linear->apply_S(Mz_, kick_);
     z += (decay - 1) * momenta_ + length * kick_;
     return twice_T * (1 - decay * decay) / 2;
@@ -240,8 +241,8 @@ class FewPasses final : public Nystrom {
     const Kicks::Report report = kicks_->split(stages_.at(h), b.back() * h, s.z, z);
     set_taken(report.taken);
     // |p| and |p − b₀hF| bound b₀h|F|. That is looser than |zⁿ| + h|F|, and costs no pass of its own.
-    const double before = std::sqrt(squared_norm(s.z));
-    return may_be_solution(z, before + (before + std::sqrt(report.kicked)) / std::abs(b[0]));
+    const double before = std::sqrt(space().sum(squared_norm(s.z)));
+    return may_be_solution(space(), z, before + (before + std::sqrt(space().sum(report.kicked))) / std::abs(b[0]));
   }
 
  private:

@@ -41,8 +41,13 @@ class Probe {
     return out;
   }
 
-  bool in_momenta(const Vector& z) const { return part_in_positions(z) <= vanishing * z.norm(); }
-  bool in_positions(const Vector& z) const { return part_in_momenta(z) <= vanishing * z.norm(); }
+  bool in_momenta(const Vector& z) const { return part_in_positions(z) <= vanishing * norm(z); }
+  bool in_positions(const Vector& z) const { return part_in_momenta(z) <= vanishing * norm(z); }
+
+  template <class Part>
+  double norm(const Part& part) const {
+    return system_.space->norm(part);
+  }
 
  private:
   Vector applied(void (LinearPart::*apply)(const Vector&, Vector&) const, const Vector& z) const {
@@ -50,9 +55,9 @@ class Probe {
     ((*system_.linear).*apply)(z, out);
     return out;
   }
-  double part_in_positions(const Vector& z) const { return z.segment(support_.begin, support_.size).norm(); }
+  double part_in_positions(const Vector& z) const { return norm(z.segment(support_.begin, support_.size)); }
   double part_in_momenta(const Vector& z) const {
-    return std::hypot(z.head(support_.begin).norm(), z.tail(size() - support_.begin - support_.size).norm());
+    return std::hypot(norm(z.head(support_.begin)), norm(z.tail(size() - support_.begin - support_.size)));
   }
 
   const System& system_;
@@ -64,10 +69,10 @@ std::optional<double> rate_of(const System& system, const Probe& probe) {
   if (system.damping->is_zero()) return 0.0;
   if (!system.damping->is_constant()) return std::nullopt;
   const Vector v = probe.with_momenta();
-  if (probe.D(probe.with_positions()).norm() > 0) return std::nullopt;
+  if (probe.norm(probe.D(probe.with_positions())) > 0) return std::nullopt;
   const Vector Dv = probe.D(v);
-  const double rate = Dv.dot(v) / v.squaredNorm();
-  if (!((Dv - rate * v).norm() <= vanishing * Dv.norm())) return std::nullopt;
+  const double rate = system.space->dot(Dv, v) / system.space->squared_norm(v);
+  if (!(probe.norm(Dv - rate * v) <= vanishing * probe.norm(Dv))) return std::nullopt;
   return rate;
 }
 
@@ -82,8 +87,8 @@ MomentumForm form_with(const System& system, Potential::Support positions) {
   form.kicks = probe.in_momenta(Su);
   form.separable = form.kicks && probe.in_positions(Sv) && probe.in_momenta(Mv) && probe.in_positions(probe.M(u));
   form.canonical = form.separable && positions.begin == 0 && 2 * positions.size == probe.size() &&
-                   (Mv - v).norm() == 0 && (Su.tail(positions.size) + u.head(positions.size)).norm() == 0 &&
-                   (Sv.head(positions.size) - v.tail(positions.size)).norm() == 0;
+                   probe.norm(Mv - v) == 0 && probe.norm(Su.tail(positions.size) + u.head(positions.size)) == 0 &&
+                   probe.norm(Sv.head(positions.size) - v.tail(positions.size)) == 0;
   form.rate = rate_of(system, probe);
   return form;
 }

@@ -24,14 +24,14 @@ class StrangExact final : public BaseStep {
         halves_.at(h, [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h / 2); });
     half.apply(s.z, {}, {&z, 1});
     evaluate(t + h / 2, z);
-    const double size = s.z.norm() + h * rate_.norm();
+    const double size = system_.space->norm(s.z) + h * system_.space->norm(rate_);
     if (!is_kick_) {
       middle_ = z + h / 2 * rate_;
       evaluate(t + h / 2, middle_);
     }
     middle_ = z + h * rate_;
     half.apply(middle_, {}, {&z, 1});
-    return may_be_solution(z, size);
+    return may_be_solution(*system_.space, z, size);
   }
 
   std::string_view failure() const override { return "the result of the splitting is not finite"; }

@@ -48,8 +48,8 @@ TEST(Multiplier, ThePolynomialAndTheGeneralPathGiveTheSameFunction) {
   const Vector q = 0.05 * Vector::Random(z.size());
   Vector g = Vector::Zero(z.size());
   a.potential->gradient(z + 0.5 * delta, g);
-  MultiplierEquation first(*a.potential, z.size());
-  MultiplierEquation second(*b.potential, z.size());
+  MultiplierEquation first(*a.space, *a.potential);
+  MultiplierEquation second(*b.space, *b.potential);
   const MultiplierEquation::Line line{.z = z, .z_plus = z_plus, .delta = delta, .q = q, .g = g, .e = g};
   first.set(line);
   second.set(line);

@@ -1,0 +1,54 @@
+// Reductions over a state of which other processes hold parts.
+#include <seiche/core/space.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+// Another process holds the same numbers once more, or the maximum given.
+class HeldTwice final : public Space {
+ public:
+  explicit HeldTwice(double elsewhere) : elsewhere_(elsewhere) {}
+  Index size() const override { return 3; }
+  Index physical_size() const override { return 3; }
+  void to_physical(const Vector& z, Vector& values) const override { values = z; }
+  void from_physical(const Vector& values, Vector& z) const override { z = values; }
+  using Space::max;
+  using Space::sum;
+  void sum(std::span<double> local) const override {
+    for (double& x : local) x *= 2;
+  }
+  void max(std::span<double> local) const override {
+    for (double& x : local) x = std::max(x, elsewhere_);
+  }
+
+ private:
+  double elsewhere_;
+};
+
+TEST(Space, LengthsAreThoseOfAllParts) {
+  const HeldTwice space(0);
+  const Vector a{{3, 0, -4}}, b{{1, 2, 0.5}};
+  EXPECT_EQ(space.dot(a, b), 2.0);
+  EXPECT_EQ(space.absolute_dot(a, b), 10.0);
+  EXPECT_EQ(space.squared_norm(a.head(1)), 18.0);
+  EXPECT_DOUBLE_EQ(space.norm(a), std::sqrt(50.0));
+  EXPECT_DOUBLE_EQ(space.stable_norm(1e-200 * a), 1e-200 * std::sqrt(50.0));
+  EXPECT_EQ(space.stable_norm(0 * a), 0.0);
+}
+
+TEST(Space, MaximaAndDecisionsAreThoseOfAllParts) {
+  const Vector a{{3, 0, -4}}, broken{{1, std::nan(""), 2}};
+  EXPECT_EQ(HeldTwice(1).max_norm(a), 4.0);
+  EXPECT_EQ(HeldTwice(9).max_norm(a), 9.0);
+  EXPECT_TRUE(HeldTwice(0).is_finite(a));
+  EXPECT_FALSE(HeldTwice(0).is_finite(broken));
+  EXPECT_FALSE(HeldTwice(1).is_finite(a)) << "another part is not finite";
+}
+
+}  // namespace
+}  // namespace seiche
