@@ -90,7 +90,7 @@ SolutionDescription description(const RunSpec& spec, const Simulation& simulatio
                     {"problem", problem.name},
                     {"equation", problem.equation},
                     {"method", std::string(method.name)},
-                    {"backend", simulation.backend()},
+                    {"backend", std::string(simulation.backend().name)},
                     {"case", write_case(spec)},
                     {"versions", nlohmann::json(versions()).dump()}}};
 }
@@ -185,7 +185,7 @@ ExitCode run(const RunArguments& arguments) {
   const bool modified = simulation.stepper().has_modified_energy();
   const RunIdentity about{.problem = problem.name,
                           .method = spec.method,
-                          .backend = simulation.backend(),
+                          .backend = std::string(simulation.backend().name),
                           .h = spec.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec.h,
                           .tolerance = spec.tolerance,
                           .versions = versions()};

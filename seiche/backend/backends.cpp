@@ -13,11 +13,18 @@ namespace seiche {
 namespace {
 
 constexpr std::array list = {
-    BackendEntry{"dense", "full matrices in physical coordinates: the reference, and the fastest for a few unknowns",
-                 dense_system},
-    BackendEntry{"modal", "Fourier or sine coefficients, one small block per mode: exact and fast on grids",
-                 modal_system},
-    BackendEntry{"sparse", "sparse matrices: coefficients that change from point to point, and graphs", sparse_system},
+    BackendEntry{.name = "dense",
+                 .summary = "full matrices in physical coordinates: the reference, and the fastest for a few unknowns",
+                 .system = dense_system},
+    BackendEntry{.name = "modal",
+                 .summary = "Fourier or sine coefficients, one small block per mode: exact and fast on grids",
+                 .system = modal_system,
+                 .has_modes = true},
+    BackendEntry{.name = "sparse",
+                 .summary = "sparse matrices: coefficients that change from point to point, and graphs",
+                 .system = sparse_system,
+                 .exponentials_by_krylov = true,
+                 .bytes = sparse_bytes},
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The list of backends.
+// The list of backends. One row is one backend, and holds all that is said of it.
 #pragma once
 
 #include <seiche/core/system.hpp>
@@ -16,6 +16,10 @@ struct BackendEntry {
   std::string_view name;
   std::string_view summary;
   System (*system)(const Problem& problem, const BackendOptions& options);
+  bool has_modes = false;               // one small block per mode
+  bool exponentials_by_krylov = false;  // or by factors, and not by tables: each costs many gradients
+  // Bytes of matrices and factors that it keeps beside vectors; null: nothing worth counting.
+  double (*bytes)(const Problem& problem, bool factorises) = nullptr;
 };
 
 std::span<const BackendEntry> backends();

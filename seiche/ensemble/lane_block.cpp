@@ -15,17 +15,21 @@ bool may_take_lanes(const Problem& problem, const MethodEntry& method) {
 // it.
 bool may_iterate(const SimulationOptions& options) {
   return options.backend_options.sparse.exponential == ExponentialKind::lanczos &&
-         (options.backend == "sparse" || options.backend == "auto") &&
+         (options.backend == "auto" || find_backend(options.backend).exponentials_by_krylov) &&
          find_method(options.method).propagator == PropagatorKind::exponential;
 }
 
-bool is_modal(const Problem& problem) {
-  try {
-    find_backend("modal").system(problem, {});
-    return true;
-  } catch (const Error&) {
-    return false;
+// The backend with modes that takes the problem, or null.
+const BackendEntry* modal_backend(const Problem& problem) {
+  for (const BackendEntry& backend : backends()) {
+    if (!backend.has_modes) continue;
+    try {
+      backend.system(problem, {});
+      return &backend;
+    } catch (const Error&) {
+    }
   }
+  return nullptr;
 }
 
 }  // namespace
@@ -34,7 +38,8 @@ std::unique_ptr<MemberBlock> make_block(std::span<const EnsembleMember> members,
   const Problem& problem = *members.front().problem;
   if (!may_take_lanes(problem, find_method(options.method))) return std::make_unique<MemberBlock>(members, options);
   SimulationOptions chosen = options;
-  if (options.backend == "auto" && is_modal(problem)) chosen.backend = "modal";
+  if (options.backend == "auto")
+    if (const BackendEntry* modal = modal_backend(problem)) chosen.backend = modal->name;
   if (may_iterate(chosen)) return std::make_unique<MemberBlock>(members, options);
   std::unique_ptr<LaneBlock> block(new LaneBlock(members, chosen));
   if (block->find_stepper(options.method_options)) return block;

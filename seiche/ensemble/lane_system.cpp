@@ -35,7 +35,7 @@ Matrix side_by_side(const Matrix& a, const Matrix& b) {
 Matrix constant_flow(const Simulation& simulation, double h, const std::vector<Index>& places) {
   Problem constant = simulation.problem();
   constant.damping.rate = nullptr;
-  const System system = find_backend(simulation.backend()).system(constant, {});
+  const System system = simulation.backend().system(constant, {});
   return probe(system.space->size(), places, places, [&](const Vector& in, Vector& out) {
     out = in;
     system.damping->flow(0, h, out);
@@ -79,7 +79,7 @@ std::unique_ptr<LaneSystem> LaneSystem::make(LaneSimulations members, Propagator
   const Simulation& first = *members.front();
   for (const Simulation* member : members)
     if (member->problem().damping.field_rate || member->problem().friction || member->problem().has_forces() ||
-        member->problem().structure || member->backend() != first.backend() ||
+        member->problem().structure || &member->backend() != &first.backend() ||
         !have_one_shape(member->problem(), first.problem()))
       return nullptr;
   std::unique_ptr<LaneSystem> system(new LaneSystem(members, kind));

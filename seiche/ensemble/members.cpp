@@ -89,7 +89,8 @@ double ensemble_bytes(const RunSpec& spec) {
   const auto members = static_cast<double>(spec.ensemble->count());
   const double simulations = spec.ensemble->parameters.empty() ? 1.0 : members;
   return members * (of_member + doubles_of_member * unknowns) +
-         simulations * (of_simulation + doubles_beside_run * unknowns + run_bytes(find_method(spec.method), problem));
+         simulations * (of_simulation + doubles_beside_run * unknowns +
+                        run_bytes(find_method(spec.method), find_backend("modal"), problem));
 }
 
 Members make_members(const RunSpec& spec) {

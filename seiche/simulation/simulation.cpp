@@ -30,20 +30,18 @@ const BackendEntry& choose_backend(const SimulationOptions& options, const Probl
   return automatic_backend(problem, method_options.linear == LinearTreatment::explicit_kicks && kicks_suit(options));
 }
 
-bool is_sparse(const std::string& backend) { return backend == "sparse"; }
-
 // Is there a backend for kicks that "auto" may take, or is it the one in use? It runs on one thread, and keeps
 // matrices.
-bool may_choose_kicks(const SimulationOptions& options, const Problem& problem, const std::string& backend) {
+bool may_choose_kicks(const SimulationOptions& options, const Problem& problem, const BackendEntry& backend) {
   constexpr Index most_unknowns = Index{1} << 23;
-  if (is_sparse(backend)) return kicks_suit(options);
+  if (backend.exponentials_by_krylov) return kicks_suit(options);
   return options.backend == "auto" && kicks_suit(options) && options.backend_options.threads == 1 &&
-         problem.size() <= most_unknowns && automatic_backend(problem, true).name != backend;
+         problem.size() <= most_unknowns && &automatic_backend(problem, true) != &backend;
 }
 
 void require_memory(const MethodEntry& method, const Problem& problem, bool variable_steps,
-                    const std::string& backend) {
-  const double bytes = run_bytes(method, problem, variable_steps, backend);
+                    const BackendEntry& backend) {
+  const double bytes = run_bytes(method, backend, problem, variable_steps);
   if (bytes > physical_memory())
     throw Error("{} on {} unknowns needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points{}",
                 method.name, problem.size(), bytes, physical_memory(),
@@ -66,27 +64,26 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
       problem_(method_ != nullptr ? as_integrated(*method_, problem) : problem),
       method_options_(options.method_options) {
   require_gradient(problem_);
-  const BackendEntry& backend = choose_backend(options, problem_, method_options_);
-  backend_name_ = backend.name;
-  if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps, backend_name_);
-  system_ = backend.system(problem_, options.backend_options);
+  backend_ = &choose_backend(options, problem_, method_options_);
+  if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps, *backend_);
+  system_ = backend_->system(problem_, options.backend_options);
   if (method_ == nullptr) {
     MethodChoice choice = choose_method(problem_, system_,
                                         {.tolerance = options.tolerance,
                                          .t_end = options.t_end,
-                                         .by_kicks = may_choose_kicks(options, problem_, backend_name_),
-                                         .by_krylov = is_sparse(backend_name_)},
+                                         .by_kicks = may_choose_kicks(options, problem_, *backend_),
+                                         .by_krylov = backend_->exponentials_by_krylov},
                                         options.method_options);
     method_ = &find_method(choice.method);
     method_options_ = choice.options;
     reason_ = std::move(choice.reason);
     const BackendEntry& better = choose_backend(options, problem_, method_options_);
-    if (better.name != backend_name_) {
-      backend_name_ = better.name;
+    if (&better != backend_) {
+      backend_ = &better;
       system_ = System{};  // before the other takes its memory
       system_ = better.system(problem_, options.backend_options);
     }
-    require_memory(*method_, problem_, options.variable_steps, backend_name_);
+    require_memory(*method_, problem_, options.variable_steps, *backend_);
   }
   if (options.variable_steps && problem_.friction && problem_.friction->smoothness() == Friction::Smoothness::jump)
     throw Error(

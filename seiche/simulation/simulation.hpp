@@ -44,12 +44,12 @@ class Simulation {
   const MethodEntry& method() const { return *method_; }
   const MethodOptions& method_options() const { return method_options_; }
   const std::string& reason() const { return reason_; }  // why "auto" took this method; else ""
-  const std::string& backend() const { return backend_name_; }
+  const BackendEntry& backend() const { return *backend_; }
 
  private:
   const MethodEntry* method_;
   Problem problem_;
-  std::string backend_name_;
+  const BackendEntry* backend_;
   System system_;
   MethodOptions method_options_;
   std::string reason_;

@@ -119,7 +119,7 @@ class Run {
     solution_.size = problem_.size();
     solution_.events.resize(options.events.size());
     solution_.method = simulation_->method().name;
-    solution_.backend = simulation_->backend();
+    solution_.backend = simulation_->backend().name;
     solution_.method_reason = simulation_->reason();
     if (!options.tolerance)
       solution_.notes = notes_on_step_size(*simulation_, options.backend_options.sparse, options.h, options.t_end);

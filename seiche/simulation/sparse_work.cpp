@@ -15,7 +15,7 @@ std::string work_of_exponentials(const Simulation& simulation, const SparseOptio
   const bool by_krylov = method.projects() && simulation.method_options().linear == LinearTreatment::exact;
   const bool by_pade = !method.projects() && method.propagator == PropagatorKind::exponential &&
                        options.exponential == ExponentialKind::pade && options.pade_degree == 0;
-  if (simulation.backend() != "sparse" || !(by_krylov || by_pade)) return "";
+  if (!simulation.backend().exponentials_by_krylov || !(by_krylov || by_pade)) return "";
   const double rate = sparse_rate(simulation.problem());
   if (!(h * rate > large)) return "";
   const double steps = std::ceil(t_end / h);

@@ -284,7 +284,7 @@ Spectrum spectrum(const Problem& problem, const SimulationOptions& options, doub
   Spectrum result;
   result.problem = problem.name;
   result.method = options.method;
-  result.backend = step.simulation().backend();
+  result.backend = step.simulation().backend().name;
   result.h = h;
   result.rates_at_start = !has_constant_rates(problem.damping);
   result.has_potential = problem.potential != nullptr;

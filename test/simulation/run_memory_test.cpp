@@ -35,7 +35,7 @@ TEST(RunMemory, IsWithinAFactorOfWhatRunsTook) {
                             {membrane, "egc4", "sparse", 177}}) {
     const Problem problem =
         make_problem(parse_case(std::string("[problem]\n") + m.problem + "[time]\nend = 1.0\n", "a.toml"));
-    const double estimate = run_bytes(find_method(m.method), problem, false, m.backend) / 1e6;
+    const double estimate = run_bytes(find_method(m.method), find_backend(m.backend), problem) / 1e6;
     EXPECT_GE(estimate, 0.5 * m.megabytes) << m.problem << m.method;
     EXPECT_LE(estimate, 2.5 * m.megabytes) << m.problem << m.method;
   }

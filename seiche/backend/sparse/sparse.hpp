@@ -16,4 +16,7 @@ double sparse_rate(const Problem& problem);
 // none?
 bool has_grid_kicks(const Problem& problem);
 
+// Of matrices, and where propagators are factorised of their factors.
+double sparse_bytes(const Problem& problem, bool factorises);
+
 }  // namespace seiche
