@@ -273,7 +273,8 @@ TEST(Layering, ForbiddenIncludesAreRefused) {
 // Of vectors of a state in method/, run/ and simulation/ what all of it decides goes through Space, which knows who
 // else holds a part of it.
 TEST(Layering, LengthsAndMaximaOfStatesGoThroughTheirSpace) {
-  const std::regex direct(R"((\.|->)(dot|norm|squaredNorm|stableNorm|lpNorm<[^>]*>|allFinite|maxCoeff|minCoeff)\()");
+  const std::regex direct(
+      R"((\.|->)(dot|norm|squaredNorm|stableNorm|lpNorm<[^>]*>|allFinite|isFinite|maxCoeff|minCoeff)\()");
   const auto breaks = [&](const std::string& line) {
     const std::string code = line.substr(0, line.find("//"));
     for (std::sregex_iterator i(code.begin(), code.end(), direct), end; i != end; ++i)

@@ -1,8 +1,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/axis_names.hpp>
+#include <seiche/law/ecld.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/law/law_matrices.hpp>
-#include <seiche/law/law_of_damping.hpp>
 
 #include <algorithm>
 #include <cmath>

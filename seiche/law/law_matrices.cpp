@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
+#include <seiche/law/ecld.hpp>
 #include <seiche/law/law_matrices.hpp>
-#include <seiche/law/law_of_damping.hpp>
 
 namespace seiche {
 namespace {

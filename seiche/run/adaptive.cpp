@@ -100,7 +100,8 @@ class AdaptiveLoop {
     recording_.count(step);
     if (!step.solved()) return reject(StepController::rounded(h / 4), step.message);
     const std::optional<double> error = stepper_.error(state_);
-    const double noise = 8 * epsilon * system_.space->norm(state_.z) / std::sqrt(static_cast<double>(state_.z.size()));
+    const double unknowns = system_.space->sum(static_cast<double>(state_.z.size()));
+    const double noise = 8 * epsilon * system_.space->norm(state_.z) / std::sqrt(unknowns);
     if (!error) {
       const double unseen = stepper_.unseen(state_);
       if (unseen > noise && !controller_.accepts(unseen, h, noise)) {

@@ -22,7 +22,8 @@ void validate(const Problem& problem, const SolveOptions& o) {
   if (o.z0 && o.z0->size() != problem.size())
     throw Error("z0 has {} entries, but the state of {} has {}: {} fields of {}", o.z0->size(), problem.name,
                 problem.size(), problem.field_count(), problem.grid.unknowns());
-  if (o.z0 && !o.z0->array().isFinite().all()) throw Error("z0 holds a number that is not finite");
+  if (o.z0 && !std::all_of(o.z0->begin(), o.z0->end(), [](double x) { return std::isfinite(x); }))
+    throw Error("z0 holds a number that is not finite");
   for (std::size_t i = 0; i < o.events.size(); ++i)
     if (!o.events[i].g) throw Error("event {} has no function", i + 1);
   if (o.ledger && o.t_eval)

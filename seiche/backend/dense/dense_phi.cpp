@@ -135,7 +135,7 @@ class DensePhi final : public PhiEvaluator {
     dissipation_.is_zero = D0.isZero(0) && twice_sym.isZero(0);
     const Vector rates = Eigen::SelfAdjointEigenSolver<Matrix>(Q_, Eigen::EigenvaluesOnly).eigenvalues();
     dissipation_.is_nonnegative = rates.minCoeff() >= -1e-13 * rates.cwiseAbs().maxCoeff();
-    rate_ = scaled_norm(linear_.L());
+    rate_ = spectral_bound(linear_.L());
     kernel_ = dense_kernel<Eigen::MatrixXd>(linear_.S.transpose());
     products_.resize(kernel_.cols());
   }

@@ -193,7 +193,7 @@ auto with_block_type(const Symbols& symbols, const Body& body) {
 class ModalPhi final : public PhiEvaluator {
  public:
   bool has_tables() const override { return true; }
-  double rate() const override { return blocks_.largest_size(); }
+  double rate() const override { return rate_; }
 
   explicit ModalPhi(const ModalOperators& o)
       : symbols_{Modes(o.grid), o.S, o.M, o.D0},
@@ -277,6 +277,7 @@ class ModalPhi final : public PhiEvaluator {
         }
       }
       blocks_.set_size(k, scaled_norm(L));
+      rate_ = std::max(rate_, spectral_bound(L));
     }
   }
 
@@ -324,6 +325,7 @@ class ModalPhi final : public PhiEvaluator {
   Symbols symbols_;
   ModalExtent extent_;
   ModeBlockArrays blocks_{extent_.modes, extent_.fields, symbols_.are_real()};
+  double rate_ = 0;
   Dissipation dissipation_;
   std::vector<Casimir> casimirs_;
 };

@@ -131,6 +131,14 @@ double scaled_norm(const Matrix& A) {
                   std::cbrt(force_map_detail::norm_1<Matrix>((A2 * A).eval())));
 }
 
+// At least the spectral radius of A, and the nearest to it of ‖A‖, ‖A²‖^{1/2} and ‖A³‖^{1/3}.
+template <class Matrix>
+double spectral_bound(const Matrix& A) {
+  const Matrix A2 = A * A;
+  return std::min({force_map_detail::norm_1(A), std::sqrt(force_map_detail::norm_1(A2)),
+                   std::cbrt(force_map_detail::norm_1<Matrix>((A2 * A).eval()))});
+}
+
 // How often a matrix of this size is halved for Taylor's series; not at all where it is not finite.
 inline int doublings_for(double size) {
   return size > 0.5 && std::isfinite(size) ? static_cast<int>(std::ceil(std::log2(size / 0.5))) : 0;

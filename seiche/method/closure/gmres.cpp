@@ -36,6 +36,7 @@ Vector gmres(const Space& space, FunctionRef<void(const Vector& w, Vector& out)>
     basis.push_back(w / left);
   }
 
+  if (n > 0 && R(n - 1, n - 1) == 0) --n;  // a product that the space held already, and that adds nothing
   const Vector y = R.topLeftCorner(n, n).triangularView<Eigen::Upper>().solve(residual.head(n));
   for (int i = 0; i < n; ++i) x += y[i] * basis[static_cast<std::size_t>(i)];
   return x;

@@ -9,7 +9,7 @@ namespace seiche {
 NewtonKrylovReport newton_krylov(const Space& space, const Residual& residual, Vector& y, double stagnation) {
   constexpr int max_newton = 30;
   constexpr int max_halvings = 12;
-  const int most_products = static_cast<int>(std::min<Index>(y.size(), 60));
+  const int most_products = static_cast<int>(std::min(space.sum(static_cast<double>(y.size())), 60.0));
   NewtonKrylovReport report;
   Vector at_y(y.size());
   Vector trial(y.size());

@@ -232,7 +232,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       return std::make_unique<Eigen::MatrixXd>(
           evaluation(rule_.nodes, Eigen::VectorXd::Ones(stages()) + ratio * rule_.nodes));
     });
-    return combine(extrapolation, s.history, of_forces_.begin, of_forces_.size, forces_);
+    return combine(space(), extrapolation, s.history, of_forces_.begin, of_forces_.size, forces_);
   }
 
   // The collocation equations F_i = N(Z_i), by sweeps. The force at the last node, which follows from all the others,
@@ -260,7 +260,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
         }
       }
       change_before = change;
-      change = h * distance(forces_.back(), of_forces_.begin, components_before_);
+      change = h * distance(space(), forces_.back(), of_forces_.begin, components_before_);
     } while (control.wants_another(change, error));
     convergence_ = change_before > 0 ? std::min(1.0, change / change_before) : 0;  // one sweep tells no rate
   }

@@ -55,7 +55,7 @@ constexpr Index most_in = 16;  // inputs
 
 }  // namespace
 
-double combine(const Eigen::MatrixXd& weights, std::span<const Vector> in, Index begin, Index size,
+double combine(const Space& space, const Eigen::MatrixXd& weights, std::span<const Vector> in, Index begin, Index size,
                std::span<Vector> out) {
   std::array<const double*, most_in> from{};
   std::array<double*, most> to{};
@@ -76,6 +76,7 @@ double combine(const Eigen::MatrixXd& weights, std::span<const Vector> in, Index
       case 3: some.operator()<3>(); break;
       default: some.operator()<4>(); break;
     }
+    space.sum({squares.data(), static_cast<std::size_t>(count)});
     for (Index i = 0; i < count; ++i) {
       const double square = squares[static_cast<std::size_t>(i)];
       largest = square <= largest ? largest : square;  // no number is the largest
@@ -84,8 +85,8 @@ double combine(const Eigen::MatrixXd& weights, std::span<const Vector> in, Index
   return std::sqrt(largest);
 }
 
-double distance(const Vector& whole, Index begin, const Vector& b) {
-  return std::sqrt(squared_distance(whole.data() + begin, b.data(), b.size()));
+double distance(const Space& space, const Vector& whole, Index begin, const Vector& b) {
+  return std::sqrt(space.sum(squared_distance(whole.data() + begin, b.data(), b.size())));
 }
 
 }  // namespace seiche

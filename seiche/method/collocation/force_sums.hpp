@@ -1,7 +1,7 @@
 // Passes over the forces of a collocation step.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/space.hpp>
 
 #include <Eigen/Dense>
 
@@ -11,10 +11,10 @@ namespace seiche {
 
 // out[i] ← Σ_j weights(i, j) in[j] in the components begin … begin + size − 1, with a square matrix of weights. Returns
 // the largest of the Euclidean norms ‖out[i]‖ there.
-double combine(const Eigen::MatrixXd& weights, std::span<const Vector> in, Index begin, Index size,
+double combine(const Space& space, const Eigen::MatrixXd& weights, std::span<const Vector> in, Index begin, Index size,
                std::span<Vector> out);
 
 // ‖a − b‖, with a the components of `whole` from `begin` on
-double distance(const Vector& whole, Index begin, const Vector& b);
+double distance(const Space& space, const Vector& whole, Index begin, const Vector& b);
 
 }  // namespace seiche

@@ -54,5 +54,15 @@ TEST(Gmres, StopsWhereTheToleranceIsMetAndWhereTheSpaceHoldsTheSolution) {
   EXPECT_EQ(gmres(PlainSpace(n), apply, Vector::Zero(n), 50, 1e-12).norm(), 0.0);
 }
 
+// Nilpotent, so that no vector of the space comes nearer to b.
+TEST(Gmres, GivesTheBestThereIsWhereTheMapIsSingular) {
+  const Vector b{{1, 2, 3}};
+  const auto nothing = [](const Vector& w, Vector& out) { out = 0 * w; };
+  EXPECT_EQ(gmres(PlainSpace(3), nothing, b, 3, 1e-12).norm(), 0.0);
+  const auto shift = [](const Vector& w, Vector& out) { out = Vector{{w[1], w[2], 0}}; };
+  const Vector x = gmres(PlainSpace(3), shift, Vector{{1, 1, 0}}, 3, 1e-12);
+  EXPECT_TRUE(x.allFinite());
+}
+
 }  // namespace
 }  // namespace seiche

@@ -1,4 +1,12 @@
-// What stencils and matrices have in common when they ask whether damping lets H fall.
+// The energy-compatible linear damping condition, the paper's (1.2): ∇H(z)ᵀDz ≥ 0 for every z, so that the damping flow
+// never raises H. Written with ∇H = P_H z it is sym(P_H D) ⪰ 0.
+//
+// ∇HᵀDz = zᵀMDz + ∇V(z)ᵀDz. The first term is ≥ 0 for every z where sym(MD) ⪰ 0, which is decided mode by mode or by
+// factorisation (law/operator_findings). The second is not there, or ≥ 0, in the cases that are known here:
+//   the paper's (i)    D leaves alone what V depends on: Dᵀ∇V = 0;
+//   the paper's (ii)   V = 0;
+//   further            D = γI on the fields v of V(u, v) that it moves, γ ≥ 0, and v·∂V/∂v ≥ 0: then it is γ v·∂V/∂v.
+// Elsewhere sym(MD) ⪰ 0 alone proves nothing, and a certificate samples ∇HᵀDz along a solution.
 #pragma once
 
 #include <seiche/core/error.hpp>

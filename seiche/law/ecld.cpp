@@ -1,4 +1,4 @@
-#include <seiche/law/law_of_damping.hpp>
+#include <seiche/law/ecld.hpp>
 
 #include <optional>
 #include <utility>
