@@ -27,7 +27,7 @@ enum class MembersTogether { none, avf, sav };         // how many members of an
 // What methods of one kind have in common, whatever their order and propagator.
 struct MethodKind {
   std::string_view closure = "none";  // of the nonlinear part
-  std::string_view composition = "";  // of that with the linear part and the damping
+  std::string_view composition = {};  // of that with the linear part and the damping
   std::unique_ptr<Stepper> (*make)(const MethodEntry&, const System&, const MethodOptions&) = nullptr;
   // The same with errors of its steps, for variable ones.
   std::unique_ptr<AdaptiveStepper> (*make_adaptive)(const MethodEntry&, const System&, const MethodOptions&) = nullptr;

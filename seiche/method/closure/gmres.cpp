@@ -33,7 +33,7 @@ Vector gmres(const Space& space, FunctionRef<void(const Vector& w, Vector& out)>
     residual.applyOnTheLeft(n, n + 1, rotations.back().adjoint());
     ++n;
     if (!(left > 0)) break;  // the solution lies in the space; or it is not finite
-    basis.push_back(w / left);
+    basis.emplace_back(w / left);
   }
 
   if (n > 0 && R(n - 1, n - 1) == 0) --n;  // a product that the space held already, and that adds nothing
