@@ -37,7 +37,7 @@ const std::map<std::string, Folders> may_include = {
     {"problem", {"core", "potential", "damping"}},
     {"simulation", {"core", "law", "method", "backend", "run"}},
     {"config", {"core", "formula", "law", "potential", "damping", "method", "backend", "problem", "simulation"}},
-    {"ensemble", {"core", "problem", "run", "simulation", "config"}},
+    {"ensemble", {"core", "method", "problem", "run", "simulation", "config"}},
     {"study",
      {"core", "law", "potential", "damping", "method", "backend", "problem", "output", "run", "simulation", "config",
       "ensemble"}},

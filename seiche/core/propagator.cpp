@@ -1,7 +1,6 @@
 #include <seiche/core/linear_part.hpp>
 #include <seiche/core/propagator.hpp>
-
-#include <cmath>
+#include <seiche/core/space.hpp>
 
 namespace seiche {
 
@@ -12,15 +11,17 @@ void multiply_fields(Propagator::FieldFactors factors, Vector& z) {
     if (factors[static_cast<std::size_t>(f)] != 1) z.segment(f * slots, slots) *= factors[static_cast<std::size_t>(f)];
 }
 
-void Propagator::advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const {
+Propagator::Powers PlainPropagator::powers(const Vector& z, const Vector& f, FieldFactors before) const {
   z_ = z;
   multiply_fields(before, z_);
   dz_.resize(z.size());
   q_.resize(z.size());
   increment(z_, dz_);
   force(f, q_);
-  const double c = factor({f.dot(dz_), f.dot(q_), std::nullopt});
-  if (!std::isfinite(c)) return;
+  return {space_.dot(f, dz_), space_.dot(f, q_), linear_.quadratic_energy(z_)};
+}
+
+void PlainPropagator::update(Vector& z, const Vector&, double c, FieldFactors, FieldFactors after) const {
   z = z_ + dz_ + c * q_;
   multiply_fields(after, z);
 }

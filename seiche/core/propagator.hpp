@@ -1,12 +1,10 @@
 // The linear substep z⁺ = Ez + Ff for one step size h.
 #pragma once
 
-#include <seiche/core/function_ref.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/core/vector.hpp>
 
 #include <memory>
-#include <optional>
 #include <span>
 
 namespace seiche {
@@ -33,24 +31,37 @@ class Propagator {
   virtual void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before = {}) const = 0;
 
   struct Powers {
-    double of_increment = 0.0;                              // fᵀFMz⁻
-    double of_force = 0.0;                                  // fᵀFf
-    std::optional<double> quadratic_energy = std::nullopt;  // ½z⁻ᵀMz⁻, where it costs nothing
+    double of_increment = 0.0;      // fᵀFMz⁻
+    double of_force = 0.0;          // fᵀFf
+    double quadratic_energy = 0.0;  // ½z⁻ᵀMz⁻
   };
-  using Factor = FunctionRef<double(const Powers&)>;
-  // z ← Λ'(z⁻ + FMz⁻ + c Ff), with Λ' the half-flow after the substep and c chosen by `factor`. If that is not a finite
-  // number, z stays as it was.
-  virtual void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before = {},
-                       FieldFactors after = {}) const;
+  virtual Powers powers(const Vector& z, const Vector& f, FieldFactors before = {}) const = 0;
+
+  // z ← Λ'(z⁻ + FMz⁻ + c Ff), with Λ' the half-flow after the substep. Call it after `powers` of the same z, f and Λ,
+  // whose FMz⁻ and Ff it may use again; as often as wanted.
+  virtual void update(Vector& z, const Vector& f, double c, FieldFactors before = {},
+                      FieldFactors after = {}) const = 0;
+};
+
+class LinearPart;
+class Space;
+
+// `powers` and `update` by `increment` and `force`, where nothing is gained by fusing them.
+class PlainPropagator : public Propagator {
+ public:
+  PlainPropagator(const Space& space, const LinearPart& linear) : space_(space), linear_(linear) {}  // which outlive it
+
+  Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override;
+  void update(Vector& z, const Vector& f, double c, FieldFactors before, FieldFactors after) const override;
 
  private:
-  mutable Vector z_, dz_, q_;  // of `advance`, where it is done verb by verb
+  const Space& space_;
+  const LinearPart& linear_;
+  mutable Vector z_, dz_, q_;  // z⁻, FMz⁻, Ff
 };
 
 // z ← Λz, field by field.
 void multiply_fields(Propagator::FieldFactors factors, Vector& z);
-
-class LinearPart;
 
 // The propagators of all step sizes that a method asks for.
 class Propagators {

@@ -1,6 +1,7 @@
 #include <seiche/core/simd/multiversion.hpp>
 #include <seiche/ensemble/lane_sav.hpp>
 #include <seiche/ensemble/row_loops.hpp>
+#include <seiche/method/closure/sav_algebra.hpp>
 
 #include <cmath>
 #include <utility>
@@ -16,29 +17,21 @@ struct Force {
   LaneValues factor{}, rise{}, trouble{};  // of Fĝ; of C and r²; ≠ 0 where V(ẑ) + C ≤ 0 or is no number
 };
 
-// r̄ = (r + ¼gᵀFMz) / (1 − ¼gᵀFg) with the guard that lifts C and r² where V + C or r² has become small, as in
-// method/closure/sav.cpp. Without branches, so that lanes are computed together.
 SEICHE_MULTIVERSION void take_force(const Powers& __restrict powers, bool guarded, LaneState& __restrict next,
                                     Force& __restrict force) {
   const double allowed = guarded ? 1.0 : 0.0;
   for (std::size_t l = 0; l < static_cast<std::size_t>(lanes); ++l) {
     const double v = powers.v_mid[l];
-    double scale = powers.quadratic[l] / 2 + (v < 0 ? -v : 0.0);
-    scale = scale > next.energy_scale[l] ? scale : next.energy_scale[l];
-    scale = scale > 1e-300 ? scale : 1e-300;
-    const double above = v + next.shift[l];
-    const double margin = next.r_squared[l] < above ? next.r_squared[l] : above;
-    const double rise = margin < 0.1 * scale ? allowed * (2 * scale - margin) : 0.0;
-    const double shift = next.shift[l] + rise;
-    const double to_g = 1 / std::sqrt(v + shift);
-    const double r = std::sqrt(next.r_squared[l] + rise);
-    const double r_mid = (r + to_g * powers.of_increment[l] / 4) / (1 - to_g * to_g * powers.of_force[l] / 4);
-    const double r_next = 2 * r_mid - r;
-    next.r_squared[l] = r_next * r_next;
-    next.shift[l] = shift;
-    force.factor[l] = r_mid * to_g;
+    SavAuxiliary a{next.r_squared[l], next.shift[l], next.energy_scale[l]};
+    const double rise = allowed * sav_algebra::rise(a, v, powers.quadratic[l] / 2, 0);
+    a.r_squared += rise;
+    a.shift += rise;
+    const auto [factor, r_squared] = sav_algebra::force(a, v, powers.of_increment[l], powers.of_force[l]);
+    next.r_squared[l] = r_squared;
+    next.shift[l] = a.shift;
+    force.factor[l] = factor;
     force.rise[l] = rise;
-    force.trouble[l] = v + shift > 0 ? v - v : 1.0;
+    force.trouble[l] = v + a.shift > 0 ? v - v : 1.0;
   }
 }
 
@@ -71,7 +64,7 @@ void LaneSav::damp(LaneState& s, double t, double h) {
     s.r_squared[l] = transports() ? s.r_squared[l] + (after[l] - before[l]) : after[l] + s.shift[l];
 }
 
-//   z⁺ = Ez + F r̄g,   r⁺ − r = ½ gᵀ(z⁺ − z),   r̄ = ½(r⁺ + r),   g = ĝ/√(V(ẑ) + C)                       (3.1), (4.2)
+//   z⁺ = Ez + F r̄g,   r⁺ − r = ½gᵀ(z⁺ − z),   r̄ = ½(r⁺ + r),   g = ĝ/√(V(ẑ) + C)               (3.1a), (3.1b), (4.2)
 void LaneSav::advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) {
   double* z = s.z.row(0);
   double* g = gradient_of(s);

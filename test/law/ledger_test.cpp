@@ -31,6 +31,25 @@ TEST(Ledger, AddsUpToTheChangeOfHInEveryStepOfEveryMethod) {
   }
 }
 
+TEST(Ledger, LeavesEveryBitOfASolutionAsItIsWithout) {
+  for (const auto& [name, problem] : all_cases()) {
+    for (const MethodEntry& method : methods()) {
+      if (!applies(method.name, problem)) continue;
+      for (const BackendEntry& backend : backends_for(problem)) {
+        const SimulationOptions options{.method = std::string(method.name), .backend = std::string(backend.name)};
+        Simulation without(problem, options), with(problem, options);
+        with.stepper().keep_ledger();
+        for (int n = 0; n < 8; ++n) {
+          without.step(1.0 / 8);
+          with.step(1.0 / 8);
+        }
+        EXPECT_TRUE((with.state().z.array() == without.state().z.array()).all())
+            << name << " " << method.name << " " << backend.name;
+      }
+    }
+  }
+}
+
 TEST(Ledger, ASkewSubstepKeepsItsEnergyAndTheDampingTakesTheRest) {
   const Problem p = klein_gordon_case();
   for (const MethodEntry& method : methods()) {

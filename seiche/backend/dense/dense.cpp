@@ -98,17 +98,16 @@ class DensePropagator final : public Propagator {
     q = q_.head(size_);
   }
 
-  void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const override {
+  Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
     set(z, before);
     FM_.apply(z_and_gradient_.data(), dz_.data());
     F_.apply(f.data() + support_.begin, q_.data());
     to_state(dz_);
     to_state(q_);
-    const auto f_support = f.segment(support_.begin, support_.size);
-    const double c =
-        factor({f_support.dot(dz_.segment(support_.begin, support_.size)),
-                f_support.dot(q_.segment(support_.begin, support_.size)), metric_.energy(z_and_gradient_)});
-    if (!std::isfinite(c)) return;
+    const auto of_support = [this](const Vector& v) { return v.segment(support_.begin, support_.size); };
+    return {of_support(f).dot(of_support(dz_)), of_support(f).dot(of_support(q_)), metric_.energy(z_and_gradient_)};
+  }
+  void update(Vector& z, const Vector& /*f*/, double c, FieldFactors /*before*/, FieldFactors after) const override {
     z = z_and_gradient_.head(size_) + dz_.head(size_) + c * q_.head(size_);
     multiply_fields(after, z);
   }

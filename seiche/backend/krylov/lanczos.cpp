@@ -37,7 +37,7 @@ class LanczosPropagator final : public Propagator {
   }
 
   // In the space of z⁻ and M⁻¹f, the columns of V R: f = M V R e₂, so that fᵀy is a product of coordinates.
-  void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const override {
+  Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
     w_ = f;
     system_->divide_by_M(w_);
     z_ = z;
@@ -47,8 +47,10 @@ class LanczosPropagator final : public Propagator {
     joint_.build(system_->S(), system_->M(), start_, h_, dimension_);
     const Eigen::MatrixXd& R = joint_.coordinates();
     const Eigen::MatrixXd& change = joint_.change();
-    const double c = factor({R.col(1).dot(change.col(0)), R.col(1).dot(change.col(1)), R.col(0).squaredNorm() / 2});
-    if (!std::isfinite(c)) return;
+    return {R.col(1).dot(change.col(0)), R.col(1).dot(change.col(1)), R.col(0).squaredNorm() / 2};
+  }
+  void update(Vector& z, const Vector& /*f*/, double c, FieldFactors /*before*/, FieldFactors after) const override {
+    const Eigen::MatrixXd& change = joint_.change();
     z = z_;
     joint_.add(change.col(0) + c * change.col(1), z);
     multiply_fields(after, z);

@@ -22,10 +22,16 @@ namespace {
 using Block = Eigen::MatrixXcd;
 
 // Any number of fields, any M: entry by entry.
-class MappedPropagator final : public Propagator {
+class MappedPropagator final : public PlainPropagator {
  public:
-  MappedPropagator(Potential::Support support, ModeMap F, ModeMap FM, ModeMap Q, ModeMap QM)
-      : support_(support), F_(std::move(F)), FM_(std::move(FM)), Q_(std::move(Q)), QM_(std::move(QM)) {}
+  MappedPropagator(const Space& space, const LinearPart& linear, Potential::Support support, ModeMap F, ModeMap FM,
+                   ModeMap Q, ModeMap QM)
+      : PlainPropagator(space, linear),
+        support_(support),
+        F_(std::move(F)),
+        FM_(std::move(FM)),
+        Q_(std::move(Q)),
+        QM_(std::move(QM)) {}
 
   void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
     z_ = z;
@@ -46,8 +52,9 @@ class MappedPropagator final : public Propagator {
 
 class ModalLinear final : public LinearPart {
  public:
-  ModalLinear(const Problem& problem, int threads)
-      : modes_(problem.grid),
+  ModalLinear(const Problem& problem, const Space& space, int threads)  // `space` outlives it
+      : space_(space),
+        modes_(problem.grid),
         S_symbol_(problem.S),
         M_symbol_(problem.M),
         extent_{.fields = problem.field_count(),
@@ -187,7 +194,7 @@ class ModalLinear final : public LinearPart {
                      [&, which](Index k) { return blocks[static_cast<std::size_t>(k)][which]; });
     };
     const Potential::Support support{extent_.first * extent_.slots(), extent_.count * extent_.slots()};
-    return std::make_unique<MappedPropagator>(support, map_of(0), map_of(1), map_of(2), map_of(3));
+    return std::make_unique<MappedPropagator>(space_, *this, support, map_of(0), map_of(1), map_of(2), map_of(3));
   }
 
   // Built when first asked for: steps do not need them.
@@ -197,6 +204,7 @@ class ModalLinear final : public LinearPart {
     return *map;
   }
 
+  const Space& space_;
   Modes modes_;
   BlockStencil S_symbol_, M_symbol_;
   ModalExtent extent_;
@@ -249,7 +257,7 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
   System system;
   system.fields = problem.field_count();
   system.space = std::make_unique<GridSpace>(problem.field_count(), transform);
-  system.linear = std::make_unique<ModalLinear>(problem, options.threads);
+  system.linear = std::make_unique<ModalLinear>(problem, *system.space, options.threads);
   system.potential = modal_potential(problem, transform);
   const ModalOperators operators{.grid = problem.grid,
                                  .S = problem.S,

@@ -22,54 +22,70 @@ class FusedPropagator final : public Propagator {
         threads_(extent.threads),
         metric_(metric),
         maps_(std::move(maps)),
+        step_(with_maps(maps_.F)),
+        middle_(with_maps(maps_.Q)),
         sums_(static_cast<std::size_t>(blocks_)) {}
 
   void increment(const Vector& z, Vector& dz) const override {
-    run_over<Increment>(operands(z, nullptr, &dz, maps_.F));
+    Operands<S> o = step_;
+    point(o, z, nullptr, &dz, {});
+    run_over<Increment>(o);
   }
-  void force(const Vector& f, Vector& q) const override { run_over<Force>(operands(f, nullptr, &q, maps_.F)); }
+  void force(const Vector& f, Vector& q) const override {
+    Operands<S> o = step_;
+    point(o, f, nullptr, &q, {});
+    run_over<Force>(o);
+  }
 
   void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
-    run_over<Predict>(with(before, {}, operands(z, &gradient, &z_mid, maps_.Q)));
+    point(middle_, z, &gradient, &z_mid, before);
+    run_over<Predict>(middle_);
   }
 
-  void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const override {
-    Operands<S> o = with(before, after, operands(z, &f, &z, maps_.F));
-    for_blocks(blocks_, threads_,
-               [&](Index block) { sums_[static_cast<std::size_t>(block)] = powers<S>(o, begin(block), end(block)); });
+  Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
+    point(step_, z, &f, nullptr, before);
+    for_blocks(blocks_, threads_, [&](Index block) {
+      sums_[static_cast<std::size_t>(block)] = mode_kernels::powers<S>(step_, begin(block), end(block));
+    });
     PowerSums total;
     for (const PowerSums& part : sums_) {
       total.of_increment += part.of_increment;
       total.of_force += part.of_force;
       total.twice_energy += part.twice_energy;
     }
-    o.factor = factor({total.of_increment, total.of_force, total.twice_energy / 2});
-    if (std::isfinite(o.factor)) run_over<Advance>(o);
+    return {total.of_increment, total.of_force, total.twice_energy / 2};
+  }
+  void update(Vector& z, const Vector& f, double c, FieldFactors before, FieldFactors after) const override {
+    point(step_, z, &f, &z, before);
+    set(step_.after, after);
+    step_.factor = c;
+    run_over<Update>(step_);
   }
 
  private:
   Index begin(Index block) const { return block * block_slots; }
   Index end(Index block) const { return std::min(slots_, begin(block) + block_slots); }
 
-  Operands<S> operands(const Vector& z, const Vector* f, Vector* out, const ModeArrays& F) const {
+  Operands<S> with_maps(const ModeArrays& F) const {
     Operands<S> o;
+    for (int i = 0; i < S::fields; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      o.M[at] = metric_.factors.data(i, 0);
+      for (int j = 0; j < S::fields; ++j) o.F[at][static_cast<std::size_t>(j)] = F.data(i, j);
+    }
+    return o;
+  }
+  void point(Operands<S>& o, const Vector& z, const Vector* f, Vector* out, FieldFactors before) const {
     for (int i = 0; i < S::fields; ++i) {
       const auto at = static_cast<std::size_t>(i);
       o.z[at] = z.data() + i * slots_;
       if (f != nullptr) o.f[at] = f->data() + i * slots_;
       if (out != nullptr) o.out[at] = out->data() + i * slots_;
-      o.M[at] = metric_.factors.data(i, 0);
-      for (int j = 0; j < S::fields; ++j) o.F[at][static_cast<std::size_t>(j)] = F.data(i, j);
     }
-    o.before.fill(1.0);
-    o.after.fill(1.0);
-    return o;
+    set(o.before, before);
   }
-
-  static Operands<S> with(FieldFactors before, FieldFactors after, Operands<S> o) {
-    std::copy(before.begin(), before.end(), o.before.begin());
-    std::copy(after.begin(), after.end(), o.after.begin());
-    return o;
+  static void set(std::array<double, S::fields>& factors, FieldFactors given) {
+    for (std::size_t i = 0; i < factors.size(); ++i) factors[i] = given.empty() ? 1.0 : given[i];
   }
 
   template <class Verb>
@@ -81,6 +97,7 @@ class FusedPropagator final : public Propagator {
   int threads_;
   const ModalMetric& metric_;
   ModalForceMaps maps_;
+  mutable Operands<S> step_, middle_;  // with F, and with Q
   mutable std::vector<PowerSums> sums_;
 };
 

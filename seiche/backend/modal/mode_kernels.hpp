@@ -90,7 +90,7 @@ struct Predict {
 };
 
 // z⁺ = Λ'(z⁻ + F(Mz⁻ + factor · f))
-struct Advance {
+struct Update {
   template <class S, class V>
   [[gnu::always_inline]] static inline void at(const Operands<S>& o, Index slot) {
     const Point<S, V> p(o, slot);

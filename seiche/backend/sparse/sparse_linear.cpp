@@ -44,13 +44,14 @@ class PadePropagator final : public Propagator {
   }
   void force(const Vector& f, Vector& q) const override { F_->apply(f, q); }
 
-  void advance(Vector& z, const Vector& f, Factor factor, FieldFactors before, FieldFactors after) const override {
+  Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
     set_slope(z, before);
     const double quadratic_energy = z_.dot(c_) / 2;
     F_->apply(c_, y_);
     F_->apply(f, q_);
-    const double c = factor({f.dot(y_), f.dot(q_), quadratic_energy});
-    if (!std::isfinite(c)) return;
+    return {f.dot(y_), f.dot(q_), quadratic_energy};
+  }
+  void update(Vector& z, const Vector& /*f*/, double c, FieldFactors /*before*/, FieldFactors after) const override {
     z = z_ + y_ + c * q_;
     multiply_fields(after, z);
   }
@@ -64,7 +65,7 @@ class PadePropagator final : public Propagator {
 
   const Operators& operators_;
   std::unique_ptr<PadeForce> F_, Q_;
-  mutable Vector z_, c_, y_, q_;
+  mutable Vector z_, c_, y_, q_;  // z⁻, Mz⁻ (in `predict` with ∇V), FMz⁻, Ff
 };
 
 class SparseLinear final : public LinearPart {

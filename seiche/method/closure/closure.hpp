@@ -24,6 +24,7 @@ class Closure {
   // Damping half-flows around a substep, where each multiplies every field by a number.
   struct HalfFlows {
     Propagator::FieldFactors before, after;
+    State* between = nullptr;  // if given, becomes the state between the substep and the flow after it
   };
   // Substep and half-flows in one, for closures that save passes over z by it. On failure s is left as it was.
   virtual bool takes_half_flows() const { return false; }

@@ -1,8 +1,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/method/closure/sav.hpp>
+#include <seiche/method/closure/sav_algebra.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace seiche {
@@ -36,8 +36,8 @@ class SavClosure final : public Closure {
   void read_modified(const State& s, const ValueAndMagnitude& quadratic, EnergyReading& reading) const override;
 
  private:
+  double gradient_and_drift(const State& s, Vector& gradient) const;
   double margin_against_drift(double drift, double margin);
-  bool keep_margin(State& s, double quadratic_energy, double v_mid, double against_drift) const;
 
   std::optional<double> given_C_;
   AuxiliaryMode auxiliary_;
@@ -79,10 +79,11 @@ void SavClosure::impulse(State& s, double t, double h) {
   if (transports) s.r_squared += potential().value(s.z) - v_before;
 }
 
-StepReport not_finite(double v_mid, double t, double h) {
-  return {.status = StepReport::Status::failed,
-          .message = fmt::format("the solution is no longer finite: V(ẑ) = {} at t = {:.6g} with h = {:.6g}",
-                                 number_text(v_mid), t, h)};
+// ∇V(zⁿ), and of r² − (V + C) what is asked for.
+double SavClosure::gradient_and_drift(const State& s, Vector& gradient) const {
+  if (error_rate_ > 0) return s.r_squared - (potential().value_and_gradient(s.z, gradient) + s.shift);
+  potential().gradient(s.z, gradient);
+  return 0;
 }
 
 // The errors of all steps are left in r² − (V + C) = δ, and the force is r/√(V + C) ≈ 1 + δ/(2(V + C)) times what it
@@ -97,65 +98,49 @@ double SavClosure::margin_against_drift(double drift, double margin) {
   return wanted * space().max_norm(physical_);
 }
 
-// Where V + C or r² has become small against the energy, or drifts too far apart, C and r² rise together: H̃ does not
-// change. A large positive V(ẑ) is no reason to: at steps far too long ẑ is meaningless, and a C to match it would
-// drown H̃ in round-off.
-bool SavClosure::keep_margin(State& s, double quadratic_energy, double v_mid, double against_drift) const {
-  if (auxiliary_ == AuxiliaryMode::frozen) return false;
-  constexpr double tiny = 1e-300;
-  constexpr double most = 1e8;  // of C for the energy: H̃ keeps half its digits
-  constexpr double seldom = 4;  // more than is needed now, so that C rises in few steps
-  const double scale = std::max({s.energy_scale, quadratic_energy + std::max(0.0, -v_mid), tiny});
-  const double margin = std::min(s.r_squared, v_mid + s.shift);
-  const double against = std::min(against_drift, most * scale);
-  if (margin >= std::max(0.1 * scale, against)) return false;
-  const double rise = std::max(2 * scale, seldom * against) - margin;
-  s.shift += rise;
-  s.r_squared += rise;
-  return true;
+StepReport not_finite(double v_mid, double t, double h) {
+  return {.status = StepReport::Status::failed,
+          .message = fmt::format("the solution is no longer finite: V(ẑ) = {} at t = {:.6g} with h = {:.6g}",
+                                 number_text(v_mid), t, h)};
 }
 
-//   z⁺ = Ez⁻ + F r̄g,   r⁺ − r = ½ gᵀ(z⁺ − z⁻),   r̄ = ½(r⁺ + r),   g = ĝ/√(V(ẑ) + C),   ĝ = ∇V(ẑ)           (3.1),
-//   (4.2)
-StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) {
-  StepReport report;
-  const Propagator& propagator = propagators.at(h);
-  double drift = 0;
-  if (error_rate_ > 0)
-    drift = s.r_squared - (potential().value_and_gradient(s.z, g_) + s.shift);
-  else
-    potential().gradient(s.z, g_);
-  propagator.predict(s.z, g_, g_, flows.before);                // ẑ, from z⁻
-  const double v_mid = potential().value_and_gradient(g_, g_);  // V(ẑ) and ĝ
-  if (!std::isfinite(v_mid)) return not_finite(v_mid, t, h);
-  const double against_drift = drift != 0 ? margin_against_drift(drift, v_mid + s.shift) : 0;
-
-  bool solved = false;
-  const double r_squared = s.r_squared;
-  const double shift = s.shift;
-  propagator.advance(
-      s.z, g_,
-      [&](const Propagator::Powers& power) {
-        const double quadratic_energy =
-            power.quadratic_energy ? *power.quadratic_energy : system().linear->quadratic_energy(s.z);
-        report.fallbacks += keep_margin(s, quadratic_energy, v_mid, against_drift) ? 1 : 0;
-        const double to_g = 1 / std::sqrt(v_mid + s.shift);
-        const double gd = to_g * power.of_increment;     // gᵀFMz⁻
-        const double gq = to_g * to_g * power.of_force;  // gᵀFg
-        const double r = std::sqrt(s.r_squared);
-        const double r_mid = (r + gd / 4) / (1 - gq / 4);  // denominator ≥ 1, since gᵀFg ≤ 0
-        solved = std::isfinite(r_mid * to_g);              // not so where V(ẑ) + C ≤ 0
-        if (solved) s.r_squared = square(2 * r_mid - r);
-        return r_mid * to_g;
-      },
-      flows.before, flows.after);
-  if (solved) return report;
-  s.r_squared = r_squared;
-  s.shift = shift;
-  if (v_mid + s.shift > 0) return not_finite(v_mid, t, h);
+StepReport no_force(const State& s, double v_mid, double t, double h) {
+  const double above = v_mid + s.shift;
+  if (above > 0) return not_finite(v_mid, t, h);
   return {.status = StepReport::Status::failed,
-          .message = fmt::format("V(ẑ) + C = {:.6g} must be > 0 at t = {:.6g}; C = {:.6g} would do", v_mid + s.shift, t,
+          .message = fmt::format("V(ẑ) + C = {:.6g} must be > 0 at t = {:.6g}; C = {:.6g} would do", above, t,
                                  s.shift + 2 * (s.energy_scale + std::abs(v_mid)))};
+}
+
+//   z⁺ = Ez⁻ + F r̄g,   r⁺ − r⁻ = ½gᵀ(z⁺ − z⁻),   r̄ = ½(r⁺ + r⁻),   g = ĝ/√(V(ẑ) + C),   ĝ = ∇V(ẑ)
+StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) {
+  const Propagator& propagator = propagators.at(h);
+  Vector &z_mid = g_, &g = g_;  // one buffer: ∇V(zⁿ), then ẑ, then ĝ
+  const double drift = gradient_and_drift(s, g);
+  propagator.predict(s.z, g, z_mid, flows.before);                // ẑ
+  const double v_mid = potential().value_and_gradient(z_mid, g);  // V(ẑ) and ĝ
+  if (!std::isfinite(v_mid)) return not_finite(v_mid, t, h);
+  const Propagator::Powers power = propagator.powers(s.z, g, flows.before);  // ĝᵀFMz⁻ and ĝᵀFĝ, of (3.3)
+
+  SavAuxiliary a{s.r_squared, s.shift, s.energy_scale};
+  const double against_drift = drift != 0 ? margin_against_drift(drift, v_mid + s.shift) : 0;
+  double rise = 0;
+  if (auxiliary_ != AuxiliaryMode::frozen) rise = sav_algebra::rise(a, v_mid, power.quadratic_energy, against_drift);
+  if (rise != 0) [[unlikely]] {  // so that r̄ does not wait for it
+    a.r_squared += rise;
+    a.shift += rise;
+  }
+  const sav_algebra::Force force = sav_algebra::force(a, v_mid, power.of_increment, power.of_force);  // r̄, r⁺: (3.1b)
+  if (!std::isfinite(force.factor)) return no_force(s, v_mid, t, h);
+
+  s.r_squared = force.r_squared;
+  s.shift = a.shift;
+  if (flows.between != nullptr) {
+    *flows.between = s;
+    propagator.update(flows.between->z, g, force.factor, flows.before);
+  }
+  propagator.update(s.z, g, force.factor, flows.before, flows.after);  // z⁺ = Ez⁻ + F r̄g: (3.1a), (4.2)
+  return {.fallbacks = rise != 0 ? 1 : 0};
 }
 
 void SavClosure::read_modified(const State& s, const ValueAndMagnitude& quadratic, EnergyReading& reading) const {

@@ -37,8 +37,6 @@ class Composed : public Stepper {
   void expect(double error_rate) override { closure_->expect(error_rate); }
 
  protected:
-  bool keeps_ledger() const { return keeps_ledger_; }
-
   // The change of H in a part of the step, where a ledger is kept.
   template <class Part>
   double change(const State& s, const Part& part) {
@@ -55,9 +53,24 @@ class Composed : public Stepper {
     if (!keeps_ledger_) return closure_->advance(s, propagators_, t, h);
     const EnergyReading before = closure_->energy(s);
     StepReport report = closure_->advance(s, propagators_, t, h);
-    const EnergyReading after = closure_->energy(s);
-    report.ledger.substep = (after.modified - before.modified) - report.ledger.scalar;
-    report.ledger.auxiliary = (after.H - after.modified) - (before.H - before.modified);
+    enter(before, closure_->energy(s), report.ledger);
+    return report;
+  }
+
+  // Half-flows and substep in one. What the ledger measures is computed beside it: a solution does not depend, to the
+  // bit, on what is recorded.
+  StepReport fused(State& s, double h, const Closure::HalfFlows& flows) {
+    if (!keeps_ledger_) return closure_->advance_damped(s, propagators_, s.t, h, flows);
+    const double H = closure_->energy(s).H;
+    saved_ = s;
+    multiply_fields(flows.before, saved_.z);
+    const EnergyReading before = closure_->energy(saved_);
+    StepReport report = closure_->advance_damped(s, propagators_, s.t, h, {flows.before, flows.after, &saved_});
+    if (!report.solved()) return report;
+    const EnergyReading after = closure_->energy(saved_);
+    report.ledger.damping_left = before.H - H;
+    enter(before, after, report.ledger);
+    report.ledger.damping_right = closure_->energy(s).H - after.H;
     return report;
   }
 
@@ -82,6 +95,12 @@ class Composed : public Stepper {
   Propagators& propagators() { return propagators_; }
 
  private:
+  // The substep, between these two readings.
+  static void enter(const EnergyReading& before, const EnergyReading& after, StepLedger& ledger) {
+    ledger.substep = (after.modified - before.modified) - ledger.scalar;
+    ledger.auxiliary = (after.H - after.modified) - (before.H - before.modified);
+  }
+
   const Space& space_;
   Propagators propagators_;
   std::unique_ptr<Closure> closure_;
@@ -95,7 +114,7 @@ class Whole final : public Composed {
 
  private:
   StepReport compose(State& s, double h) override {
-    if (closure().takes_half_flows() && !keeps_ledger()) return closure().advance_damped(s, propagators(), s.t, h, {});
+    if (closure().takes_half_flows()) return fused(s, h, {});
     return or_restore(s, h, [&] { return substep(s, s.t, h); });
   }
 };
@@ -114,18 +133,18 @@ class Strang final : public Composed {
  private:
   StepReport compose(State& s, double h) override {
     const double middle = s.t + h / 2;
-    if (closure().takes_half_flows() && !keeps_ledger() && !has_force_ && damping_.field_factors(s.t, h / 2, before_) &&
+    if (closure().takes_half_flows() && !has_force_ && damping_.field_factors(s.t, h / 2, before_) &&
         damping_.field_factors(middle, h / 2, after_))
-      return closure().advance_damped(s, propagators(), s.t, h, {before_, after_});
+      return fused(s, h, {before_, after_});
     return or_restore(s, h, [&] {
       const std::int64_t corrections = damping_.corrections();
       const double pushed = impulse(s, s.t, h / 2);
-      const double left = damp(s, s.t, h / 2);
-      StepReport report = substep(s, s.t, h);
+      const double left = damp(s, s.t, h / 2);  // z⁻ = Ψ(t, t + h/2)zⁿ: (4.1), (4.4)
+      StepReport report = substep(s, s.t, h);   // z⁺: (4.2), (4.5)
       report.ledger.work = pushed;
       report.ledger.damping_left = left;
       if (report.solved()) {
-        report.ledger.damping_right = damp(s, middle, h / 2);
+        report.ledger.damping_right = damp(s, middle, h / 2);  // zⁿ⁺¹ = Ψ(t + h/2, t + h)z⁺: (4.3), (4.6)
         report.ledger.work += impulse(s, middle, h / 2);
       }
       report.fallbacks += static_cast<int>(damping_.corrections() - corrections);
