@@ -38,7 +38,7 @@ std::string problems_text() {
 
 std::string backends_text() {
   std::string text;
-  for (const BackendEntry& backend : backends()) text += fmt::format("{:<8} {}\n", backend.name, backend.summary);
+  for (const BackendEntry& backend : backends()) text += fmt::format("{:<9} {}\n", backend.name, backend.summary);
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/dense/dense.hpp>
 #include <seiche/backend/modal/modal.hpp>
+#include <seiche/backend/reference/reference.hpp>
 #include <seiche/backend/sparse/sparse.hpp>
 #include <seiche/core/error.hpp>
 
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::array list = {
     BackendEntry{.name = "dense",
-                 .summary = "full matrices in physical coordinates: the reference, and the fastest for a few unknowns",
+                 .summary = "full matrices in physical coordinates: the fastest for a few unknowns",
                  .system = dense_system},
     BackendEntry{.name = "modal",
                  .summary = "Fourier or sine coefficients, one small block per mode: exact and fast on grids",
@@ -25,6 +26,9 @@ constexpr std::array list = {
                  .system = sparse_system,
                  .exponentials_by_krylov = true,
                  .bytes = sparse_bytes},
+    BackendEntry{.name = "reference",
+                 .summary = "full matrices, one product after the other: what the others are compared with, and slow",
+                 .system = reference_system},
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Backends agree with the dense reference, for every method.
+// Backends agree with the reference, for every method.
 #include <test/support/cases.hpp>
 #include <test/support/worst.hpp>
 
@@ -30,6 +30,7 @@ TEST(Agreement, EveryProblemRunsOnTheBackendsThatItShould) {
     if (!problem.matrices) expected.emplace_back("modal");
     if (std::find(couples_all_points.begin(), couples_all_points.end(), name) == couples_all_points.end())
       expected.emplace_back("sparse");
+    expected.emplace_back("reference");
     std::vector<std::string> found;
     for (const BackendEntry& backend : backends_for(problem)) found.emplace_back(backend.name);
     EXPECT_EQ(found, expected) << name;
@@ -38,14 +39,14 @@ TEST(Agreement, EveryProblemRunsOnTheBackendsThatItShould) {
 
 class AgreementOf : public testing::TestWithParam<std::string> {};
 
-TEST_P(AgreementOf, EveryBackendWithTheDenseOneOverTenTimeUnits) {
+TEST_P(AgreementOf, EveryBackendWithTheReferenceOverTenTimeUnits) {
   const std::string& method = GetParam();
   for (const auto& [name, problem] : all_cases()) {
     if (!applies(method, problem)) continue;
     const double h = 1.0 / 64;
-    const Vector expected = state_after(problem, method, "dense", h, 640);
+    const Vector expected = state_after(problem, method, "reference", h, 640);
     for (const BackendEntry& backend : backends_for(problem)) {
-      if (backend.name == "dense") continue;
+      if (backend.name == "reference") continue;
       const Vector z = state_after(problem, method, backend.name, h, 640);
       EXPECT_LE(largest(z - expected), 1e-11) << name << " " << backend.name;
     }
@@ -57,9 +58,9 @@ INSTANTIATE_TEST_SUITE_P(EveryMethod, AgreementOf, testing::ValuesIn(method_name
 
 TEST(Agreement, TheRightHandSideIsTheSameOnEveryBackend) {
   for (const auto& [name, problem] : all_cases()) {
-    const System dense = find_backend("dense").system(problem, {});
-    Vector expected(dense.space->size());
-    dense.right_hand_side(0.3, dense.initial, expected);
+    const System reference = find_backend("reference").system(problem, {});
+    Vector expected(reference.space->size());
+    reference.right_hand_side(0.3, reference.initial, expected);
     for (const BackendEntry& backend : backends_for(problem)) {
       const System system = backend.system(problem, {});
       Vector out(system.space->size());

@@ -1,4 +1,4 @@
-// The reference backend: full matrices, physical coordinates. Slow, short, right.
+// Full matrices in physical coordinates, in as few passes as there can be: for systems of few unknowns.
 #pragma once
 
 #include <seiche/core/system.hpp>
