@@ -71,5 +71,26 @@ TEST(Documentation, EveryTestAndFileThatTheMapOfThePaperAndTheTheoryNameExists) 
   EXPECT_GT(claims, 8);
 }
 
+// Every number in the first cell of a row stands in one of the files of the others.
+TEST(Documentation, EveryEquationNumberOfTheMapStandsBesideALineOfItsFile) {
+  const std::regex number("\\((?:[1-5]\\.[0-9]+[a-z]?|[ADE][0-9])\\)");
+  const std::regex file("`((?:[a-z_]+/)+[a-z_]+\\.(?:hpp|cpp))");
+  int numbers = 0;
+  for (const char* page : {"docs/paper_map.md", "docs/site/theory.md"}) {
+    std::istringstream lines(text_of(page));
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("| ")) continue;
+      const std::size_t end = line.find(" |", 2);
+      const std::string first = line.substr(0, end), rest = line.substr(end);
+      std::string code;
+      for (std::sregex_iterator i(rest.begin(), rest.end(), file), none; i != none; ++i)
+        code += text_of("seiche/" + (*i)[1].str());
+      for (std::sregex_iterator i(first.begin(), first.end(), number), none; i != none; ++i, ++numbers)
+        EXPECT_NE(code.find(i->str()), std::string::npos) << page << ": " << i->str();
+    }
+  }
+  EXPECT_GT(numbers, 20);
+}
+
 }  // namespace
 }  // namespace seiche::test

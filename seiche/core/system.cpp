@@ -36,6 +36,8 @@ System::Dissipation System::dissipation(double t, const Vector& z, const Vector&
   return result;
 }
 
+//   ż = S∇H − D(t)z                                                                                         (1.1)
+// and what goes beyond it: S(z), friction, forces.
 void System::right_hand_side(double t, const Vector& z, Vector& out) const {
   Vector gradient_H(z.size());
   gradient(z, gradient_H);

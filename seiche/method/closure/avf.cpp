@@ -34,9 +34,9 @@ class AvfClosure final : public Closure {
 };
 
 double AvfClosure::sweep(const Vector& z, const Vector& z_plus, const Propagator& propagator, Vector& next) {
-  potential().mean_gradient(z, z_plus, mean_);
+  potential().mean_gradient(z, z_plus, mean_);  // ḡ = ∫₀¹∇V(z + s(z⁺ − z))ds: (A2)
   propagator.force(mean_, q_);
-  next = z + start_.dz + q_;
+  next = z + start_.dz + q_;  // z⁺ = z + FMz + Fḡ: (A1)
   const double update = space().max_norm(next - z_plus);
   return update /
          std::max(4 * epsilon * (space().max_norm(next) + space().max_norm(q_)), std::numeric_limits<double>::min());
@@ -64,7 +64,7 @@ double AvfClosure::residual(const Vector& z, const Propagator& propagator) {
   return space().dot(start_.q + mean_, start_.z_plus - next_);
 }
 
-//   z⁺ = Ez + F ∫₀¹ ∇V(z + s(z⁺ − z)) ds
+//   z⁺ = Ez + Fḡ,   ḡ = ∫₀¹ ∇V(z + s(z⁺ − z)) ds                                                         (A1), (A2)
 StepReport AvfClosure::advance(State& s, Propagators& propagators, double t, double h) {
   StepReport report;
   const Propagator& propagator = propagators.at(h);

@@ -18,7 +18,7 @@ StepReport DirectedMultiplier::advance(Vector& z, Propagators& propagators, doub
   return finish(z, start_, propagators, h, energy, depth);
 }
 
-//   z⁺ = z₁ + λ Fd,   d = δ₁ = z₁ − z,   (ḡ(λ) − ĝ − λd)ᵀ(d + λFd) = 0
+//   z⁺ = z₁ + λFd,   d = δ₁ = z₁ − z,   (ḡ(λ) − ĝ − λd)ᵀ(d + λFd) = 0                                   (D1), (D2)
 StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Propagators& propagators, double h,
                                       std::optional<double> energy, int depth) {
   constexpr int max_iterations = 8;
@@ -27,7 +27,8 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
   propagators.at(h).force(d, q_);
   equation_.set({.z = z, .z_plus = start.z_plus, .delta = d, .q = q_, .g = start.g, .e = d});
   if (energy) equation_.make_up_for(system_.energy(z) - *energy);
-  const MultiplierEquation::Root root = equation_.newton(max_iterations, MultiplierEquation::Stop::residual);
+  const MultiplierEquation::Root root =
+      equation_.newton(max_iterations, MultiplierEquation::Stop::residual);  // λ: (D2)
   report.scalar_iterations = root.iterations;
 
   // λd stands in for ḡ − ĝ: a root that asks for much more is another one.
@@ -37,7 +38,7 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
       correction <= 4 * equation_.gradient_gap() && equation_.gradient_gap() <= equation_.mean_gradient_norm();
   if (root.converged && (near || equation_.at(0).is_negligible())) {
     if (keeps_ledger_) report.ledger.scalar = equation_.change(root.x);
-    z = start.z_plus + root.x * q_;
+    z = start.z_plus + root.x * q_;  // (D1)
     return report;
   }
   if (depth == 0) {

@@ -51,10 +51,11 @@ class LmClosure final : public Closure {
   Vector before_damping_, end_, direction_;  // frozen: zⁿ, Ψ₂z₁, Ψ₂q
 };
 
-//   z⁺ = Ez + ηFĝ,   V(z⁺) − V(z) = ηĝᵀ(z⁺ − z)                                        (3.6), (4.3), with x = η − 1
+//   z⁺ = Ez⁻ + ηFĝ,   V(z⁺) − V(z⁻) = ηĝᵀ(z⁺ − z⁻)                                                       (3.6), (4.5)
+// solved for x = η − 1, about the explicit step z₁ = Ez⁻ + Fĝ.
 StepReport LmClosure::advance(State& s, Propagators& propagators, double t, double h) {
-  start_.prepare(potential(), propagators.at(h), s.z);
-  set_equation(s.z, t, h);
+  start_.prepare(potential(), propagators.at(h), s.z);  // p − z⁻ = FMz⁻, q = Fĝ: (3.7)
+  set_equation(s.z, t, h);                              // in η: (3.9)
   if (solver_ == ScalarSolver::newton) return solve_by_newton(s.z, t);
   const std::optional<double> energy = conserves_ ? std::optional(s.energy) : std::nullopt;
   if (energy) equation_.make_up_for(system().energy(s.z) - *energy);
@@ -97,7 +98,7 @@ StepReport LmClosure::solve_robustly(Vector& z, Propagators& propagators, double
   }
   if (accepted) {
     if (keeps_ledger()) report.ledger.scalar = residual(z, root.x);
-    z = start_.z_plus + root.x * start_.q;
+    z = start_.z_plus + root.x * start_.q;  // z⁺ = p + ηq: (3.8)
     return report;
   }
   ++report.fallbacks;
@@ -120,7 +121,7 @@ StepReport LmClosure::solve_by_newton(Vector& z, double t) {
     return report;
   }
   if (keeps_ledger()) report.ledger.scalar = residual(z, root.x);
-  z = start_.z_plus + root.x * start_.q;
+  z = start_.z_plus + root.x * start_.q;  // z⁺ = p + ηq: (3.8)
   return report;
 }
 

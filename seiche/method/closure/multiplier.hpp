@@ -12,7 +12,8 @@
 
 namespace seiche {
 
-// On the line z⁺(x) = z₁ + xq with force f(x) = ĝ + xe and increment δ(x) = δ₁ + xq, find x with
+// (3.9) of lm and (D2) of dm: on the line z⁺(x) = z₁ + xq with force f(x) = ĝ + xe and increment δ(x) = δ₁ + xq, find x
+// with
 //   F(x) = V(z⁺(x)) − V(z) − f(x)ᵀδ(x) = (ḡ(x) − ĝ − xe)ᵀδ(x) = 0,   ḡ(x) = ∫₀¹ ∇V(z + sδ(x)) ds.
 // Expanded about x = 0, the explicit step, so that a small F is computed as a small number. For polynomial V the
 // expansion is exact and an evaluation costs O(degree); otherwise each one costs a mean gradient and a gradient.

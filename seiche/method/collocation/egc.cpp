@@ -235,15 +235,15 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     return combine(space(), extrapolation, s.history, of_forces_.begin, of_forces_.size, forces_);
   }
 
-  // The collocation equations F_i = N(Z_i), by sweeps. The force at the last node, which follows from all the others,
-  // stands for what a sweep changes.
+  // The collocation equations (E1), F_i = N(Z_i), by sweeps. The force at the last node, which follows from all the
+  // others, stands for what a sweep changes.
   void sweep(const State& s, double t, double h, const PhiMap& nodes) {
     SweepControl control(stages(), s.history_h != 0, may_save_sweeps_);
     double change = 0, change_before = 0;
     const auto error = [&] { return space().norm(extension_.defect({h, s.history_h}, s.history, forces_)); };
     do {
       components_before_ = forces_.back().segment(of_forces_.begin, of_forces_.size);
-      nodes.apply(s.z, forces_, forces_);
+      nodes.apply(s.z, forces_, forces_);  // Z_i: (E1)
       for (Index i = 0; i < stages(); ++i) {
         const double at = t + rule_.nodes[i] * h;
         const auto which = static_cast<std::size_t>(i);
@@ -276,7 +276,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       const auto at = static_cast<Index>(i);
       dissipation_.add(t + rule_.nodes[at] * h, seen_[i].node, seen_[i].gradient, h * rule_.weights[at], coarse_);
     }
-    of_h.end->apply(s.z, forces_, {&z, 1});
+    of_h.end->apply(s.z, forces_, {&z, 1});  // ẑ: (E2)
     return may_be_solution(space(), z, size);
   }
 

@@ -34,7 +34,7 @@ EnergyTarget energy_target(EnergyLaw law, double before, double computed, double
     return {std::min(computed, before), before};
   }
   const double u = dissipated.doubt;
-  const double narrow = nearest(before, computed, rest, dissipated, u);
+  const double narrow = nearest(before, computed, rest, dissipated, u);  // E*: (E4)
   double target = narrow;
   bool widened = false;
   if (narrow != computed) {

@@ -29,46 +29,36 @@ EnergyProjection::EnergyProjection(const System& system, const PhiEvaluator& phi
       rest_(system.potential->value(Vector::Zero(system.space->size()))),
       scratch_(system) {}
 
-EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
+double EnergyProjection::measure(const Vector& z) {
+  line_.emplace(system_, phi_, scratch_, z, EnergyLine::Direction::casimir_free);
+  start_ = line_->at(0);
+  return start_.H();
+}
+
+//   zⁿ⁺¹ = ẑ + λ(ẑ − Πẑ),   H(zⁿ⁺¹) = E*                                                                       (E5)
+EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarget& aim) {
   using Direction = EnergyLine::Direction;
-  Outcome outcome;
-  EnergyLine::Parts start;
-  EnergyTarget aim;
-  {
-    EnergyLine line(system_, phi_, scratch_, z, Direction::casimir_free);
-    start = line.at(0);
-    outcome.H = outcome.computed = start.H();
-    outcome.loss = start.loss();
-    outcome.values = start.values();
-    outcome.terms = start.size;
-    aim = wanted(outcome.computed);
-    if (std::abs(start.H() - aim.H) <= start.round_off() && start.H() <= aim.cap + slack(start, aim)) {
-      outcome.admissible = true;
-      outcome.H = aim.H;
-      return outcome;
-    }
-    const EnergyLine::Slope slope = line.slope();
-    // Near rest H is flat: to mend round-off in H, z would move by far more than its own.
-    if (std::abs(start.H() - aim.H) <= start.loss() && start.H() <= aim.cap + slack(start, aim) &&
-        start.loss() > blurred * std::abs(slope.value)) {
-      outcome.admissible = true;
-      outcome.H = aim.H;
-      return outcome;
-    }
-    const bool conditioned = std::abs(slope.value) >= least_slope * slope.size;
-    if (!conditioned && aim.H < aim.cap && start.H() <= aim.cap) {
-      outcome.admissible = true;
-      return outcome;
-    }
-    if (conditioned && solve(line, start, aim, z, outcome)) return outcome;
+  Outcome outcome{
+      .computed = start_.H(), .H = start_.H(), .loss = start_.loss(), .values = start_.values(), .terms = start_.size};
+  if (is_there(aim)) {
+    outcome.admissible = true;
+    outcome.H = aim.H;
+    return outcome;
   }
+  const EnergyLine::Slope slope = line_->slope();
+  const bool conditioned = std::abs(slope.value) >= least_slope * slope.size;
+  if (!conditioned && aim.H < aim.cap && start_.H() <= aim.cap) {
+    outcome.admissible = true;
+    return outcome;
+  }
+  if (conditioned && solve(*line_, start_, aim, z, outcome)) return outcome;
   {
     EnergyLine line(system_, phi_, scratch_, z, Direction::steepest);
     if (solve(line, line.at(0), aim, z, outcome)) return outcome;
   }
   outcome.by_bisection = true;
-  outcome.H = std::min(start.H(), aim.cap);
-  outcome.admissible = start.H() <= aim.cap + slack(start, aim);  // below what it should be: safe all the same
+  outcome.H = std::min(start_.H(), aim.cap);
+  outcome.admissible = start_.H() <= aim.cap + slack(start_, aim);  // below what it should be: safe all the same
   if (outcome.admissible) return outcome;
 
   // H falls from H(z) > goal to H(Πz) or H(0) ≤ goal: there is a root between (intermediate value theorem).
@@ -76,6 +66,14 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, Wanted wanted) {
   for (const Direction direction : {Direction::casimir_free, Direction::ray})
     if (bisect(EnergyLine(system_, phi_, scratch_, z, direction), goal, z, outcome)) break;
   return outcome;
+}
+
+// Is H(ẑ) what it should be, to round-off? Near rest, where H is flat, to all that round-off makes of it: to mend that,
+// z would move by far more than its own.
+bool EnergyProjection::is_there(const EnergyTarget& aim) {
+  const double miss = std::abs(start_.H() - aim.H);
+  if (!(miss <= start_.loss()) || !(start_.H() <= aim.cap + slack(start_, aim))) return false;
+  return miss <= start_.round_off() || start_.loss() > blurred * std::abs(line_->slope().value);
 }
 
 bool EnergyProjection::moved_far(const Outcome& outcome, const Vector& z) const {

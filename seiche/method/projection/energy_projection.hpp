@@ -1,9 +1,10 @@
 // The last part of a step that keeps the law by projection: the point near ẑ where H is what it is to be.
 #pragma once
 
-#include <seiche/core/function_ref.hpp>
 #include <seiche/method/projection/energy_interval.hpp>
 #include <seiche/method/projection/energy_line.hpp>
+
+#include <optional>
 
 namespace seiche {
 
@@ -31,18 +32,20 @@ class EnergyProjection {
     double values = 0;        // |½ẑᵀMẑ| + |V(ẑ)|, of the z that was passed
     double terms = 0;         // the sizes of the terms of H, of the z that came out
   };
-  using Wanted = FunctionRef<EnergyTarget(double computed)>;
+  // Ĥ = H(z), and the line through z that `project` moves it along: z is to stay as it is between the two.
+  double measure(const Vector& z);
   // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned:
   // then z stays as it is if target < cap and H(z) ≤ cap, for the cap is the law; and otherwise it moves along ∇H. If
   // no iteration converges, to a point with H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if
   // H(0) > cap and H(z) > cap. H ≤ cap is meant up to round-off: of the terms of H at z, or where |½zᵀMz| + |V| has
   // grown by more than `gross_growth` over target.terms, those before the step, of so many of these.
-  Outcome project(Vector& z, Wanted wanted);
+  Outcome project(Vector& z, const EnergyTarget& aim);
   // Was z, which came out of it, moved by more than a tenth of its length? Moves of accurate steps are of the size of
   // their error.
   bool moved_far(const Outcome& outcome, const Vector& z) const;
 
  private:
+  bool is_there(const EnergyTarget& aim);
   bool solve(EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z, Outcome& outcome);
   bool bisect(const EnergyLine& line, double goal, Vector& z, Outcome& outcome);
 
@@ -50,6 +53,8 @@ class EnergyProjection {
   const PhiEvaluator& phi_;
   double rest_;
   EnergyLineScratch scratch_;
+  std::optional<EnergyLine> line_;  // of the last `measure`, and H where it begins
+  EnergyLine::Parts start_;
 };
 
 }  // namespace seiche

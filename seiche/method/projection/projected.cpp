@@ -93,9 +93,9 @@ void Projected::undo(State& s) {
 void Projected::keep_between(const State& s, Vector& z) {
   if (law_ == EnergyLaw::none || last_.gained) return;  // H may rise between: no law to keep
   const double low = std::min(s.energy, last_.energy);
-  projection_.project(z, [&](double computed) {
-    return EnergyTarget{.H = std::clamp(computed, low, last_.energy), .cap = last_.energy, .terms = last_.energy_terms};
-  });
+  const double computed = projection_.measure(z);
+  projection_.project(z,
+                      {.H = std::clamp(computed, low, last_.energy), .cap = last_.energy, .terms = last_.energy_terms});
 }
 
 void Projected::fail(StepReport& report, const State& s, double h, Taken taken, int halvings) const {
@@ -113,45 +113,23 @@ void Projected::fail(StepReport& report, const State& s, double h, Taken taken, 
 // One step; s stays as it was where it is not taken. t and n are the caller's.
 Projected::Taken Projected::take(State& s, double t, double h, bool strict, StepReport& report) {
   if (law_ == EnergyLaw::none) return take_without_law(s, t, h, report);
-  const auto make_free = [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); };
-  if (!strict) {  // now: later steps of this length are to allocate nothing
-    if (may_flow_freely_) free_.at(h, make_free);
-    if (law_ == EnergyLaw::interval) base_.prepare_flow(h);
-  }
-  const StepDissipation::Kind kind = base_.dissipation_kind();
-  bool resolved = base_.compute(s, t, h, z_);
-  report.fallbacks += base_.fallbacks();
+  if (!strict) prepare(h);
   StepDissipation::Amount amount;
-  // The guard asks whether H may rise, and a nonnegative form says no.
-  const bool asked = law_ == EnergyLaw::interval || kind == StepDissipation::Kind::general || keeps_ledger_;
+  EnergyTarget target;
   EnergyProjection::Outcome outcome;
-  bool widened = false;
+  bool resolved = base_.compute(s, t, h, z_);  // propose ẑ
+  report.fallbacks += base_.fallbacks();
   if (resolved) {
-    outcome = projection_.project(z_, [&](double computed) {
-      if (asked && kind != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, computed);
-      // What is looked at node by node may be missed where steps do not resolve the flow. Gains below round-off H
-      // cannot show.
-      amount.negative = feeds_ || (amount.negative && amount.gain > 16 * epsilon * s.energy_terms);
-      EnergyTarget target = energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount, kind,
-                                          [&] { return base_.flow_missed(s, h); });
-      widened = target.widened;
-      target.terms = s.energy_terms;
-      return target;
-    });
+    const double computed = projection_.measure(z_);  // Ĥ = H(ẑ)
+    amount = measure_dissipation(s, t, h, computed);  // D and its doubt u: (E3)
+    target = choose_energy(s, h, computed, amount);   // E*: (E4)
+    outcome = projection_.project(z_, target);        // zⁿ⁺¹ with H(zⁿ⁺¹) = E*: (E5)
     resolved = std::isfinite(outcome.terms) && !has_grown_beyond_reason(outcome, s, t, h);
   }
   if (!resolved) {
-    if (strict || !may_flow_freely_) return Taken::unresolved;
+    if (strict || !flow_freely(s, h, outcome)) return Taken::unresolved;
     amount = {};
-    free_.at(h, make_free).apply(s.z, {}, {&z_, 1});
-    if (!system_.space->is_finite(z_)) return Taken::unresolved;
     ++report.fallbacks;
-    outcome = projection_.project(z_, [&](double computed) {
-      const bool conserves = kind == StepDissipation::Kind::none;
-      return EnergyTarget{.H = conserves ? s.energy : std::min(computed, s.energy),
-                          .cap = s.energy,
-                          .terms = s.energy_terms};
-    });
   }
   report.scalar_iterations += outcome.iterations;
   report.fallbacks += outcome.by_bisection ? 1 : 0;
@@ -162,9 +140,52 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
     note_replaced(
         report, s,
         "what the scheme gave was moved by more than a tenth of its length to have an energy that the law allows");
-  if (widened && resolved) report.widened = 1;
-  finish(s, t, h, resolved, amount, outcome, report);
+  if (resolved && target.widened) report.widened = 1;
+  commit(s, t, h, resolved, amount, outcome, report);
   return Taken::whole;
+}
+
+// Now: later steps of this length are to allocate nothing.
+void Projected::prepare(double h) {
+  if (may_flow_freely_) free_map(h);
+  if (law_ == EnergyLaw::interval) base_.prepare_flow(h);
+}
+
+// The guard asks whether H may rise, and a nonnegative form says no.
+StepDissipation::Amount Projected::measure_dissipation(const State& s, double t, double h, double computed) {
+  const StepDissipation::Kind kind = base_.dissipation_kind();
+  const bool asked = law_ == EnergyLaw::interval || kind == StepDissipation::Kind::general || keeps_ledger_;
+  StepDissipation::Amount amount;
+  if (asked && kind != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, computed);
+  // What is looked at node by node may be missed where steps do not resolve the flow. Gains below round-off H cannot
+  // show.
+  amount.negative = feeds_ || (amount.negative && amount.gain > 16 * epsilon * s.energy_terms);
+  return amount;
+}
+
+EnergyTarget Projected::choose_energy(const State& s, double h, double computed,
+                                      const StepDissipation::Amount& amount) {
+  EnergyTarget target = energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount,
+                                      base_.dissipation_kind(), [&] { return base_.flow_missed(s, h); });
+  target.terms = s.energy_terms;
+  return target;
+}
+
+// z_ ← e^{hL}z, with an energy of at most Hⁿ; false where that is not finite or leaves out more than ∇V.
+bool Projected::flow_freely(const State& s, double h, EnergyProjection::Outcome& outcome) {
+  if (!may_flow_freely_) return false;
+  free_map(h).apply(s.z, {}, {&z_, 1});
+  if (!system_.space->is_finite(z_)) return false;
+  const bool conserves = base_.dissipation_kind() == StepDissipation::Kind::none;
+  const double computed = projection_.measure(z_);
+  outcome = projection_.project(z_, {.H = conserves ? s.energy : std::min(computed, s.energy),
+                                     .cap = s.energy,
+                                     .terms = s.energy_terms});
+  return true;
+}
+
+const PhiMap& Projected::free_map(double h) {
+  return free_.at(h, [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); });
 }
 
 // Are |½ẑᵀMẑ| and |V(ẑ)| more than the terms of Hⁿ and what the force N gives z from rest within the step explain? s is
@@ -199,11 +220,11 @@ Projected::Taken Projected::take_without_law(State& s, double t, double h, StepR
     outcome.H = outcome.computed = system_.energy(z_);
     if (base_.dissipation_kind() != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, outcome.H);
   }
-  finish(s, t, h, true, amount, outcome, report);
+  commit(s, t, h, true, amount, outcome, report);
   return Taken::whole;
 }
 
-void Projected::finish(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
+void Projected::commit(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
                        const EnergyProjection::Outcome& outcome, StepReport& report) {
   base_.accept(s, h, resolved);
   const double asked = std::abs(outcome.computed - outcome.H);

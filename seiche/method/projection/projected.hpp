@@ -50,7 +50,12 @@ class Projected {
   void read_energy(State& s) const;
   Taken take(State& s, double t, double h, bool strict, StepReport& report);
   Taken take_without_law(State& s, double t, double h, StepReport& report);
-  void finish(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
+  void prepare(double h);
+  StepDissipation::Amount measure_dissipation(const State& s, double t, double h, double computed);
+  EnergyTarget choose_energy(const State& s, double h, double computed, const StepDissipation::Amount& amount);
+  bool flow_freely(const State& s, double h, EnergyProjection::Outcome& outcome);
+  const PhiMap& free_map(double h);
+  void commit(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
               const EnergyProjection::Outcome& outcome, StepReport& report);
   bool has_grown_beyond_reason(const EnergyProjection::Outcome& outcome, const State& s, double t, double h);
   void note_replaced(StepReport& report, const State& s, std::string_view why) const;

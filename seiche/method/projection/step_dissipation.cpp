@@ -99,6 +99,7 @@ void StepDissipation::add_nodes(double t, double h, const Vector& z, std::span<c
   }
 }
 
+//   D = h Σ w_i Q(Z(θ_i)) by the finer rule, u = |D − D'| with D' by the coarser one                             (E3)
 StepDissipation::Amount StepDissipation::measure(double t, double h, const Vector& z, std::span<const Vector> forces,
                                                  const Sum* coarse) {
   Amount amount;

@@ -57,7 +57,8 @@ class Chin final : public BaseStep {
   bool conserve(double t, double h) {
     const double H = system_.energy(inner_.z);
     if (!hamiltonian_->compute(inner_, t, h, end_)) return false;
-    const EnergyProjection::Outcome outcome = projection_.project(end_, [H](double) { return EnergyTarget{H, H}; });
+    projection_.measure(end_);
+    const EnergyProjection::Outcome outcome = projection_.project(end_, {H, H});
     fallbacks_ += outcome.by_bisection ? 1 : 0;
     if (!outcome.admissible) return false;
     moved_far_ = moved_far_ || projection_.moved_far(outcome, end_);
