@@ -105,7 +105,7 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
   if (const std::string unknown = options_left_out(methods, spec.method_options); !unknown.empty())
     spec.notes.push_back(unknown);
   if (!arguments.step_sizes.empty()) spec.h_is_default = false;
-  print_notes(notes(spec, problem));
+  print_notes(case_notes(spec, problem));
 
   // What does not exist or does not apply is refused here; what goes wrong from now on is a failed computation.
   for (const std::string& method : methods) {

@@ -1,6 +1,5 @@
 #include "load_case.hpp"
 
-#include <fmt/format.h>
 #include <seiche/config/case/case_file.hpp>
 
 #include <iostream>
@@ -25,13 +24,6 @@ RunSpec load_case(const CaseArgument& argument, const std::vector<std::string>& 
   }
   if (methods.empty()) settle_method(spec);
   return spec;
-}
-
-std::vector<std::string> notes(const RunSpec& spec, const Problem& problem) {
-  std::vector<std::string> all = spec.notes;
-  if (spec.h_is_default) all.insert(all.begin(), fmt::format("h = {} (default)", problem_entry(spec).default_h));
-  all.insert(all.end(), problem.notes.begin(), problem.notes.end());
-  return all;
 }
 
 }  // namespace seiche::cli

@@ -1,4 +1,4 @@
-// The case file that a subcommand was given, and the notes about it.
+// The case file that a subcommand was given.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,8 +17,5 @@ struct CaseArgument {
 void add_case(CLI::App& command, CaseArgument& argument);  // CASE and --set
 // `methods`, if any, are what will run instead of the method of the case.
 RunSpec load_case(const CaseArgument& argument, const std::vector<std::string>& methods = {});
-
-// What the case and the problem have to say, and a step size that nobody asked for.
-std::vector<std::string> notes(const RunSpec& spec, const Problem& problem);
 
 }  // namespace seiche::cli

@@ -34,7 +34,7 @@ ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
   const Problem problem = make_problem(spec);
   SimulationOptions options = simulation_options(spec);
   options.backend_options.threads = arguments.threads;
-  print_notes(notes(spec, problem));
+  print_notes(case_notes(spec, problem));
   const std::filesystem::path directory = arguments.directory;
   std::optional<FolderLock> lock;
   if (arguments.directory_given) {

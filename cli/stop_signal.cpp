@@ -26,6 +26,8 @@ const std::atomic<bool>& stop_on_signal() {
   return stop;
 }
 
+bool has_stopped() { return stop; }
+
 const std::atomic<bool>& hold_signals() {
   is_held = true;
   handle(SA_RESTART);

@@ -1,10 +1,12 @@
 // Everything a program needs: problems, methods, backends, the time loop and its observers.
 //
-// Start here: seiche/simulation/solve.hpp is one call for one run; seiche/simulation/simulation.hpp puts a problem, a
-// method and a backend together, to step oneself; seiche/core/problem.hpp says what a problem is;
-// seiche/method/methods.hpp and seiche/problem/problems.hpp list what there is.
+// Start here: seiche/simulation/solve.hpp is one call for one run, seiche/driver/run_case.hpp one for a case file and
+// the folder that it leaves; seiche/simulation/simulation.hpp puts a problem, a method and a backend together, to step
+// oneself; seiche/core/problem.hpp says what a problem is; seiche/method/methods.hpp and seiche/problem/problems.hpp
+// list what there is.
 #pragma once
 
+#include <seiche/config/case/case_file.hpp>
 #include <seiche/config/custom/custom_problem.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/observer.hpp>
@@ -12,6 +14,8 @@
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/driver/run_case.hpp>
+#include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
@@ -23,12 +27,15 @@
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/beta_fpu.hpp>
+#include <seiche/problem/burgers.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/network.hpp>
 #include <seiche/problem/nls.hpp>
 #include <seiche/problem/oscillator.hpp>
+#include <seiche/problem/problems.hpp>
+#include <seiche/problem/rigid_body.hpp>
 #include <seiche/problem/sine_gordon.hpp>
 #include <seiche/problem/sparse.hpp>
 #include <seiche/problem/truss.hpp>

@@ -42,13 +42,16 @@ const std::map<std::string, Folders> may_include = {
      {"core", "law", "potential", "damping", "method", "backend", "problem", "output", "run", "simulation", "config",
       "ensemble"}},
     {"figure", {"core", "output", "study"}},
+    {"driver",
+     {"core", "law", "method", "backend", "problem", "run", "output", "simulation", "config", "ensemble", "study",
+      "figure"}},
     {"paper", {"core", "damping", "problem", "run", "output", "simulation", "study", "figure"}},
     {"cli",
      {"core", "law", "potential", "damping", "method", "backend", "problem", "output", "run", "simulation", "config",
-      "study", "figure", "ensemble", "paper"}},
+      "study", "figure", "ensemble", "driver", "paper"}},
     {"python",
      {"core", "formula", "law", "potential", "damping", "method", "backend", "problem", "output", "run", "simulation",
-      "config", "study", "figure", "ensemble"}},
+      "config", "study", "figure", "ensemble", "driver"}},
 };
 
 // Which folders may include a third-party header; the longest prefix decides. fmt is for everybody.
@@ -63,7 +66,7 @@ const std::vector<ThirdParty> third_party = {
     {"toml++/", {"config"}},
     {"ginac/", {"formula", "config"}},
     {"cln/", {"formula", "config"}},
-    {"nlohmann/", {"simulation", "output", "study", "paper", "cli"}},
+    {"nlohmann/", {"simulation", "output", "study", "driver", "paper", "cli"}},
     {"hdf5.h", {"output"}},
     {"CLI/", {"cli"}},
     {"pybind11/", {"python"}},
@@ -287,6 +290,19 @@ TEST(Layering, LengthsAndMaximaOfStatesGoThroughTheirSpace) {
   for (const char* folder : {"seiche/method", "seiche/run", "seiche/simulation"})
     for (const fs::path& file : files_below(folder))
       for (const std::string& line : lines_of(file)) EXPECT_FALSE(breaks(line)) << file << ": " << line;
+}
+
+// Else a program that includes it alone would miss what the command lists.
+TEST(Layering, TheUmbrellaHeaderHasEveryProblemOfTheList) {
+  std::set<std::string> umbrella;
+  for (const Include& include : includes_of("seiche/seiche.hpp")) umbrella.insert(include.target);
+  int problems = 0;
+  for (const Include& include : includes_of("seiche/problem/problems.cpp")) {
+    if (!include.target.starts_with("seiche/problem/")) continue;
+    ++problems;
+    EXPECT_TRUE(umbrella.contains(include.target)) << include.target;
+  }
+  EXPECT_GT(problems, 10);
 }
 
 // A room that shows more files than one looks through holds more than one idea. core/ itself is the vocabulary.

@@ -8,7 +8,7 @@ energy law of the equation holds at every step, for any step size::
     result = seiche.solve(wave, 50.0, method="seisav", h="1/64")
     result.y.shape, result.energy[-1], result.law
 
-`problem`, `load` and `Problem` state equations, `solve` and `solve_ensemble` integrate them, `check`, `spectrum` and
+`problem`, `load` and `Problem` state equations, `solve` and `solve_ensemble` integrate them, `run` leaves files as the program does, `check`, `spectrum` and
 `converge` judge them, `methods()`, `problems()` and `backends()` list what there is, and `seiche.plot` draws.
 States are z = (field 0 at all points, field 1 at all points, …); units are those of the equation.
 """
@@ -19,6 +19,7 @@ from ._core import __version__, backends, methods, problems
 from ._ensemble import EnsembleResult, solve_ensemble
 from ._problem import Case, Problem, load, problem
 from ._result import DenseOutput, Result, SeicheWarning, Status
+from ._run import CaseRun, run
 from ._solve import solve
 from ._studies import check, converge, spectrum
 
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Case",
+    "CaseRun",
     "DenseOutput",
     "EnsembleResult",
     "Problem",
@@ -42,6 +44,7 @@ __all__ = [
     "plot",
     "problem",
     "problems",
+    "run",
     "solve",
     "solve_ensemble",
     "spectrum",

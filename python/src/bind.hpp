@@ -18,6 +18,7 @@ struct HeldProblem {
 void bind_problems(py::module_& module);
 void bind_solve(py::module_& module);
 void bind_ensembles(py::module_& module);
+void bind_runs(py::module_& module);
 void bind_studies(py::module_& module);
 void bind_lists(py::module_& module);
 

@@ -31,6 +31,7 @@ PYBIND11_MODULE(_core, module) {
   seiche::python::bind_problems(module);
   seiche::python::bind_solve(module);
   seiche::python::bind_ensembles(module);
+  seiche::python::bind_runs(module);
   seiche::python::bind_studies(module);
   seiche::python::bind_lists(module);
 }

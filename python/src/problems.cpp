@@ -141,6 +141,7 @@ void bind_problems(py::module_& module) {
       .def_readonly("backend", &RunSpec::backend)
       .def_readonly("t_end", &RunSpec::t_end)
       .def_readonly("ledger", &RunSpec::ledger)
+      .def_readonly("output_directory", &RunSpec::output_directory)
       .def_readonly("notes", &RunSpec::notes)
       .def_property_readonly("is_ensemble", [](const RunSpec& spec) { return spec.ensemble.has_value(); })
       .def("text", &write_case);

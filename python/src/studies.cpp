@@ -1,36 +1,14 @@
 // Certificates, spectra and convergence, as the JSON documents that the program prints.
 #include "bind.hpp"
+#include "interruptible.hpp"
 
 #include <pybind11/stl.h>
 #include <seiche/simulation/certificate.hpp>
 #include <seiche/study/converge.hpp>
 #include <seiche/study/spectrum.hpp>
 
-#include <atomic>
-#include <future>
-
 namespace seiche::python {
 namespace {
-
-// However the wait ends, before the thread is waited for.
-struct StopsAtEnd {
-  std::atomic<bool>& stop;
-  ~StopsAtEnd() { stop = true; }
-};
-
-// study(stop) on a thread of its own, while this one looks for Ctrl-C.
-template <class Study>
-std::string interruptible(const Study& study) {
-  std::atomic<bool> stop = false;
-  return without_gil([&] {
-    auto document = std::async(std::launch::async, [&] { return study(&stop); });
-    const StopsAtEnd stops{stop};
-    SignalCheck signals;
-    while (document.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
-      if (signals()) throw Error("interrupted");
-    return document.get();
-  });
-}
 
 std::string check(const HeldProblem& held, const RunSpec& spec) {
   return interruptible([&](const std::atomic<bool>* stop) {

@@ -13,6 +13,7 @@ bool Progress::is_due(const State& state, bool) const {
   if (first_n_ < 0) {
     first_n_ = last_n_ = state.n;
     first_t_ = state.t;
+    bar_.begin();
   }
   if (bar_.is_time_to_draw()) {
     draw(state);

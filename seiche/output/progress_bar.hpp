@@ -14,10 +14,11 @@ class ProgressBar {
   // Is stderr a terminal, and may it be drawn on?
   static bool is_wanted(bool quiet);
 
+  void begin() { begin_ = Clock::now(); }  // anew: what came before was no work that it shows
   bool is_time_to_draw() const;
   void draw(double share, std::string_view text);  // share: 0 … 1
   void wipe();
-  double seconds() const;                     // since the bar was made
+  double seconds() const;                     // since `begin`, or since the bar was made
   std::string time_left(double share) const;  // "1:23", guessed from what was done so far
 
  private:

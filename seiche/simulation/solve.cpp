@@ -1,9 +1,6 @@
-#include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/physical_memory.hpp>
-#include <seiche/law/law.hpp>
-#include <seiche/run/integrate.hpp>
-#include <seiche/simulation/kick_stability.hpp>
+#include <seiche/simulation/prepared_run.hpp>
 #include <seiche/simulation/solution_recorder.hpp>
 #include <seiche/simulation/solve.hpp>
 
@@ -52,27 +49,21 @@ void require_memory(const Problem& problem, const SolveOptions& o) {
         bytes, physical_memory(), o.dense_output ? ", and no dense_output" : "");
 }
 
-SimulationOptions simulation_options(const SolveOptions& o) {
-  return {.method = o.method,
-          .backend = o.backend,
-          .method_options = o.method_options,
-          .backend_options = o.backend_options,
-          .variable_steps = o.tolerance.has_value(),
-          .tolerance = o.tolerance.value_or(0.0),
+RunPlan plan(const SolveOptions& o) {
+  return {.simulation = {.method = o.method,
+                         .backend = o.backend,
+                         .method_options = o.method_options,
+                         .backend_options = o.backend_options},
+          .h = o.h,
+          .tolerance = o.tolerance,
+          .h_max = o.h_max,
+          .t_start = o.t_start,
           .t_end = o.t_end};
 }
 
 Problem with_initial(Problem problem, const std::optional<Vector>& z0) {
   if (z0) problem.initial = *z0;
   return problem;
-}
-
-// Rates before t = 0 were not looked at.
-LawPromise promise(const Certificate& certificate, const Problem& problem, double t_start) {
-  const bool varies = !has_constant_rates(problem.damping) || problem.friction;
-  if (certificate.law.promised && t_start < 0 && varies)
-    return {false, fmt::format("the damping changes in time, and the run starts at t = {:.6g} < 0", t_start)};
-  return certificate.law;
 }
 
 // The events of the options in the coordinates of the state, with their records.
@@ -113,25 +104,17 @@ class Run {
   Run(const Problem& problem, const SolveOptions& options)
       : options_(options),
         problem_(with_initial(problem, options.z0)),
-        simulation_(std::make_shared<Simulation>(problem_, simulation_options(options))),
-        adaptive_(options.tolerance ? &simulation_->adaptive_stepper() : nullptr),
-        steps_(simulation_->stepper(), adaptive_, kept(options)),
-        replay_(simulation_->stepper(), adaptive_) {
+        run_(problem_, plan(options)),
+        steps_(run_.simulation().stepper(), run_.adaptive(), kept(options)),
+        replay_(run_.simulation().stepper(), run_.adaptive()) {
+    const Simulation& simulation = run_.simulation();
     solution_.size = problem_.size();
     solution_.events.resize(options.events.size());
-    solution_.method = simulation_->method().name;
-    solution_.backend = simulation_->backend().name;
-    solution_.method_reason = simulation_->reason();
-    if (!options.tolerance)
-      solution_.notes = notes_on_step_size(*simulation_, options.backend_options.sparse, options.h, options.t_end);
-    solution_.certificate = certify(problem_, {.method = solution_.method,
-                                               .method_options = simulation_->method_options(),
-                                               .t_start = options.t_start,
-                                               .t_end = options.t_end,
-                                               .sample_solution = false,
-                                               .at_start = simulation_.get()});
-    if (options.ledger) simulation_->stepper().keep_ledger();
-    simulation_->state().t = options.t_start;
+    solution_.method = simulation.method().name;
+    solution_.backend = simulation.backend().name;
+    solution_.method_reason = simulation.reason();
+    solution_.notes = run_.notes();
+    if (options.ledger) run_.simulation().stepper().keep_ledger();
   }
 
   Solution solve() {
@@ -142,35 +125,25 @@ class Run {
           fmt::format("an event ended the run at t = {:.9g}; {}", solution_.report.t, solution_.report.message);
     for (const std::string& note : solution_.notes) solution_.report.message += "; " + note;
     if (options_.dense_output)
-      solution_.sol = std::make_shared<DenseOutput>(simulation_, options_.tolerance.has_value(),
-                                                    steps_.release(simulation_->state().t), simulation_->state());
+      solution_.sol =
+          std::make_shared<DenseOutput>(run_.shared_simulation(), options_.tolerance.has_value(),
+                                        steps_.release(run_.simulation().state().t), run_.simulation().state());
     return std::move(solution_);
   }
 
  private:
   void integrate_all() {
-    const System& system = simulation_->system();
-    SolutionRecorder recorder(options_, *simulation_, steps_, replay_, stop_, solution_);
+    Simulation& simulation = run_.simulation();
+    SolutionRecorder recorder(options_, simulation, steps_, replay_, stop_, solution_);
     const std::vector<Observer*> observers = {&recorder};
-    const std::vector<Event> events = physical_events(options_, *system.space, solution_);
-    const LawPromise law = promise(solution_.certificate, problem_, options_.t_start);
-    const auto objection = [this] { return negative_rate(simulation_->problem()); };
-    solution_.report = integrate_either(system, steps_, adaptive_ != nullptr ? &steps_ : nullptr, simulation_->state(),
-                                        {.tolerance = options_.tolerance.value_or(0.0),
-                                         .t_end = options_.t_end,
-                                         .first_h = options_.h,
-                                         .largest_h = options_.h_max,
-                                         .law = law,
-                                         .objection = objection,
-                                         .stop = &stop_,
-                                         .events = events},
-                                        observers);
+    const std::vector<Event> events = physical_events(options_, *simulation.system().space, solution_);
+    solution_.report = run_.integrate(steps_, run_.adaptive() != nullptr ? &steps_ : nullptr, stop_, observers, events);
+    solution_.certificate = run_.certificate_after(solution_.report);
   }
 
   const SolveOptions& options_;
   Problem problem_;
-  std::shared_ptr<Simulation> simulation_;
-  AdaptiveStepper* adaptive_;
+  PreparedRun run_;
   RememberingStepper steps_;
   StepReplay replay_;
   std::atomic<bool> stop_ = false;

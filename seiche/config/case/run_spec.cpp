@@ -91,6 +91,13 @@ SimulationOptions simulation_options(const RunSpec& spec) {
           .t_end = spec.t_end};
 }
 
+std::vector<std::string> case_notes(const RunSpec& spec, const Problem& problem) {
+  std::vector<std::string> all = spec.notes;
+  if (spec.h_is_default) all.insert(all.begin(), fmt::format("h = {} (default)", problem_entry(spec).default_h));
+  all.insert(all.end(), problem.notes.begin(), problem.notes.end());
+  return all;
+}
+
 void settle_method(RunSpec& spec) {
   if (spec.method != "auto") return;
   SimulationOptions options = simulation_options(spec);

@@ -80,6 +80,9 @@ Problem make_problem(const RunSpec& spec);
 
 SimulationOptions simulation_options(const RunSpec& spec);
 
+// What the case and the problem have to say before a run, and a step size that nobody asked for.
+std::vector<std::string> case_notes(const RunSpec& spec, const Problem& problem);
+
 // Where the method is "auto": what Simulation chooses for the case takes its place, with the reason among the notes.
 void settle_method(RunSpec& spec);
 

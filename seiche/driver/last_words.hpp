@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace seiche::cli {
+namespace seiche {
 
 // Observers finish in their order: this one does something then.
 class AtTheEnd : public Observer {
@@ -42,4 +42,4 @@ class LastWords {
   std::string written_;
 };
 
-}  // namespace seiche::cli
+}  // namespace seiche

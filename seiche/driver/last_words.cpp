@@ -1,4 +1,4 @@
-#include "last_words.hpp"
+#include <seiche/driver/last_words.hpp>
 
 #include <seiche/core/error.hpp>
 #include <seiche/output/file/atomic_file.hpp>
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace seiche::cli {
+namespace seiche {
 namespace {
 
 std::uint64_t room_for_state(Index unknowns) {
@@ -47,4 +47,4 @@ void LastWords::correct(const RunReport& report) {
   }
 }
 
-}  // namespace seiche::cli
+}  // namespace seiche

@@ -1,0 +1,54 @@
+"""A case run to a folder of files, as the program runs it."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import warnings
+from typing import Any
+
+from . import _core
+from ._problem import Case, load, thread_count, truth
+from ._result import Answer, SeicheWarning
+
+
+class CaseRun(Answer):
+    """What ``summary.json`` says of a run; keys are attributes too. ``folder`` is where its files are."""
+
+    @property
+    def success(self) -> bool:
+        return self["status"] == "success"
+
+
+def run(
+    case: Case | str | os.PathLike,
+    folder: str | os.PathLike | None = None,
+    threads: int = 1,
+    restart: bool = False,
+    **overrides: Any,
+) -> CaseRun:
+    """Run a case, or an ensemble, to the files that ``seiche run`` leaves.
+
+    Parameters
+    ----------
+    case : Case, or the name of a case file
+    folder : where the files go; by default the ``output.directory`` of the case
+    threads : over a large grid, or over the members of an ensemble; results do not depend on it
+    restart : begin anew where the folder holds a run that did not finish, which is removed
+    **overrides : keys of the case to replace: ``seiche.run("case.toml", **{"method.h": "1/64"})``
+
+    Returns what ``summary.json`` holds, and ``folder``. A computation that fails is a status, with what was computed
+    before on disk. Ctrl-C ends the run after the step it is in: its status is then "interrupted", and its files are whole.
+    """
+    if not isinstance(case, Case):
+        case = load(case, **overrides)
+    elif overrides:
+        raise ValueError(f"{', '.join(overrides)}: give keys to replace to seiche.load, or the name of the case file here")
+    directory = os.fspath(case._core.output_directory if folder is None else folder)
+    if not directory:
+        raise ValueError("folder must not be empty")
+    done = _core.run(case._core, directory, thread_count(threads), truth("restart", restart))
+    for remark in done.remarks:
+        warnings.warn(remark, SeicheWarning, stacklevel=2)
+    return CaseRun(json.loads(done.summary), folder=pathlib.Path(directory))

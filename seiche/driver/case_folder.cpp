@@ -1,0 +1,38 @@
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/driver/case_folder.hpp>
+#include <seiche/figure/run_pictures.hpp>
+#include <seiche/study/versions.hpp>
+
+namespace seiche {
+namespace {
+
+const std::filesystem::path& made(const std::filesystem::path& path) {
+  make_directory(path);
+  return path;
+}
+
+}  // namespace
+
+CaseFolder::CaseFolder(const std::filesystem::path& path, RunKind kind, const RunSpec& spec, bool restart)
+    : folder_(made(path)), lock_(folder_) {
+  require_own_files(path, kind, kind == RunKind::run && spec.report);
+  if (!restart) require_finished(path);
+  remove_earlier_results(path);
+  remove_own_report(path);
+  remove_pictures(path);
+  write_file(folder_, "case.toml", write_case(spec));
+}
+
+const std::atomic<bool>* begin(const RunCaseOptions& options, const std::vector<std::string>& notes) {
+  static const std::atomic<bool> never = false;
+  const std::atomic<bool>* stop = options.begins ? options.begins(notes) : nullptr;
+  return stop != nullptr ? stop : &never;
+}
+
+std::map<std::string, std::string> all_versions(const RunCaseOptions& options) {
+  std::map<std::string, std::string> all = versions_in_use();
+  all.insert(options.versions.begin(), options.versions.end());
+  return all;
+}
+
+}  // namespace seiche

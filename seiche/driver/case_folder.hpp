@@ -1,0 +1,34 @@
+// The folder that a case leaves its files in, from its first file on.
+#pragma once
+
+#include <seiche/driver/run_case.hpp>
+#include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/file/folder_lock.hpp>
+#include <seiche/output/run_folder.hpp>
+
+#include <atomic>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// Made if need be, locked against other runs, emptied of earlier results, and begun with case.toml.
+class CaseFolder {
+ public:
+  // Throws Error where it is in use, holds files of others or, unless `restart`, a run that did not finish.
+  CaseFolder(const std::filesystem::path& path, RunKind kind, const RunSpec& spec, bool restart);
+
+  const Folder& folder() const { return folder_; }
+
+ private:
+  Folder folder_;
+  FolderLock lock_;
+};
+
+// Calls options.begins with the notes; its flag, or one that nobody sets.
+const std::atomic<bool>* begin(const RunCaseOptions& options, const std::vector<std::string>& notes);
+std::map<std::string, std::string> all_versions(const RunCaseOptions& options);
+
+}  // namespace seiche

@@ -1,0 +1,45 @@
+// One case, from its description to the folder of files that it leaves: what `seiche run` and Python's `seiche.run` do.
+#pragma once
+
+#include <seiche/config/case/run_spec.hpp>
+#include <seiche/core/observer.hpp>
+#include <seiche/simulation/certificate.hpp>
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// What the caller lends a run. All of it may be left out.
+struct RunCaseOptions {
+  int threads = 1;       // over a large grid, or the members of an ensemble; results do not depend on it
+  bool restart = false;  // begin anew where the folder holds a run that did not finish, which is removed
+  // Before the first step, when nothing is refused any more: what there is to say. Returns a flag that ends the run
+  // after the step in which it is set, or null.
+  std::function<const std::atomic<bool>*(const std::vector<std::string>& notes)> begins = {};
+  // When the time loop has ended and files are written that nobody could write again. Returns a flag that asks to leave
+  // out what can be had later, or null.
+  std::function<const std::atomic<bool>*()> ends = {};
+  std::function<void(const std::string& note)> warn = {};  // what has gone wrong with files that can be had later
+  std::vector<Observer*> observers = {};                   // of a single run, behind those that write its files
+  std::map<std::string, std::string> versions = {};        // of the caller, for summary.json
+};
+
+struct CaseResult {
+  RunReport report;         // as it is in the files
+  std::string message;      // that of the report, with the notes
+  Certificate certificate;  // as it is behind the run
+  std::string feeds;        // where a rate of linear damping is negative: which, and when
+  std::string summary;      // summary.json
+};
+
+// Leaves case.toml, energy.csv, solution.h5 with solution.xdmf, final.txt, summary.json and report.html in `folder`,
+// which replaces spec.output_directory. Throws Error for set-up mistakes, and where the folder is in use or not its
+// own; a computation that fails is a status of the report, with what was computed before on disk.
+CaseResult run_case(RunSpec spec, const std::filesystem::path& folder, const RunCaseOptions& options = {});
+
+}  // namespace seiche

@@ -1,0 +1,154 @@
+#include <seiche/core/error.hpp>
+#include <seiche/driver/case_folder.hpp>
+#include <seiche/driver/ensemble_files.hpp>
+#include <seiche/driver/run_ensemble_case.hpp>
+#include <seiche/law/law.hpp>
+#include <seiche/output/file/reserve_file.hpp>
+#include <seiche/simulation/certificate.hpp>
+#include <seiche/simulation/kick_stability.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace seiche {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json statistics_json(const Statistics& s) {
+  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+  return {{"mean", number(s.mean)},  {"sd", number(s.standard_deviation)}, {"min", number(s.minimum)},
+          {"q05", number(s.low)},    {"median", number(s.median)},         {"q95", number(s.high)},
+          {"max", number(s.maximum)}};
+}
+
+std::string summary(const RunSpec& spec, const std::string& backend, const EnsembleResult& result,
+                    const EnsembleOutcome& outcome, const StatisticsFile& energies, bool has_modified,
+                    const Certificate& certificate, const std::map<std::string, std::string>& versions) {
+  std::int64_t steps = 0;
+  std::int64_t iterations = 0;
+  std::int64_t fallbacks = 0;
+  std::int64_t replaced = 0;
+  for (const MemberResult& member : result.members) {
+    steps += member.report.steps;
+    iterations += member.report.scalar_iterations;
+    fallbacks += member.report.fallbacks;
+    replaced += member.report.replaced.count;
+  }
+  Json energy = {{"initial", statistics_json(energies.first().H)}, {"final", statistics_json(energies.last().H)}};
+  energy["modified"] = has_modified ? Json{{"initial", statistics_json(energies.first().modified)},
+                                           {"final", statistics_json(energies.last().modified)}}
+                                    : Json(nullptr);
+  energy["law"] = outcome.law().empty() ? Json(nullptr) : Json(outcome.law());
+  Json about = Json::object();
+  for (const auto& [name, version] : versions) about[name] = version;
+  const Json json = {
+      {"status", to_string(outcome.status())},
+      {"message", outcome.message},
+      {"problem", spec.problem},
+      {"method", spec.method},
+      {"backend", backend},
+      {"h", spec.h},
+      {"members", result.members.size()},
+      {"side_by_side", result.in_lanes},
+      {"statuses", {{"success", outcome.succeeded}, {"failed", outcome.failed}, {"interrupted", outcome.interrupted}}},
+      {"laws", {{"holds", outcome.holds}, {"violated", outcome.violated}, {"not promised", outcome.not_promised}}},
+      {"steps", steps},
+      {"t", energies.last().t},
+      {"energy", energy},
+      {"counts", {{"scalar_iterations", iterations}, {"fallbacks", fallbacks}, {"replaced", replaced}}},
+      {"wall_seconds", result.wall_seconds},
+      {"certificate", Json::parse(certificate_json(certificate))},
+      {"versions", about}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// Of the first member that starts. A method that applies to no member leaves no files.
+std::unique_ptr<Simulation> first_start(const Members& members, const RunSpec& spec) {
+  std::optional<Error> first;
+  for (const EnsembleMember& member : members.list) {
+    try {
+      Problem problem = *member.problem;
+      problem.initial = member.initial;
+      return std::make_unique<Simulation>(problem, simulation_options(spec));
+    } catch (const Error& error) {
+      if (!first) first = error;
+    }
+  }
+  throw Error(*first);
+}
+
+// Where members differ in a parameter, what was made of one problem is not what was made of another.
+std::vector<std::string> notes_on(const Members& members, const Simulation& simulation, const RunSpec& spec) {
+  Problem first = *members.list.front().problem;
+  if (!members.parameters.empty())
+    for (std::string& note : first.notes) note.insert(0, "of member 1: ");
+  std::vector<std::string> all = case_notes(spec, first);
+  if (spec.tolerance) return all;
+  const std::vector<std::string> on_h = notes_on_step_size(simulation, spec.sparse, spec.h, spec.t_end);
+  all.insert(all.end(), on_h.begin(), on_h.end());
+  return all;
+}
+
+}  // namespace
+
+EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& directory,
+                                     const RunCaseOptions& options) {
+  spec.output_directory = directory.string();
+  const Members members = make_members(spec);
+  const Problem& problem = *members.list.front().problem;
+  const bool has_modified = find_method(spec.method).kept_energy == "H_modified";
+  const std::unique_ptr<Simulation> simulation = first_start(members, spec);
+  // Of the first member; each member's own promise is counted in "laws".
+  const Certificate certificate = certify(problem, {.method = spec.method,
+                                                    .method_options = spec.method_options,
+                                                    .t_end = spec.t_end,
+                                                    .sample_solution = false});
+  const std::atomic<bool>& stop = *begin(options, notes_on(members, *simulation, spec));
+  const CaseFolder case_folder(directory, RunKind::ensemble, spec, options.restart);
+  const Folder& folder = case_folder.folder();
+  ReserveFile reserve(folder, 2 * ReserveFile::of_a_summary);
+  StatisticsFile energies(folder, has_modified);
+  const EnsembleResult result =
+      run_ensemble(members.list,
+                   {.simulation = simulation_options(spec),
+                    .h = spec.h,
+                    .t_end = spec.t_end,
+                    .energy_every = spec.energy_every,
+                    .threads = options.threads,
+                    .promise = [&](const Simulation& member) { return promise_energy_law(member, spec.t_end); },
+                    .objection = negative_rate,
+                    .on_record = [&](const EnsembleRecord& record) { energies.write(record); },
+                    .stop = &stop});
+  EnsembleOutcome outcome(result);
+  // Each gets its chance to be whole, also where another one was not.
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const Error& error) {
+      outcome.fail_to_write(error.what());
+    }
+  };
+  if (options.ends) options.ends();
+  attempt([&] { energies.commit(); });
+  attempt([&] { write_members(folder, members, result, has_modified); });
+  attempt([&] { write_finals(folder, problem, result); });
+  const std::string backend =
+      spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
+  const auto summarised = [&] {
+    return summary(spec, backend, result, outcome, energies, has_modified, certificate, all_versions(options));
+  };
+  reserve.release();
+  attempt([&] { write_file(folder, "summary.json", summarised()); });
+  return {.outcome = outcome,
+          .first = energies.first(),
+          .last = energies.last(),
+          .members = std::ssize(result.members),
+          .wall_seconds = result.wall_seconds,
+          .summary = summarised()};
+}
+
+}  // namespace seiche

@@ -1,0 +1,22 @@
+// A case with [ensemble], from its description to the folder of files that it leaves.
+#pragma once
+
+#include <seiche/driver/ensemble_outcome.hpp>
+#include <seiche/driver/run_case.hpp>
+
+namespace seiche {
+
+struct EnsembleCaseResult {
+  EnsembleOutcome outcome;
+  EnsembleRecord first, last;  // of the statistics
+  std::int64_t members = 0;
+  double wall_seconds = 0.0;
+  std::string summary;  // summary.json; "" where the run was interrupted before a member had started
+};
+
+// Leaves case.toml, members.csv, energy.csv (statistics of H over the members that run), finals.csv and summary.json in
+// `folder`. Throws Error as run_case. Fails if any member failed; what the others computed is on disk.
+EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& folder,
+                                     const RunCaseOptions& options = {});
+
+}  // namespace seiche

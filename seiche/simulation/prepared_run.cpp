@@ -1,0 +1,67 @@
+#include <seiche/core/commuting_damping.hpp>
+#include <seiche/law/law.hpp>
+#include <seiche/run/adaptive.hpp>
+#include <seiche/simulation/kick_stability.hpp>
+#include <seiche/simulation/prepared_run.hpp>
+
+#include <fmt/format.h>
+
+namespace seiche {
+namespace {
+
+SimulationOptions with_times(SimulationOptions options, const RunPlan& plan) {
+  options.variable_steps = plan.tolerance.has_value();
+  options.tolerance = plan.tolerance.value_or(0.0);
+  options.t_end = plan.t_end;
+  return options;
+}
+
+}  // namespace
+
+PreparedRun::PreparedRun(const Problem& problem, const RunPlan& plan)
+    : plan_(plan),
+      varies_(!has_constant_rates(problem.damping) || problem.friction != nullptr),
+      simulation_(std::make_shared<Simulation>(problem, with_times(plan.simulation, plan))),
+      adaptive_(plan.tolerance ? &simulation_->adaptive_stepper() : nullptr) {
+  if (!plan.tolerance)
+    notes_ = notes_on_step_size(*simulation_, plan.simulation.backend_options.sparse, plan.h, plan.t_end);
+  certificate_ = certify(problem, {.method = std::string(simulation_->method().name),
+                                   .method_options = simulation_->method_options(),
+                                   .t_start = plan.t_start,
+                                   .t_end = plan.t_end,
+                                   .sample_solution = false,
+                                   .at_start = simulation_.get()});
+  simulation_->state().t = plan.t_start;
+}
+
+// Rates before t = 0 were not looked at.
+LawPromise PreparedRun::promise() const {
+  if (certificate_.law.promised && plan_.t_start < 0 && varies_)
+    return {false, fmt::format("the damping changes in time, and the run starts at t = {:.6g} < 0", plan_.t_start)};
+  return certificate_.law;
+}
+
+RunReport PreparedRun::integrate(Stepper& stepper, AdaptiveStepper* adaptive, const std::atomic<bool>& stop,
+                                 std::span<Observer* const> observers, std::span<const Event> events) {
+  const auto objection = [this] { return negative_rate(simulation_->problem()); };
+  return integrate_either(simulation_->system(), stepper, adaptive, simulation_->state(),
+                          {.tolerance = plan_.tolerance.value_or(0.0),
+                           .t_end = plan_.t_end,
+                           .first_h = plan_.h,
+                           .largest_h = plan_.h_max,
+                           .law = promise(),
+                           .objection = objection,
+                           .stop = &stop,
+                           .events = events},
+                          observers);
+}
+
+Certificate PreparedRun::certificate_after(const RunReport& report) const {
+  Certificate certificate = certificate_;
+  if (!certificate.law.promised || report.law != LawVerdict::not_promised) return certificate;
+  certificate.law = {.promised = false, .reason = report.law_reason};
+  certificate.theorem.clear();
+  return certificate;
+}
+
+}  // namespace seiche
