@@ -1,6 +1,6 @@
 // Nanoseconds per member and step of ensembles of 4096 on one thread, and of the same members one after the other.
 #include <seiche/damping/rates.hpp>
-#include <seiche/ensemble/lane_block.hpp>
+#include <seiche/ensemble/panel_block.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 
 #include <benchmark/benchmark.h>
@@ -39,8 +39,8 @@ std::vector<EnsembleMember> make_members(Index points, bool vary) {
 void ensemble_cost(benchmark::State& state, Index points, bool vary, const std::string& method, bool side_by_side) {
   const std::vector<EnsembleMember> list = make_members(points, vary);
   std::vector<std::unique_ptr<MemberBlock>> blocks;
-  for (Index m = 0; m < members; m += seiche::lanes) {
-    const std::span<const EnsembleMember> part(list.data() + m, static_cast<std::size_t>(seiche::lanes));
+  for (Index m = 0; m < members; m += seiche::panel_members) {
+    const std::span<const EnsembleMember> part(list.data() + m, static_cast<std::size_t>(seiche::panel_members));
     blocks.push_back(side_by_side ? seiche::make_block(part, {.method = method})
                                   : std::make_unique<MemberBlock>(part, seiche::SimulationOptions{.method = method}));
   }

@@ -79,7 +79,7 @@ class Ensemble:
     law: list[str]
     energy: list[float]
     parameters: dict[str, np.ndarray]
-    in_lanes: bool
+    side_by_side: bool
     wall_seconds: float
 
 def case_text(file: str) -> bytes: ...

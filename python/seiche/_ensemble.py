@@ -37,7 +37,7 @@ class EnsembleResult(Answer):
         What differs between the members of a case.
     running : (times,) array
         How many members still run.
-    in_lanes : bool
+    side_by_side : bool
         Were members stepped side by side?
     wall_seconds : float
     method : str
@@ -175,7 +175,7 @@ def solve_ensemble(
         law=held.law,
         running=held.running,
         parameters=held.parameters,
-        in_lanes=held.in_lanes,
+        side_by_side=held.side_by_side,
         wall_seconds=held.wall_seconds,
         method=case.method,
         h=case.h,

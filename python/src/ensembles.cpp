@@ -153,7 +153,7 @@ void bind_ensembles(py::module_& module) {
                                }
                                return dict;
                              })
-      .def_property_readonly("in_lanes", [](const HeldEnsemble& e) { return e.result.in_lanes; })
+      .def_property_readonly("side_by_side", [](const HeldEnsemble& e) { return e.result.side_by_side; })
       .def_property_readonly("wall_seconds", [](const HeldEnsemble& e) { return e.result.wall_seconds; });
   module.def("ensemble_of_case", &of_case);
   module.def("ensemble_of_problems", &of_problems);

@@ -224,7 +224,7 @@ def test_ensembles():
     wave = seiche.problem("klein_gordon", points=8, alpha=1.0, gamma=0.1)
     z0 = np.outer(np.linspace(0.5, 1.5, 20), wave.z0)
     e = seiche.solve_ensemble(wave, 1.0, z0, method="seisav", h=1 / 32, threads=2)
-    assert e.success and e.y.shape == (20, 16) and set(e.law) == {"holds"} and e.in_lanes
+    assert e.success and e.y.shape == (20, 16) and set(e.law) == {"holds"} and e.side_by_side
     alone = seiche.solve(wave, 1.0, z0[7], h=1 / 32)
     assert np.abs(e.y[7] - alone.y[:, -1]).max() < 1e-13
     assert e.energy["mean"].shape == e.t.shape

@@ -26,9 +26,9 @@ class Damping {
   virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀)z + R(t, z)
   virtual void apply_D0(const Vector& z, Vector& out) const = 0;              // D₀z
   // out += (∫ₜᵗ⁺ʰ D(s) ds − h Σ wᵢD(t + cᵢh)) z: what a quadrature with these nodes and weights does not see of the
-  // linear part, and what its integral does not see of jumps at the ends (BlindEnds).
-  virtual void add_unseen(double /*t*/, double /*h*/, std::span<const double> /*c*/, std::span<const double> /*w*/,
-                          const Vector& /*z*/, Vector& /*out*/) const {}
+  // linear part, and what its integral does not see of jumps at the ends (EndExtrapolation).
+  virtual void add_quadrature_error(double /*t*/, double /*h*/, std::span<const double> /*c*/,
+                                    std::span<const double> /*w*/, const Vector& /*z*/, Vector& /*out*/) const {}
   virtual std::int64_t corrections() const { return 0; }  // Friction::corrections
   // Where Ψ(t, t+h) multiplies each field by a number: those numbers, and true. A step then need not make a pass of it.
   virtual bool field_factors(double /*t*/, double /*h*/, std::span<double> /*factors*/) const { return false; }

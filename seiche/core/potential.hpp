@@ -12,7 +12,7 @@
 
 namespace seiche {
 
-class LanePotential;
+class PanelPotential;
 
 struct ValueAndMagnitude {
   double value = 0.0;
@@ -57,10 +57,10 @@ class PointwisePotential {
   // The same of the fields from this one on, whatever those before it are: Σ_{i ≥ first} uᵢ·∂V/∂uᵢ ≥ 0. A kinetic
   // energy ½pᵀA(q)p does so with A ⪰ 0.
   virtual bool grows_outward_from(Index first) const { return first == 0 && grows_outward(); }
-  // `members`, of which this is one, side by side in the lanes of panels with `rows` values each; one after the other
+  // `members`, of which this is one, side by side in the columns of panels with `rows` values each; one after the other
   // where that is not written for the potential.
-  virtual std::unique_ptr<LanePotential> for_lanes(std::span<const std::shared_ptr<const PointwisePotential>> members,
-                                                   Index rows) const;
+  virtual std::unique_ptr<PanelPotential> for_members(
+      std::span<const std::shared_ptr<const PointwisePotential>> members, Index rows) const;
 };
 
 // V in the coordinates of State::z. Gradients are gradients in the inner product of Space. They vanish outside

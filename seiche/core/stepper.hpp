@@ -90,7 +90,7 @@ class AdaptiveStepper : public Stepper {
   virtual std::optional<double> error(const State& state) = 0;
   // Of the same attempt: the part of that error by what D(t) and f(t) do between the times at which the method looks at
   // them, known without one more step. 0 for methods that take their integrals.
-  virtual double unseen(const State& /*state*/) { return 0; }
+  virtual double quadrature_error(const State& /*state*/) { return 0; }
   virtual void undo(State& state) = 0;                                    // takes that attempt back, once
   virtual void interpolate(const State& state, double t, Vector& z) = 0;  // the solution at a time inside it
   virtual void forget(State& state) = 0;   // what it remembers of the steps before; all else stays

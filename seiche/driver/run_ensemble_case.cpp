@@ -53,7 +53,7 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
       {"backend", backend},
       {"h", spec.h},
       {"members", result.members.size()},
-      {"side_by_side", result.in_lanes},
+      {"side_by_side", result.side_by_side},
       {"statuses", {{"success", outcome.succeeded}, {"failed", outcome.failed}, {"interrupted", outcome.interrupted}}},
       {"laws", {{"holds", outcome.holds}, {"violated", outcome.violated}, {"not promised", outcome.not_promised}}},
       {"steps", steps},

@@ -54,15 +54,15 @@ BlockMap::BlockMap(std::span<const Eigen::MatrixXd> matrices)
   }
   std::stable_sort(blocks_.begin(), blocks_.end(),
                    [](const Block& a, const Block& b) { return a.columns < b.columns; });
-  for (std::size_t& index : indices_) index *= static_cast<std::size_t>(lanes);
+  for (std::size_t& index : indices_) index *= static_cast<std::size_t>(panel_members);
   if (shared_) {
     for (const auto& [i, j] : places) entries_.push_back(matrices.front()(i, j));
     return;
   }
-  lane_entries_ = Panel(static_cast<Index>(places.size()));
+  panel_entries_ = Panel(static_cast<Index>(places.size()));
   for (std::size_t e = 0; e < places.size(); ++e)
-    for (Index l = 0; l < lanes; ++l)
-      lane_entries_(static_cast<Index>(e), l) =
+    for (Index l = 0; l < panel_members; ++l)
+      panel_entries_(static_cast<Index>(e), l) =
           matrices[static_cast<std::size_t>(l)](places[e].first, places[e].second);
 }
 
@@ -96,7 +96,7 @@ struct StoreDamped {
   Pack lost[packs];
   [[gnu::always_inline]] void operator()(std::size_t at, const Pack (&row)[packs]) {
     const Pack* from = packs_of(base + at);
-    const Pack* factor = packs_of(factors[at / static_cast<std::size_t>(lanes)]);
+    const Pack* factor = packs_of(factors[at / static_cast<std::size_t>(panel_members)]);
     Pack* to = packs_of(out + at);
 #pragma GCC unroll 8
     for (int q = 0; q < packs; ++q) {
@@ -117,7 +117,7 @@ struct Dot {
   }
 };
 
-// An entry times a row: the same number for every lane, or one for each.
+// An entry times a row: the same number for every member, or one for each.
 template <bool shared>
 [[gnu::always_inline]] inline void add_product(const double* entry, const Pack* x, Pack (&sum)[packs]) {
   if constexpr (shared) {
@@ -130,7 +130,7 @@ template <bool shared>
   }
 }
 
-constexpr std::size_t stride(bool shared) { return shared ? 1 : static_cast<std::size_t>(lanes); }
+constexpr std::size_t stride(bool shared) { return shared ? 1 : static_cast<std::size_t>(panel_members); }
 
 }  // namespace
 
@@ -145,7 +145,7 @@ template <int columns, bool shared, class Sink>
 #pragma GCC unroll 8
     for (int q = 0; q < packs; ++q) x[j][q] = from[q];
   }
-  const double* entry = (shared ? entries_.data() : lane_entries_.row(0)) + block.entry * stride(shared);
+  const double* entry = (shared ? entries_.data() : panel_entries_.row(0)) + block.entry * stride(shared);
   const std::size_t* row = indices_.data() + block.row;
   for (int i = 0; i < block.rows; ++i) {
     Pack sum[packs] = {};
@@ -162,7 +162,7 @@ template <bool shared, class Sink>
 [[gnu::always_inline]] inline void BlockMap::visit_large(const Block& block, const double* in, Sink& sink) const {
   const std::size_t* column = indices_.data() + block.column;
   const std::size_t* row = indices_.data() + block.row;
-  const double* entry = (shared ? entries_.data() : lane_entries_.row(0)) + block.entry * stride(shared);
+  const double* entry = (shared ? entries_.data() : panel_entries_.row(0)) + block.entry * stride(shared);
   const std::size_t next_row = static_cast<std::size_t>(block.columns) * stride(shared);
   int i = 0;
   for (; i + 2 <= block.rows; i += 2, entry += 2 * next_row) {  // each column is read once for two rows
@@ -222,7 +222,7 @@ SEICHE_MULTIVERSION void BlockMap::add_to(const double* base, const double* in, 
 }
 
 SEICHE_MULTIVERSION void BlockMap::finish(const double* base, const double* in, const double* const* factors,
-                                          double* out, LaneValues& lost) const {
+                                          double* out, PanelValues& lost) const {
   StoreDamped sink{base, factors, nullptr, {}};
   sink.out = out;
   visit(in, sink);
@@ -231,7 +231,7 @@ SEICHE_MULTIVERSION void BlockMap::finish(const double* base, const double* in, 
   for (int q = 0; q < packs; ++q) to[q] = sink.lost[q];
 }
 
-SEICHE_MULTIVERSION void BlockMap::dot(const double* left, const double* in, LaneValues& sum) const {
+SEICHE_MULTIVERSION void BlockMap::dot(const double* left, const double* in, PanelValues& sum) const {
   Dot sink{left, {}};
   visit(in, sink);
   Pack* to = packs_of(sum.data());

@@ -15,7 +15,7 @@ namespace seiche {
 class BlockMap {
  public:
   BlockMap() = default;
-  // One matrix for all lanes, or one for each of them; all of one shape.
+  // One matrix for all members, or one for each of them; all of one shape.
   explicit BlockMap(std::span<const Eigen::MatrixXd> matrices);
   explicit BlockMap(const Eigen::MatrixXd& matrix) : BlockMap(std::span(&matrix, 1)) {}
 
@@ -23,10 +23,10 @@ class BlockMap {
   // Pointers to the first row of panels; `out` must not overlap `in`.
   void apply(const double* in, double* out) const;                       // out = A in
   void add_to(const double* base, const double* in, double* out) const;  // out = base + A in; base may be in
-  // out = factor (base + A in) with a factor for every row and lane; `lost` is NaN in lanes where that is no finite
+  // out = factor (base + A in) with a factor for every row and member; `lost` is NaN in members where that is no finite
   // number.
-  void finish(const double* base, const double* in, const double* const* factors, double* out, LaneValues& lost) const;
-  void dot(const double* left, const double* in, LaneValues& sum) const;  // leftᵀ A in, for each lane
+  void finish(const double* base, const double* in, const double* const* factors, double* out, PanelValues& lost) const;
+  void dot(const double* left, const double* in, PanelValues& sum) const;  // leftᵀ A in, for each member
 
  private:
   struct Block {
@@ -44,10 +44,10 @@ class BlockMap {
   void visit_blocks(const double* in, Sink& sink) const;
 
   Index rows_ = 0;
-  bool shared_ = true;  // one number per entry; else one for each lane
+  bool shared_ = true;  // one number per entry; else one for each member
   std::vector<Block> blocks_;
   std::vector<std::size_t> indices_;  // of rows and columns
-  Panel lane_entries_;                // one row per entry, unless shared
+  Panel panel_entries_;               // one row per entry, unless shared
   std::vector<double> entries_;       // if shared
 };
 

@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/ensemble/ensemble.hpp>
-#include <seiche/ensemble/lane_block.hpp>
+#include <seiche/ensemble/panel_block.hpp>
 #include <seiche/ensemble/parallel_for.hpp>
 #include <seiche/run/energy_book.hpp>
 #include <seiche/run/time_grid.hpp>
@@ -51,7 +51,7 @@ class Run {
       result.failure = error.what();
     }
     result.members.resize(members_.size());
-    result.in_lanes = dynamic_cast<const LaneBlock*>(blocks_.front().get()) != nullptr;
+    result.side_by_side = dynamic_cast<const PanelBlock*>(blocks_.front().get()) != nullptr;
     for (Index m = 0; m < count(); ++m) result.members[static_cast<std::size_t>(m)] = member_result(m);
     result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
@@ -59,9 +59,9 @@ class Run {
 
  private:
   Index count() const { return static_cast<Index>(members_.size()); }
-  Index block_count() const { return (count() + lanes - 1) / lanes; }
-  MemberBlock& block_of(Index member) { return *blocks_[static_cast<std::size_t>(member / lanes)]; }
-  const MemberStatus& status(Index member) { return block_of(member).status(member % lanes); }
+  Index block_count() const { return (count() + panel_members - 1) / panel_members; }
+  MemberBlock& block_of(Index member) { return *blocks_[static_cast<std::size_t>(member / panel_members)]; }
+  const MemberStatus& status(Index member) { return block_of(member).status(member % panel_members); }
   bool stopped() const { return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed); }
 
   void require_one_size() const {
@@ -82,8 +82,8 @@ class Run {
     books_.assign(members_.size(), EnergyBook({}, false));
     parallel_for(block_count(), options_.threads, [&](Index b) {
       if (stopped()) throw Error("stopped before the members were set up");
-      const auto begin = static_cast<std::size_t>(b * lanes);
-      const std::size_t size = std::min(members_.size() - begin, static_cast<std::size_t>(lanes));
+      const auto begin = static_cast<std::size_t>(b * panel_members);
+      const std::size_t size = std::min(members_.size() - begin, static_cast<std::size_t>(panel_members));
       blocks_[static_cast<std::size_t>(b)] = make_block(members_.subspan(begin, size), options_.simulation);
       for (std::size_t m = begin; m < begin + size; ++m) open_book(static_cast<Index>(m));
     });
@@ -91,7 +91,7 @@ class Run {
   }
 
   void open_book(Index member) {
-    const Simulation* simulation = block_of(member).simulation(member % lanes);
+    const Simulation* simulation = block_of(member).simulation(member % panel_members);
     if (simulation == nullptr) return;
     LawPromise law{false, "no law was asked for"};
     if (options_.promise) law = options_.promise(*simulation);
@@ -172,12 +172,12 @@ class Run {
 
   void read(Index b, std::int64_t n, std::size_t record, Records& records) {
     MemberBlock& block = *blocks_[static_cast<std::size_t>(b)];
-    std::array<EnergyReading, lanes> readings;
+    std::array<EnergyReading, panel_members> readings;
     block.read(readings);
     for (Index l = 0; l < block.size(); ++l) {
       if (!block.status(l).running) continue;
       const EnergyReading& reading = readings[static_cast<std::size_t>(l)];
-      const Index member = b * lanes + l;
+      const Index member = b * panel_members + l;
       books_[static_cast<std::size_t>(member)].add(reading, grid_.time(n), n);
       records.H[records.place(record, member)] = reading.H;
       records.modified[records.place(record, member)] = reading.modified;
@@ -216,8 +216,8 @@ class Run {
     const MemberStatus& at = status(member);
     MemberResult result;
     RunReport& report = result.report;
-    report.steps = block_of(member).steps(member % lanes);
-    report.t = block_of(member).time(member % lanes);
+    report.steps = block_of(member).steps(member % panel_members);
+    report.t = block_of(member).time(member % panel_members);
     report.scalar_iterations = at.scalar_iterations;
     report.fallbacks = at.fallbacks;
     report.unresolved = at.unresolved;
@@ -233,9 +233,9 @@ class Run {
       report.message = fmt::format("reached t = {:.9g} in {}", report.t, counted_steps(report.steps));
     }
     report.judge_replaced();
-    hear_objection(block_of(member).simulation(member % lanes), at.fed, report);
+    hear_objection(block_of(member).simulation(member % panel_members), at.fed, report);
     if (report.drift) report.message += "; " + report.remark_on_drift();
-    result.final = block_of(member).physical(member % lanes);
+    result.final = block_of(member).physical(member % panel_members);
     if (result.final.size() == 0) {
       report.law = LawVerdict::not_promised;
       report.law_reason = "the member never started";

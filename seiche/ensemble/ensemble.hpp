@@ -43,8 +43,8 @@ struct MemberResult {
 
 struct EnsembleResult {
   std::vector<MemberResult> members;
-  bool in_lanes = false;  // were members stepped side by side?
-  std::string failure;    // what on_record threw, or ""
+  bool side_by_side = false;  // were members stepped side by side?
+  std::string failure;        // what on_record threw, or ""
   double wall_seconds = 0.0;
 };
 

@@ -142,7 +142,7 @@ SEICHE_MULTIVERSION void fold_twice(const std::vector<MirrorPair>& mirrors, doub
 }
 
 Mirror offsets(const std::pair<Index, Index>& pair) {
-  return {static_cast<std::size_t>(pair.first * lanes), static_cast<std::size_t>(pair.second * lanes)};
+  return {static_cast<std::size_t>(pair.first * panel_members), static_cast<std::size_t>(pair.second * panel_members)};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// An orthonormal transform of one field, for all lanes of a panel at once.
+// An orthonormal transform of one field, for all members of a panel at once.
 #pragma once
 
 #include <seiche/ensemble/block_map.hpp>
@@ -12,7 +12,7 @@ namespace seiche {
 // The matrix T is factored as T = BP: P adds and subtracts values that mirror each other, B is what is left, in small
 // blocks. The mirrors are found in the numbers of T, so that sines, cosines, Fourier modes and their products over axes
 // are all folded, without a word about which they are. Twenty periodic points cost 102 products instead of 400. (FFTW's
-// batched real transforms do not run across lanes: 16 ns a transform, where this takes 6.)
+// batched real transforms do not run across members: 16 ns a transform, where this takes 6.)
 class FoldedTransform {
  public:
   FoldedTransform() = default;

@@ -85,7 +85,7 @@ void MemberBlock::fail(Index member, std::string message) {
   status.message = std::move(message);
 }
 
-void MemberBlock::read(std::array<EnergyReading, lanes>& readings) {
+void MemberBlock::read(std::array<EnergyReading, panel_members>& readings) {
   read_energies(readings);
   for (Index m = 0; m < size(); ++m) {
     const EnergyReading& reading = readings[static_cast<std::size_t>(m)];
@@ -95,7 +95,7 @@ void MemberBlock::read(std::array<EnergyReading, lanes>& readings) {
   }
 }
 
-void MemberBlock::read_energies(std::array<EnergyReading, lanes>& readings) {
+void MemberBlock::read_energies(std::array<EnergyReading, panel_members>& readings) {
   for (Index m = 0; m < size(); ++m)
     if (status(m).running) readings[static_cast<std::size_t>(m)] = stepper_of(m).stepper().energy(state(m));
 }

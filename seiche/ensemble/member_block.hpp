@@ -48,12 +48,12 @@ class MemberBlock {
   std::int64_t steps(Index member) const { return status(member).running ? steps_ : status(member).steps; }
   double time(Index member) const { return status(member).running ? t_ : status(member).t; }
   // Of all that run. A member whose energy is no finite number fails.
-  void read(std::array<EnergyReading, lanes>& readings);
+  void read(std::array<EnergyReading, panel_members>& readings);
   Vector physical(Index member);  // the last good state
 
  protected:
   virtual void step_all(std::int64_t n, double t, double h);
-  virtual void read_energies(std::array<EnergyReading, lanes>& readings);
+  virtual void read_energies(std::array<EnergyReading, panel_members>& readings);
   virtual void update_state(Index /*member*/) {}  // makes state(member) what the member is at
 
   State& state(Index member) { return states_[static_cast<std::size_t>(member)]; }

@@ -21,26 +21,26 @@ template <class F>
   largest = 0.0 * size == 0.0 ? largest : size;  // a NaN stays
 }
 
-[[gnu::always_inline]] inline void put(const Pack (&row)[packs], LaneValues& values) {
+[[gnu::always_inline]] inline void put(const Pack (&row)[packs], PanelValues& values) {
   for (int q = 0; q < packs; ++q) packs_of(values.data())[q] = row[q];
 }
 
 }  // namespace
 
-SEICHE_MULTIVERSION void scale_rows(const double* in, const LaneValues& factors, Index rows, double* out) {
+SEICHE_MULTIVERSION void scale_rows(const double* in, const PanelValues& factors, Index rows, double* out) {
   const Pack* c = packs_of(factors.data());
   for_packs(
       rows, [&](Index i, int q) __attribute__((always_inline)) { packs_of(out)[i] = c[q] * packs_of(in)[i]; });
 }
 
 SEICHE_MULTIVERSION void damp_and_measure(const double* in, RowFactors factors, const double* diagonal, Index rows,
-                                          double* out, LaneValues& sum) {
+                                          double* out, PanelValues& sum) {
   Pack total[packs] = {};
   for (Index j = 0; j < rows; ++j) {
     const Pack* c = packs_of(factors[j]);
-    const Pack* d = packs_of(diagonal + j * lanes);
-    const Pack* from = packs_of(in + j * lanes);
-    Pack* to = packs_of(out + j * lanes);
+    const Pack* d = packs_of(diagonal + j * panel_members);
+    const Pack* from = packs_of(in + j * panel_members);
+    Pack* to = packs_of(out + j * panel_members);
 #pragma GCC unroll 8
     for (int q = 0; q < packs; ++q) {
       const Pack z = c[q] * from[q];
@@ -51,7 +51,7 @@ SEICHE_MULTIVERSION void damp_and_measure(const double* in, RowFactors factors, 
   put(total, sum);
 }
 
-SEICHE_MULTIVERSION void measure(const double* in, const double* diagonal, Index rows, LaneValues& sum) {
+SEICHE_MULTIVERSION void measure(const double* in, const double* diagonal, Index rows, PanelValues& sum) {
   Pack total[packs] = {};
   for_packs(
       rows, [&](Index i, int q) __attribute__((always_inline)) {
@@ -63,27 +63,27 @@ SEICHE_MULTIVERSION void measure(const double* in, const double* diagonal, Index
 SEICHE_MULTIVERSION void damp_rows(RowFactors factors, Index rows, double* values) {
   for (Index j = 0; j < rows; ++j) {
     const Pack* c = packs_of(factors[j]);
-    Pack* to = packs_of(values + j * lanes);
+    Pack* to = packs_of(values + j * panel_members);
 #pragma GCC unroll 8
     for (int q = 0; q < packs; ++q) to[q] *= c[q];
   }
 }
 
-SEICHE_MULTIVERSION void find_not_finite(const double* in, Index rows, LaneValues& flags) {
+SEICHE_MULTIVERSION void find_not_finite(const double* in, Index rows, PanelValues& flags) {
   Pack total[packs] = {};
   for_packs(
       rows, [&](Index i, int q) __attribute__((always_inline)) { total[q] += 0.0 * packs_of(in)[i]; });
   put(total, flags);
 }
 
-SEICHE_MULTIVERSION void max_norm(const double* in, Index rows, LaneValues& norms) {
+SEICHE_MULTIVERSION void max_norm(const double* in, Index rows, PanelValues& norms) {
   Pack largest[packs] = {};
   for_packs(
       rows, [&](Index i, int q) __attribute__((always_inline)) { keep_larger(packs_of(in)[i], largest[q]); });
   put(largest, norms);
 }
 
-SEICHE_MULTIVERSION void max_distance(const double* a, const double* b, Index rows, LaneValues& norms) {
+SEICHE_MULTIVERSION void max_distance(const double* a, const double* b, Index rows, PanelValues& norms) {
   Pack largest[packs] = {};
   for_packs(
       rows, [&](Index i, int q)
@@ -91,7 +91,7 @@ SEICHE_MULTIVERSION void max_distance(const double* a, const double* b, Index ro
   put(largest, norms);
 }
 
-SEICHE_MULTIVERSION void copy_lanes(const double* in, const LaneValues& mask, Index rows, double* out) {
+SEICHE_MULTIVERSION void copy_members(const double* in, const PanelValues& mask, Index rows, double* out) {
   const Pack* chosen = packs_of(mask.data());
   for_packs(
       rows, [&](Index i, int q) __attribute__((always_inline)) {

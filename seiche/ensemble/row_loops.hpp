@@ -5,21 +5,21 @@
 
 namespace seiche {
 
-// One factor for every lane of every row, in `factors`: that of its field.
+// One factor for every member of every row, in `factors`: that of its field.
 using RowFactors = const double* const*;
 
 // out = factor · in, and Σ d · out² with one row of `diagonal` for each.
 void damp_and_measure(const double* in, RowFactors factors, const double* diagonal, Index rows, double* out,
-                      LaneValues& sum);
+                      PanelValues& sum);
 // Σ d · in²
-void measure(const double* in, const double* diagonal, Index rows, LaneValues& sum);
+void measure(const double* in, const double* diagonal, Index rows, PanelValues& sum);
 void damp_rows(RowFactors factors, Index rows, double* values);
-void scale_rows(const double* in, const LaneValues& factors, Index rows, double* out);  // out may be in
-// Each lane: 0 if all its numbers are finite, else NaN.
-void find_not_finite(const double* in, Index rows, LaneValues& flags);
-void max_norm(const double* in, Index rows, LaneValues& norms);
-void max_distance(const double* a, const double* b, Index rows, LaneValues& norms);
-// Lanes with mask ≠ 0 of `in` go to `out`.
-void copy_lanes(const double* in, const LaneValues& mask, Index rows, double* out);
+void scale_rows(const double* in, const PanelValues& factors, Index rows, double* out);  // out may be in
+// Each member: 0 if all its numbers are finite, else NaN.
+void find_not_finite(const double* in, Index rows, PanelValues& flags);
+void max_norm(const double* in, Index rows, PanelValues& norms);
+void max_distance(const double* a, const double* b, Index rows, PanelValues& norms);
+// Members with mask ≠ 0 of `in` go to `out`.
+void copy_members(const double* in, const PanelValues& mask, Index rows, double* out);
 
 }  // namespace seiche

@@ -54,15 +54,15 @@ std::string witness(const Problem& problem, const NegativeDirection& x) {
 }
 
 // Of what should be positive semidefinite.
-Hypothesis semidefinite(const Problem& problem, std::string name, const Semidefiniteness& seen,
+Hypothesis semidefinite(const Problem& problem, std::string name, const Semidefiniteness& found,
                         const std::string& meaning) {
-  if (!seen.over_modes) {
-    if (const auto& x = seen.negative_direction)
+  if (!found.over_modes) {
+    if (const auto& x = found.negative_direction)
       return {std::move(name), Grade::violated, meaning + " fails", x->value, witness(problem, *x)};
     return {std::move(name), Grade::verified, meaning + ", by the signs of the pivots of LDLᵀ"};
   }
-  const SmallestEigenvalue& s = *seen.over_modes;
-  if (!seen.holds()) return {std::move(name), Grade::violated, meaning + " fails", s.value, witness(problem, s)};
+  const SmallestEigenvalue& s = *found.over_modes;
+  if (!found.holds()) return {std::move(name), Grade::violated, meaning + " fails", s.value, witness(problem, s)};
   std::string text = fmt::format("{}: the smallest eigenvalue{} is {:.6g}", meaning,
                                  has_modes(problem) ? " over all modes" : "", std::max(s.value, 0.0));
   if (s.zeros > 0 && has_modes(problem))

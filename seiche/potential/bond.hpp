@@ -3,8 +3,8 @@
 
 #include <seiche/core/grid/grid.hpp>
 #include <seiche/core/potential.hpp>
-#include <seiche/potential/bond_lanes.hpp>
 #include <seiche/potential/bond_loops.hpp>
+#include <seiche/potential/bond_panel.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
@@ -72,10 +72,10 @@ class BondPotential final : public PointwisePotential {
   bool grows_outward() const override { return w_.grows_outward(); }
 
   const W& w() const { return w_; }
-  std::unique_ptr<LanePotential> for_lanes(LaneMembers members, Index rows) const override {
-    const std::vector<W> all = lane_functions<BondPotential>(members);
-    if (all.empty()) return lane_by_lane(members, rows);
-    return std::make_unique<BondLanes<W>>(all, rows, boundary_);
+  std::unique_ptr<PanelPotential> for_members(PanelMembers members, Index rows) const override {
+    const std::vector<W> all = member_functions<BondPotential>(members);
+    if (all.empty()) return member_by_member(members, rows);
+    return std::make_unique<BondPanel<W>>(all, rows, boundary_);
   }
 
  private:

@@ -3,7 +3,7 @@
 
 #include <seiche/core/potential.hpp>
 #include <seiche/potential/loops.hpp>
-#include <seiche/potential/nodal_lanes.hpp>
+#include <seiche/potential/nodal_panel.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
@@ -56,10 +56,10 @@ class NodalPotential final : public PointwisePotential {
   bool grows_outward() const override { return w_.grows_outward(); }
 
   const W& w() const { return w_; }
-  std::unique_ptr<LanePotential> for_lanes(LaneMembers members, Index rows) const override {
-    const std::vector<W> all = lane_functions<NodalPotential>(members);
-    if (all.empty()) return lane_by_lane(members, rows);
-    return std::make_unique<NodalLanes<W>>(all, rows);
+  std::unique_ptr<PanelPotential> for_members(PanelMembers members, Index rows) const override {
+    const std::vector<W> all = member_functions<NodalPotential>(members);
+    if (all.empty()) return member_by_member(members, rows);
+    return std::make_unique<NodalPanel<W>>(all, rows);
   }
 
  private:

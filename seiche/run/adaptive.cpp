@@ -103,10 +103,10 @@ class AdaptiveLoop {
     const double unknowns = system_.space->sum(static_cast<double>(state_.z.size()));
     const double noise = 8 * epsilon * system_.space->norm(state_.z) / std::sqrt(unknowns);
     if (!error) {
-      const double unseen = stepper_.unseen(state_);
-      if (unseen > noise && !controller_.accepts(unseen, h, noise)) {
+      const double quadrature_error = stepper_.quadrature_error(state_);
+      if (quadrature_error > noise && !controller_.accepts(quadrature_error, h, noise)) {
         stepper_.undo(state_);
-        return reject(controller_.next(h), too_inaccurate(h, unseen));
+        return reject(controller_.next(h), too_inaccurate(h, quadrature_error));
       }
       if (!is_last) return hold_back(h, step);
     }

@@ -96,7 +96,7 @@ MethodChoice choose_method(const Problem& problem, const System& system, const M
   MethodChoice choice{.method = collocation_for(wanted), .options = options, .reason = {}};
   const ProblemRates rates = rates_of(system);
   const bool is_known = std::isfinite(rates.solution);
-  const std::string seen =
+  const std::string found =
       fmt::format("the linear part has rates up to {:.3g} and {}", rates.linear,
                   is_known ? fmt::format("the solution starts with {:.3g}", rates.solution)
                            : "the rate of the solution is not known, since the force is not finite close to the start");
@@ -123,13 +123,13 @@ MethodChoice choose_method(const Problem& problem, const System& system, const M
       choice.options.linear = LinearTreatment::explicit_kicks;
       choice.reason =
           fmt::format("{} with linear = \"explicit\" ({}): {}; {}kicks by all forces cost least", choice.method,
-                      accuracy, seen,
+                      accuracy, found,
                       request.by_krylov ? "exact flows would take Krylov spaces, and " : "nothing is stiff, and ");
       return choice;
     }
     choice.reason =
         fmt::format("{} ({}): {}; kicks between exact linear flows cost least where damping acts on momenta alone",
-                    choice.method, accuracy, seen);
+                    choice.method, accuracy, found);
     return choice;
   }
   if (smoothness == kink && choice.method != "egc4") {
@@ -138,7 +138,7 @@ MethodChoice choose_method(const Problem& problem, const System& system, const M
                                 accuracy, problem.friction->text());
     return choice;
   }
-  choice.reason = fmt::format("{} ({}): {}{}", choice.method, accuracy, seen,
+  choice.reason = fmt::format("{} ({}): {}{}", choice.method, accuracy, found,
                               nystrom && is_known ? "; damping so stiff must not be split into backward flows" : "");
   return choice;
 }

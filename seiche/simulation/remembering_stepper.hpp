@@ -35,7 +35,7 @@ class RememberingStepper final : public AdaptiveStepper {
   int order() const override { return adaptive_->order(); }
   StepReport attempt(State& state, double h) override;
   std::optional<double> error(const State& state) override { return adaptive_->error(state); }
-  double unseen(const State& state) override { return adaptive_->unseen(state); }
+  double quadrature_error(const State& state) override { return adaptive_->quadrature_error(state); }
   void undo(State& state) override;
   void interpolate(const State& state, double t, Vector& z) override { adaptive_->interpolate(state, t, z); }
   void forget(State& state) override { adaptive_->forget(state); }

@@ -7,7 +7,7 @@
 #include <seiche/damping/rates.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/ensemble/folded_transform.hpp>
-#include <seiche/ensemble/lane_block.hpp>
+#include <seiche/ensemble/panel_block.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/sparse.hpp>
 #include <seiche/problem/variable_wave.hpp>
@@ -61,14 +61,15 @@ void expect_transform(const Matrix& T, const std::string& name) {
   const FoldedTransform folded(T);
   const Index n = T.rows();
   Panel values(n), coordinates(n), back(n);
-  Matrix given(n, lanes);
+  Matrix given(n, panel_members);
   for (Index j = 0; j < n; ++j)
-    for (Index l = 0; l < lanes; ++l) given(j, l) = values(j, l) = std::sin(static_cast<double>(j * lanes + l));
+    for (Index l = 0; l < panel_members; ++l)
+      given(j, l) = values(j, l) = std::sin(static_cast<double>(j * panel_members + l));
   folded.forward(values.row(0), coordinates.row(0));
   folded.inverse(coordinates.row(0), back.row(0));
   const Matrix expected = T * given;
   for (Index j = 0; j < n; ++j) {
-    for (Index l = 0; l < lanes; ++l) {
+    for (Index l = 0; l < panel_members; ++l) {
       EXPECT_NEAR(coordinates(j, l), expected(j, l), 1e-13) << name << " " << n;
       EXPECT_NEAR(back(j, l), given(j, l), 1e-13) << name << " " << n;
     }
@@ -120,7 +121,7 @@ Compared compare(std::span<const EnsembleMember> members, const SimulationOption
     }
   }
   Compared compared;
-  std::array<EnergyReading, lanes> readings;
+  std::array<EnergyReading, panel_members> readings;
   block->read(readings);
   for (std::size_t m = 0; m < members.size(); ++m) {
     const auto member = static_cast<Index>(m);
@@ -151,9 +152,9 @@ TEST(Ensemble, EveryMemberRunsAsItWouldAloneByEveryMethodOnEveryProblem) {
   }
 }
 
-bool in_lanes(const Problem& problem, const std::string& method) {
+bool side_by_side(const Problem& problem, const std::string& method) {
   const std::vector<EnsembleMember> members = scaled_members(problem, 2);
-  return dynamic_cast<const LaneBlock*>(make_block(members, {.method = method}).get()) != nullptr;
+  return dynamic_cast<const PanelBlock*>(make_block(members, {.method = method}).get()) != nullptr;
 }
 
 TEST(Ensemble, TheSavAndAvfFamiliesStepSideBySide) {
@@ -161,10 +162,10 @@ TEST(Ensemble, TheSavAndAvfFamiliesStepSideBySide) {
     for (const MethodEntry& method : methods()) {
       if (!applies(method.name, problem)) continue;
       const bool written = method.kind.closure == "sav" || method.kind.closure == "avf";
-      EXPECT_EQ(in_lanes(problem, std::string(method.name)), written) << problem.name << " " << method.name;
+      EXPECT_EQ(side_by_side(problem, std::string(method.name)), written) << problem.name << " " << method.name;
     }
   }
-  EXPECT_FALSE(in_lanes(klein_gordon({.grid = {.points = {200}, .length = {20.0}}}), "seisav"));
+  EXPECT_FALSE(side_by_side(klein_gordon({.grid = {.points = {200}, .length = {20.0}}}), "seisav"));
 }
 
 std::vector<EnsembleMember> waves_of_many_kinds(std::size_t count, double alpha) {
@@ -186,7 +187,7 @@ TEST(Ensemble, MembersMayDifferInEveryParameter) {
 }
 
 // Amplitudes at which V falls far below zero: the guard lifts C, in the same steps.
-TEST(Ensemble, TheGuardOfCActsLaneByLane) {
+TEST(Ensemble, TheGuardOfCActsMemberByMember) {
   std::vector<EnsembleMember> members = scaled_members(klein_gordon_case(0.1, -1.0), 8);
   for (std::size_t m = 0; m < members.size(); ++m) members[m].initial *= 2 + 0.5 * static_cast<double>(m);
   const Compared compared = compare(members, {.method = "seisav"}, 1.0 / 64, 72);
@@ -195,8 +196,8 @@ TEST(Ensemble, TheGuardOfCActsLaneByLane) {
   EXPECT_GT(compared.fallbacks, 0);
 }
 
-// Steps so long that the fixed point does not contract in some lanes: the ordinary stepper takes those.
-TEST(Ensemble, LanesThatDoNotContractFallBackToTheOrdinaryStepper) {
+// Steps so long that the fixed point does not contract in some members: the ordinary stepper takes those.
+TEST(Ensemble, MembersThatDoNotContractFallBackToTheOrdinaryStepper) {
   std::vector<EnsembleMember> members = scaled_members(klein_gordon_case(0.1, 1.0), 6);
   for (std::size_t m = 0; m < members.size(); ++m) members[m].initial *= 1 + 3 * static_cast<double>(m);
   const Compared compared = compare(members, {.method = "seavf"}, 0.5, 6);

@@ -22,9 +22,9 @@ class FrictionDamping final : public Damping {
   void flow(double t, double h, Vector& z) const override;
   void apply(double t, const Vector& z, Vector& out) const override;
   bool is_constant() const override { return false; }
-  void add_unseen(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
-                  Vector& out) const override {
-    linear_->add_unseen(t, h, c, w, z, out);
+  void add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
+                            Vector& out) const override {
+    linear_->add_quadrature_error(t, h, c, w, z, out);
   }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
   void apply_D0(const Vector& z, Vector& out) const override { linear_->apply_D0(z, out); }

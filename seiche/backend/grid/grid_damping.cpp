@@ -1,7 +1,7 @@
 #include <seiche/backend/grid/grid_damping.hpp>
 #include <seiche/backend/grid/segment.hpp>
 #include <seiche/core/commuting_damping.hpp>
-#include <seiche/core/numerics/blind_ends.hpp>
+#include <seiche/core/numerics/end_extrapolation.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -93,28 +93,28 @@ void GridDamping::apply_rest(double t, const Vector& z, Vector& out) const {
 }
 
 double GridDamping::blind_part(double t, double h) const {
-  const BlindEnds& ends = blind_ends();
+  const EndExtrapolation& ends = end_extrapolation();
   double begin = rate_->value(t), end = rate_->value(t + h);
-  for (std::size_t i = 0; i < BlindEnds::count; ++i) {
+  for (std::size_t i = 0; i < EndExtrapolation::count; ++i) {
     const double gamma = rate_->value(t + ends.points[i] * h);
     begin -= ends.to_begin[i] * gamma;
     end -= ends.to_end[i] * gamma;
   }
-  return BlindEnds::width * (std::abs(begin) + std::abs(end));
+  return EndExtrapolation::width * (std::abs(begin) + std::abs(end));
 }
 
-void GridDamping::add_unseen(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
-                             Vector& out) const {
+void GridDamping::add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w,
+                                       const Vector& z, Vector& out) const {
   if (is_constant()) return;
   double missed = rate_ ? rate_->integral(t, h) : 0.0;
   for (std::size_t i = 0; rate_ && i < c.size(); ++i) missed -= h * w[i] * rate_->value(t + c[i] * h);
   if (rate_) missed += std::copysign(h * blind_part(t, h), missed);
   const bool varies = field_rate_ && !field_rate_->is_constant();
   if (varies) {
-    unseen_ = field_rate_->integrals(t, h);
-    for (std::size_t i = 0; i < c.size(); ++i) unseen_ -= h * w[i] * field_rate_->values(t + c[i] * h);
+    missed_ = field_rate_->integrals(t, h);
+    for (std::size_t i = 0; i < c.size(); ++i) missed_ -= h * w[i] * field_rate_->values(t + c[i] * h);
   }
-  add_rates(missed, varies ? &unseen_ : nullptr, z, out);
+  add_rates(missed, varies ? &missed_ : nullptr, z, out);
 }
 
 void GridDamping::add_rates(double gamma, const Vector* at_points, const Vector& z, Vector& out) const {

@@ -34,8 +34,8 @@ class GridDamping final : public Damping {
   bool is_constant() const override { return !field_rate_ && (!rate_ || rate_->is_constant()); }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
   void apply_D0(const Vector& z, Vector& out) const override;
-  void add_unseen(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
-                  Vector& out) const override;
+  void add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
+                            Vector& out) const override;
   bool field_factors(double t, double h, std::span<double> factors) const override;
 
  private:
@@ -61,7 +61,7 @@ class GridDamping final : public Damping {
     double h = 0.0, decay = 1.0;
   } mutable decay_of_;  // of a constant rate: the last length asked for
   mutable Vector scratch_;
-  mutable Vector unseen_;  // at the points
+  mutable Vector missed_;  // at the points
 };
 
 }  // namespace seiche

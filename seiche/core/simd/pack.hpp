@@ -13,12 +13,12 @@ inline constexpr int pack_size = 4;
 #else
 inline constexpr int pack_size = 2;
 #endif
-inline constexpr int packs = static_cast<int>(lanes) / pack_size;
+inline constexpr int packs = static_cast<int>(panel_members) / pack_size;
 
 // NOLINTNEXTLINE(modernize-use-using): the attributes belong to the type
 typedef double Pack __attribute__((vector_size(pack_size * sizeof(double)), may_alias));
 
-// The registers of one row, or of LaneValues. Loops over them have a length that the compiler knows, and unroll.
+// The registers of one row, or of PanelValues. Loops over them have a length that the compiler knows, and unroll.
 [[gnu::always_inline]] inline const Pack* packs_of(const double* row) { return reinterpret_cast<const Pack*>(row); }
 [[gnu::always_inline]] inline Pack* packs_of(double* row) { return reinterpret_cast<Pack*>(row); }
 

@@ -1,5 +1,5 @@
 #include <seiche/core/generic_state.hpp>
-#include <seiche/core/numerics/blind_ends.hpp>
+#include <seiche/core/numerics/end_extrapolation.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/collocation/collocation_weights.hpp>
 #include <seiche/method/collocation/continuous_extension.hpp>
@@ -42,10 +42,10 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     if (dissipation_.follows_energies())
       energies_.resize(forces_.size());
     else if (dissipation_.kind() == StepDissipation::Kind::general)
-      seen_.assign(forces_.size(), {Vector::Zero(size), Vector::Zero(size)});
+      samples_.assign(forces_.size(), {Vector::Zero(size), Vector::Zero(size)});
     for (Vector& f : forces_) f.setZero(size);
     missing_.setZero(size);
-    unseen_.setZero(size);
+    missed_.setZero(size);
     physical_.setZero(system.space->physical_size());
     for (Vector* v : {&moment_, &change_, &rate_}) v->setZero(size);
     if (output_.kind == PhiRows::Forces::gradients) {
@@ -73,11 +73,11 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   std::optional<double> error(const State& s) override {
     if (last_.history_h == 0) return std::nullopt;
-    const double unseen = this->unseen(s);
+    const double quadrature_error = this->quadrature_error(s);
     system_.space->to_physical(extension_.defect(last_, forces_, s.history), physical_);
     if (!space().is_finite(physical_)) return std::numeric_limits<double>::infinity();
     const double of_linear_flow = space().max_norm(physical_);
-    const double of_polynomial = std::max({of_linear_flow, of_nonlinear_part(s, of_linear_flow), unseen});
+    const double of_polynomial = std::max({of_linear_flow, of_nonlinear_part(s, of_linear_flow), quadrature_error});
     const double of_forces = std::max(of_polynomial, unsolved(s, of_polynomial));
     // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is
     // not, the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
@@ -88,25 +88,25 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     return std::max(of_forces, displacement * (std::isfinite(share) ? share : 1.0));
   }
 
-  double unseen(const State& s) override {
+  double quadrature_error(const State& s) override {
     if (system_.damping->is_constant() && !system_.force) return 0;
     const double t = projected_.last().t, h = last_.h;
-    unseen_.setZero();
+    missed_.setZero();
     if (system_.force) {
-      system_.force->impulse(t, h, unseen_);
-      for (Index i = 0; i < stages(); ++i) system_.force->add(t + rule_.nodes[i] * h, -h * rule_.weights[i], unseen_);
-      const BlindEnds& ends = blind_ends();
-      const double width = h * BlindEnds::width;
-      system_.force->add(t, width, unseen_);
-      system_.force->add(t + h, width, unseen_);
-      for (std::size_t i = 0; i < BlindEnds::count; ++i)
-        system_.force->add(t + ends.points[i] * h, -width * (ends.to_begin[i] + ends.to_end[i]), unseen_);
+      system_.force->impulse(t, h, missed_);
+      for (Index i = 0; i < stages(); ++i) system_.force->add(t + rule_.nodes[i] * h, -h * rule_.weights[i], missed_);
+      const EndExtrapolation& ends = end_extrapolation();
+      const double width = h * EndExtrapolation::width;
+      system_.force->add(t, width, missed_);
+      system_.force->add(t + h, width, missed_);
+      for (std::size_t i = 0; i < EndExtrapolation::count; ++i)
+        system_.force->add(t + ends.points[i] * h, -width * (ends.to_begin[i] + ends.to_end[i]), missed_);
     }
     const auto of_rule = [](const Eigen::VectorXd& v) {
       return std::span(v.data(), static_cast<std::size_t>(v.size()));
     };
-    system_.damping->add_unseen(t, h, of_rule(rule_.nodes), of_rule(rule_.weights), s.z, unseen_);
-    system_.space->to_physical(unseen_, physical_);
+    system_.damping->add_quadrature_error(t, h, of_rule(rule_.nodes), of_rule(rule_.weights), s.z, missed_);
+    system_.space->to_physical(missed_, physical_);
     const double largest = space().max_norm(physical_);
     return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
   }
@@ -250,10 +250,10 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
         if (!energies_.empty() && control.may_be_last()) {
           energies_[which].K = system_.linear->quadratic_energy(forces_[which]);
           energies_[which].V = force_.evaluate(at, forces_[which]);
-        } else if (!seen_.empty() && control.may_be_last()) {
+        } else if (!samples_.empty() && control.may_be_last()) {
           force_.evaluate(at, forces_[which], [&](const Vector& node, const Vector& gradient) {
-            seen_[which].node = node;
-            seen_[which].gradient = gradient;
+            samples_[which].node = node;
+            samples_[which].gradient = gradient;
           });
         } else {
           force_.evaluate(at, forces_[which]);
@@ -272,9 +272,9 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     const double size = space().norm(s.z) + h * pushed;
     sweep(s, t, h, *of_h.nodes);
     coarse_ = {};
-    for (std::size_t i = 0; i < seen_.size(); ++i) {
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
       const auto at = static_cast<Index>(i);
-      dissipation_.add(t + rule_.nodes[at] * h, seen_[i].node, seen_[i].gradient, h * rule_.weights[at], coarse_);
+      dissipation_.add(t + rule_.nodes[at] * h, samples_[i].node, samples_[i].gradient, h * rule_.weights[at], coarse_);
     }
     of_h.end->apply(s.z, forces_, {&z, 1});  // ẑ: (E2)
     return may_be_solution(space(), z, size);
@@ -318,15 +318,15 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   std::vector<Vector> forces_;
   Potential::Support of_forces_;  // the components that may differ from zero
   Vector components_before_;      // of the last force, a sweep ago
-  struct Seen {
+  struct Sample {
     Vector node, gradient;  // Z_i and ∇V(Z_i)
   };
-  std::vector<Seen> seen_;                           // where dissipation is evaluated node by node
+  std::vector<Sample> samples_;                      // where dissipation is evaluated node by node
   StepDissipation::Sum coarse_;                      // of these
   std::vector<StepDissipation::Energies> energies_;  // of Z_i, where dissipation follows from them
   double convergence_ = 1;                           // of the last two sweeps
   bool steps_are_alike_ = true;
-  Vector physical_, unseen_;
+  Vector physical_, missed_;
   bool moves_itself_ = true;  // does a force move what it depends on?
   Vector moment_, change_, rate_;
   ContinuousExtension::Step last_;  // the step taken last; the forces of the one before it are left in forces_

@@ -129,7 +129,7 @@ TEST(Projected, WhatAMethodCannotDoIsRefusedWithTheReason) {
   EXPECT_THAT(refusal(friction, "chin4"), HasSubstr("one number"));
 }
 
-// What needs momenta runs where there are some, so that no problem falls away unseen.
+// What needs momenta runs where there are some, so that no problem falls away quadrature_error.
 TEST(Projected, NystromSplittingsApplyToEveryProblemWithConstantDampingOfMomenta) {
   for (const auto& [name, problem] : all_cases()) {
     const bool one_field = problem.field_count() == 1;

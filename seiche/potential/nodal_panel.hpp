@@ -1,22 +1,22 @@
 // V(u) = Σ_j W(u_j) for many states at once.
 #pragma once
 
-#include <seiche/potential/lane_loops.hpp>
+#include <seiche/potential/panel_loops.hpp>
 
 #include <vector>
 
 namespace seiche {
 
 template <PointPotential W>
-class NodalLanes final : public LanePotential {
+class NodalPanel final : public PanelPotential {
  public:
-  NodalLanes(const std::vector<W>& w, Index rows) : w_(w), rows_(rows) {}
+  NodalPanel(const std::vector<W>& w, Index rows) : w_(w), rows_(rows) {}
 
   void gradient(const double* u, double* gradient) const override { w_.slopes(u, gradient, rows_); }
-  void value_and_gradient(const double* u, double* gradient, LaneValues& values) const override {
+  void value_and_gradient(const double* u, double* gradient, PanelValues& values) const override {
     w_.values_and_slopes(u, gradient, rows_, values);
   }
-  void value_and_magnitude(const double* u, LaneValues& values, LaneValues& magnitudes) const override {
+  void value_and_magnitude(const double* u, PanelValues& values, PanelValues& magnitudes) const override {
     w_.values_and_magnitudes(u, rows_, values, magnitudes);
   }
   void mean_gradient(const double* a, const double* b, double* mean) const override {
@@ -24,7 +24,7 @@ class NodalLanes final : public LanePotential {
   }
 
  private:
-  LaneW<W> w_;
+  PanelW<W> w_;
   Index rows_;
 };
 

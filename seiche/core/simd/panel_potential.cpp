@@ -1,11 +1,11 @@
-#include <seiche/core/simd/lane_potential.hpp>
+#include <seiche/core/simd/panel_potential.hpp>
 
 namespace seiche {
 namespace {
 
-class LaneByLane final : public LanePotential {
+class MemberByMember final : public PanelPotential {
  public:
-  LaneByLane(LaneMembers members, Index rows)
+  MemberByMember(PanelMembers members, Index rows)
       : members_(members.begin(), members.end()),
         rows_(rows),
         a_(static_cast<std::size_t>(rows)),
@@ -13,11 +13,11 @@ class LaneByLane final : public LanePotential {
         out_(static_cast<std::size_t>(rows)) {}
 
   void gradient(const double* u, double* gradient) const override {
-    LaneValues values;
+    PanelValues values;
     value_and_gradient(u, gradient, values);
   }
 
-  void value_and_gradient(const double* u, double* gradient, LaneValues& values) const override {
+  void value_and_gradient(const double* u, double* gradient, PanelValues& values) const override {
     for (std::size_t l = 0; l < members_.size(); ++l) {
       gather(u, l, a_);
       values[l] = members_[l]->value_and_gradient(a_, out_);
@@ -25,7 +25,7 @@ class LaneByLane final : public LanePotential {
     }
   }
 
-  void value_and_magnitude(const double* u, LaneValues& values, LaneValues& magnitudes) const override {
+  void value_and_magnitude(const double* u, PanelValues& values, PanelValues& magnitudes) const override {
     for (std::size_t l = 0; l < members_.size(); ++l) {
       gather(u, l, a_);
       const ValueAndMagnitude v = members_[l]->value_and_magnitude(a_);
@@ -44,11 +44,13 @@ class LaneByLane final : public LanePotential {
   }
 
  private:
-  void gather(const double* panel, std::size_t lane, std::vector<double>& values) const {
-    for (Index j = 0; j < rows_; ++j) values[static_cast<std::size_t>(j)] = panel[j * lanes + static_cast<Index>(lane)];
+  void gather(const double* panel, std::size_t member, std::vector<double>& values) const {
+    for (Index j = 0; j < rows_; ++j)
+      values[static_cast<std::size_t>(j)] = panel[j * panel_members + static_cast<Index>(member)];
   }
-  void scatter(const std::vector<double>& values, std::size_t lane, double* panel) const {
-    for (Index j = 0; j < rows_; ++j) panel[j * lanes + static_cast<Index>(lane)] = values[static_cast<std::size_t>(j)];
+  void scatter(const std::vector<double>& values, std::size_t member, double* panel) const {
+    for (Index j = 0; j < rows_; ++j)
+      panel[j * panel_members + static_cast<Index>(member)] = values[static_cast<std::size_t>(j)];
   }
 
   std::vector<std::shared_ptr<const PointwisePotential>> members_;
@@ -58,12 +60,12 @@ class LaneByLane final : public LanePotential {
 
 }  // namespace
 
-std::unique_ptr<LanePotential> lane_by_lane(LaneMembers members, Index rows) {
-  return std::make_unique<LaneByLane>(members, rows);
+std::unique_ptr<PanelPotential> member_by_member(PanelMembers members, Index rows) {
+  return std::make_unique<MemberByMember>(members, rows);
 }
 
-std::unique_ptr<LanePotential> PointwisePotential::for_lanes(LaneMembers members, Index rows) const {
-  return lane_by_lane(members, rows);
+std::unique_ptr<PanelPotential> PointwisePotential::for_members(PanelMembers members, Index rows) const {
+  return member_by_member(members, rows);
 }
 
 }  // namespace seiche

@@ -1,5 +1,5 @@
 #include <seiche/core/simd/multiversion.hpp>
-#include <seiche/ensemble/lane_sav.hpp>
+#include <seiche/ensemble/panel_sav.hpp>
 #include <seiche/ensemble/row_loops.hpp>
 #include <seiche/method/closure/sav_algebra.hpp>
 
@@ -11,16 +11,16 @@ namespace {
 
 // What the scalar part of a step is made of, and what it gives.
 struct Powers {
-  LaneValues v_mid{}, quadratic{}, of_increment{}, of_force{};  // V(ẑ), zᵀMz, ĝᵀFMz, ĝᵀFĝ
+  PanelValues v_mid{}, quadratic{}, of_increment{}, of_force{};  // V(ẑ), zᵀMz, ĝᵀFMz, ĝᵀFĝ
 };
 struct Force {
-  LaneValues factor{}, rise{}, trouble{};  // of Fĝ; of C and r²; ≠ 0 where V(ẑ) + C ≤ 0 or is no number
+  PanelValues factor{}, rise{}, trouble{};  // of Fĝ; of C and r²; ≠ 0 where V(ẑ) + C ≤ 0 or is no number
 };
 
-SEICHE_MULTIVERSION void take_force(const Powers& __restrict powers, bool guarded, LaneState& __restrict next,
+SEICHE_MULTIVERSION void take_force(const Powers& __restrict powers, bool guarded, PanelState& __restrict next,
                                     Force& __restrict force) {
   const double allowed = guarded ? 1.0 : 0.0;
-  for (std::size_t l = 0; l < static_cast<std::size_t>(lanes); ++l) {
+  for (std::size_t l = 0; l < static_cast<std::size_t>(panel_members); ++l) {
     const double v = powers.v_mid[l];
     SavAuxiliary a{next.r_squared[l], next.shift[l], next.energy_scale[l]};
     const double rise = allowed * sav_algebra::rise(a, v, powers.quadratic[l] / 2, 0);
@@ -35,17 +35,17 @@ SEICHE_MULTIVERSION void take_force(const Powers& __restrict powers, bool guarde
   }
 }
 
-class LaneSav final : public LaneStepper {
+class PanelSav final : public PanelStepper {
  public:
-  LaneSav(std::unique_ptr<LaneSystem> system, const MethodEntry& method, AuxiliaryMode auxiliary)
-      : LaneStepper(std::move(system), method), auxiliary_(auxiliary) {}
+  PanelSav(std::unique_ptr<PanelSystem> system, const MethodEntry& method, AuxiliaryMode auxiliary)
+      : PanelStepper(std::move(system), method), auxiliary_(auxiliary) {}
 
  private:
-  void damp(LaneState& s, double t, double h) override;
+  void damp(PanelState& s, double t, double h) override;
   bool damps_z_only() const override { return auxiliary_ != AuxiliaryMode::refresh && !transports(); }
-  void advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) override;
-  void modified_energy(const LaneState& s, const LaneValues& quadratic,
-                       std::array<EnergyReading, lanes>& readings) override;
+  void advance(PanelState& s, const PanelStep& maps, RowFactors after, PanelState& next, PanelReport& report) override;
+  void modified_energy(const PanelState& s, const PanelValues& quadratic,
+                       std::array<EnergyReading, panel_members>& readings) override;
   bool transports() const { return auxiliary_ == AuxiliaryMode::transport && system().damping_moves_potential(); }
 
   AuxiliaryMode auxiliary_;
@@ -54,8 +54,8 @@ class LaneSav final : public LaneStepper {
 };
 
 // r² moves with V (transport), stays (frozen), or is V + C again (refresh).
-void LaneSav::damp(LaneState& s, double t, double h) {
-  LaneValues before, after, magnitude;
+void PanelSav::damp(PanelState& s, double t, double h) {
+  PanelValues before, after, magnitude;
   if (transports()) potential_of(s, before, magnitude);
   flow(s, t, h);
   if (damps_z_only()) return;
@@ -65,11 +65,11 @@ void LaneSav::damp(LaneState& s, double t, double h) {
 }
 
 //   z⁺ = Ez + F r̄g,   r⁺ − r = ½gᵀ(z⁺ − z),   r̄ = ½(r⁺ + r),   g = ĝ/√(V(ẑ) + C)               (3.1a), (3.1b), (4.2)
-void LaneSav::advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) {
+void PanelSav::advance(PanelState& s, const PanelStep& maps, RowFactors after, PanelState& next, PanelReport& report) {
   double* z = s.z.row(0);
   double* g = gradient_of(s);
   if (system().support_size() > 0) {
-    const LanePotential& potential = system().potential();
+    const PanelPotential& potential = system().potential();
     system().to_values(s.z.row(system().support_begin()), values());
     potential.gradient(values(), slopes());
     system().to_coordinates(slopes(), g);
@@ -83,7 +83,7 @@ void LaneSav::advance(LaneState& s, const LaneStep& maps, RowFactors after, Lane
   maps.force(g, powers_.of_force);
   take_force(powers_, auxiliary_ != AuxiliaryMode::frozen, next, force_);
   scale_rows(g, force_.factor, system().support_size(), g);
-  LaneValues lost;
+  PanelValues lost;
   maps.step.finish(z, z, after, next.z.row(0), lost);
   for (std::size_t l = 0; l < lost.size(); ++l) {
     report.fallbacks[l] = force_.rise[l] != 0 ? 1 : 0;
@@ -91,8 +91,8 @@ void LaneSav::advance(LaneState& s, const LaneStep& maps, RowFactors after, Lane
   }
 }
 
-void LaneSav::modified_energy(const LaneState& s, const LaneValues& quadratic,
-                              std::array<EnergyReading, lanes>& readings) {
+void PanelSav::modified_energy(const PanelState& s, const PanelValues& quadratic,
+                               std::array<EnergyReading, panel_members>& readings) {
   for (std::size_t l = 0; l < readings.size(); ++l) {
     readings[l].modified = quadratic[l] + (s.r_squared[l] - s.shift[l]);
     readings[l].modified_round_off = 50 * epsilon * (quadratic[l] + s.r_squared[l] + std::abs(s.shift[l]));
@@ -101,9 +101,9 @@ void LaneSav::modified_energy(const LaneState& s, const LaneValues& quadratic,
 
 }  // namespace
 
-std::unique_ptr<LaneStepper> make_lane_sav(std::unique_ptr<LaneSystem> system, const MethodEntry& method,
-                                           const MethodOptions& options) {
-  return std::make_unique<LaneSav>(std::move(system), method, options.auxiliary);
+std::unique_ptr<PanelStepper> make_panel_sav(std::unique_ptr<PanelSystem> system, const MethodEntry& method,
+                                             const MethodOptions& options) {
+  return std::make_unique<PanelSav>(std::move(system), method, options.auxiliary);
 }
 
 }  // namespace seiche

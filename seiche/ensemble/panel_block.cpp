@@ -1,5 +1,5 @@
 #include <seiche/core/error.hpp>
-#include <seiche/ensemble/lane_block.hpp>
+#include <seiche/ensemble/panel_block.hpp>
 
 namespace seiche {
 namespace {
@@ -7,7 +7,7 @@ namespace {
 // Above, folded transforms cost more than the fast ones of an ordinary run.
 constexpr Index most_lane_points = 128;
 
-bool may_take_lanes(const Problem& problem, const MethodEntry& method) {
+bool may_take_members(const Problem& problem, const MethodEntry& method) {
   return method.kind.members != MembersTogether::none && problem.grid.unknowns() <= most_lane_points;
 }
 
@@ -36,33 +36,33 @@ const BackendEntry* modal_backend(const Problem& problem) {
 
 std::unique_ptr<MemberBlock> make_block(std::span<const EnsembleMember> members, const SimulationOptions& options) {
   const Problem& problem = *members.front().problem;
-  if (!may_take_lanes(problem, find_method(options.method))) return std::make_unique<MemberBlock>(members, options);
+  if (!may_take_members(problem, find_method(options.method))) return std::make_unique<MemberBlock>(members, options);
   SimulationOptions chosen = options;
   if (options.backend == "auto")
     if (const BackendEntry* modal = modal_backend(problem)) chosen.backend = modal->name;
   if (may_iterate(chosen)) return std::make_unique<MemberBlock>(members, options);
-  std::unique_ptr<LaneBlock> block(new LaneBlock(members, chosen));
+  std::unique_ptr<PanelBlock> block(new PanelBlock(members, chosen));
   if (block->find_stepper(options.method_options)) return block;
   return std::make_unique<MemberBlock>(members, options);
 }
 
-// Lanes without a member, or with one that could not start, take the matrices of another and rest at z = 0.
-bool LaneBlock::find_stepper(const MethodOptions& options) {
+// Columns without a member, or with one that could not start, take the matrices of another and rest at z = 0.
+bool PanelBlock::find_stepper(const MethodOptions& options) {
   const Simulation* any = nullptr;
   for (Index m = 0; m < size(); ++m)
     if (status(m).running) any = simulation(m);
   if (any == nullptr) return false;
   std::vector<const Simulation*> all;
-  for (Index l = 0; l < lanes; ++l) all.push_back(l < size() && status(l).running ? simulation(l) : any);
-  stepper_ = make_lane_stepper(all, options);
+  for (Index l = 0; l < panel_members; ++l) all.push_back(l < size() && status(l).running ? simulation(l) : any);
+  stepper_ = make_panel_stepper(all, options);
   if (!stepper_) return false;
   at_rest_.z.setZero(any->system().space->size());
   at_rest_.r_squared = at_rest_.shift = 1;
-  for (Index l = 0; l < lanes; ++l) stepper_->load(l < size() && status(l).running ? state(l) : at_rest_, l);
+  for (Index l = 0; l < panel_members; ++l) stepper_->load(l < size() && status(l).running ? state(l) : at_rest_, l);
   return true;
 }
 
-void LaneBlock::step_all(std::int64_t n, double t, double h) {
+void PanelBlock::step_all(std::int64_t n, double t, double h) {
   try {
     if (stepper_) stepper_->step(t, h, report_);
   } catch (const Error&) {  // a member has no propagator; the ordinary steppers find out which
@@ -85,12 +85,12 @@ void LaneBlock::step_all(std::int64_t n, double t, double h) {
   stepper_->accept();
 }
 
-void LaneBlock::read_energies(std::array<EnergyReading, lanes>& readings) {
+void PanelBlock::read_energies(std::array<EnergyReading, panel_members>& readings) {
   if (!stepper_) return MemberBlock::read_energies(readings);
   stepper_->energy(readings);
 }
 
-void LaneBlock::update_state(Index member) {
+void PanelBlock::update_state(Index member) {
   if (stepper_) stepper_->store(member, state(member));
 }
 

@@ -1,4 +1,4 @@
-#include <seiche/ensemble/lane_avf.hpp>
+#include <seiche/ensemble/panel_avf.hpp>
 #include <seiche/ensemble/row_loops.hpp>
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace {
 constexpr int max_sweeps = 100;
 constexpr double stagnation = 100;  // in units of the tolerance, as in method/closure/avf.cpp
 
-class LaneAvf final : public LaneStepper {
+class PanelAvf final : public PanelStepper {
  public:
-  LaneAvf(std::unique_ptr<LaneSystem> from, const MethodEntry& method)
-      : LaneStepper(std::move(from), method),
+  PanelAvf(std::unique_ptr<PanelSystem> from, const MethodEntry& method)
+      : PanelStepper(std::move(from), method),
         linear_(system().size()),
         plus_(system().size()),
         q_(system().size()),
@@ -23,16 +23,16 @@ class LaneAvf final : public LaneStepper {
         at_z_(system().support_size()) {}
 
  private:
-  void advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) override;
+  void advance(PanelState& s, const PanelStep& maps, RowFactors after, PanelState& next, PanelReport& report) override;
   // next = z + FMz + Fḡ(z, z⁺), and the size of the update in units of 4ε(|z⁺| + |Fḡ|).
-  void sweep(LaneState& s, const LaneStep& maps, Panel& next);
+  void sweep(PanelState& s, const PanelStep& maps, Panel& next);
 
   Panel linear_;  // z + FMz
   Panel plus_, q_, other_values_, at_z_;
-  LaneValues update_{};
+  PanelValues update_{};
 };
 
-void LaneAvf::sweep(LaneState& s, const LaneStep& maps, Panel& next) {
+void PanelAvf::sweep(PanelState& s, const PanelStep& maps, Panel& next) {
   const Index n = system().size();
   double* g = gradient_of(s);
   if (system().support_size() > 0) {
@@ -42,7 +42,7 @@ void LaneAvf::sweep(LaneState& s, const LaneStep& maps, Panel& next) {
   }
   maps.all_forces.apply(g, q_.row(0));
   maps.all_forces.add_to(linear_.row(0), g, next.row(0));
-  LaneValues distance, size, force;
+  PanelValues distance, size, force;
   max_distance(next.row(0), plus_.row(0), n, distance);
   max_norm(next.row(0), n, size);
   max_norm(q_.row(0), n, force);
@@ -51,14 +51,14 @@ void LaneAvf::sweep(LaneState& s, const LaneStep& maps, Panel& next) {
 }
 
 //   z⁺ = Ez + F ∫₀¹ ∇V(z + s(z⁺ − z)) ds
-void LaneAvf::advance(LaneState& s, const LaneStep& maps, RowFactors after, LaneState& next, LaneReport& report) {
+void PanelAvf::advance(PanelState& s, const PanelStep& maps, RowFactors after, PanelState& next, PanelReport& report) {
   const Index n = system().size();
   double* z = s.z.row(0);
   double* g = gradient_of(s);
-  std::memset(g, 0, sizeof(double) * static_cast<std::size_t>(system().support_size() * lanes));
+  std::memset(g, 0, sizeof(double) * static_cast<std::size_t>(system().support_size() * panel_members));
   maps.step.add_to(z, z, linear_.row(0));  // with g = 0
   if (system().support_size() > 0) {
-    const LanePotential& potential = system().potential();
+    const PanelPotential& potential = system().potential();
     system().to_values(s.z.row(system().support_begin()), at_z_.row(0));
     potential.gradient(at_z_.row(0), slopes());
     system().to_coordinates(slopes(), g);
@@ -69,13 +69,13 @@ void LaneAvf::advance(LaneState& s, const LaneStep& maps, RowFactors after, Lane
   }
   maps.all_forces.add_to(linear_.row(0), g, plus_.row(0));  // the explicit step
 
-  LaneValues waiting, previous;
+  PanelValues waiting, previous;
   waiting.fill(1);
   previous.fill(std::numeric_limits<double>::infinity());
   Panel& swept = next.z;
   for (int i = 0; i < max_sweeps && std::any_of(waiting.begin(), waiting.end(), [](double w) { return w != 0; }); ++i) {
     sweep(s, maps, swept);
-    copy_lanes(swept.row(0), waiting, n, plus_.row(0));
+    copy_members(swept.row(0), waiting, n, plus_.row(0));
     for (std::size_t l = 0; l < waiting.size(); ++l) {
       if (waiting[l] == 0) continue;
       ++report.scalar_iterations[l];
@@ -89,9 +89,9 @@ void LaneAvf::advance(LaneState& s, const LaneStep& maps, RowFactors after, Lane
       previous[l] = update;
     }
   }
-  std::memcpy(next.z.row(0), plus_.row(0), sizeof(double) * static_cast<std::size_t>(n * lanes));
+  std::memcpy(next.z.row(0), plus_.row(0), sizeof(double) * static_cast<std::size_t>(n * panel_members));
   damp_rows(after, n, next.z.row(0));
-  LaneValues lost;
+  PanelValues lost;
   find_not_finite(next.z.row(0), n, lost);
   for (std::size_t l = 0; l < waiting.size(); ++l)
     if (waiting[l] != 0 || lost[l] != 0) report.trouble[l] = 1;
@@ -99,8 +99,8 @@ void LaneAvf::advance(LaneState& s, const LaneStep& maps, RowFactors after, Lane
 
 }  // namespace
 
-std::unique_ptr<LaneStepper> make_lane_avf(std::unique_ptr<LaneSystem> system, const MethodEntry& method) {
-  return std::make_unique<LaneAvf>(std::move(system), method);
+std::unique_ptr<PanelStepper> make_panel_avf(std::unique_ptr<PanelSystem> system, const MethodEntry& method) {
+  return std::make_unique<PanelAvf>(std::move(system), method);
 }
 
 }  // namespace seiche

@@ -1,5 +1,5 @@
 #include <seiche/core/commuting_damping.hpp>
-#include <seiche/ensemble/lane_system.hpp>
+#include <seiche/ensemble/panel_system.hpp>
 #include <seiche/ensemble/row_loops.hpp>
 
 #include <algorithm>
@@ -56,18 +56,18 @@ bool have_one_shape(const Problem& a, const Problem& b) {
 
 }  // namespace
 
-LaneQuadratic::LaneQuadratic(std::span<const Matrix> matrices) : rows_(matrices.front().rows()) {
+PanelQuadratic::PanelQuadratic(std::span<const Matrix> matrices) : rows_(matrices.front().rows()) {
   if (!std::all_of(matrices.begin(), matrices.end(), [](const Matrix& a) { return a.isDiagonal(0); })) {
     map_ = BlockMap(matrices);
     return;
   }
   diagonal_ = Panel(rows_);
   for (Index j = 0; j < rows_; ++j)
-    for (Index l = 0; l < lanes; ++l)
+    for (Index l = 0; l < panel_members; ++l)
       diagonal_(j, l) = matrices[matrices.size() > 1 ? static_cast<std::size_t>(l) : 0](j, j);
 }
 
-void LaneQuadratic::operator()(const double* x, LaneValues& sum) const {
+void PanelQuadratic::operator()(const double* x, PanelValues& sum) const {
   if (diagonal() != nullptr) {
     measure(x, diagonal(), rows_, sum);
   } else {
@@ -75,30 +75,30 @@ void LaneQuadratic::operator()(const double* x, LaneValues& sum) const {
   }
 }
 
-std::unique_ptr<LaneSystem> LaneSystem::make(LaneSimulations members, PropagatorKind kind) {
+std::unique_ptr<PanelSystem> PanelSystem::make(PanelSimulations members, PropagatorKind kind) {
   const Simulation& first = *members.front();
   for (const Simulation* member : members)
     if (member->problem().damping.field_rate || member->problem().friction || member->problem().has_forces() ||
         member->problem().structure || &member->backend() != &first.backend() ||
         !have_one_shape(member->problem(), first.problem()))
       return nullptr;
-  std::unique_ptr<LaneSystem> system(new LaneSystem(members, kind));
+  std::unique_ptr<PanelSystem> system(new PanelSystem(members, kind));
   if (!system->find_transform()) return nullptr;
   system->find_metrics();
   return system;
 }
 
-LaneSystem::LaneSystem(LaneSimulations members, PropagatorKind kind)
-    : lanes_(members.begin(), members.end()), members_(lanes_), kind_(kind) {
+PanelSystem::PanelSystem(PanelSimulations members, PropagatorKind kind)
+    : columns_(members.begin(), members.end()), members_(columns_), kind_(kind) {
   if (std::all_of(members_.begin(), members_.end(), [&](const Simulation* s) { return s == members_.front(); }))
     members_.resize(1);
 }
 
 // The orthonormal matrix by which the backend takes each field to coordinates, the same for all; without its rows of
 // zeros.
-bool LaneSystem::find_transform() {
-  const Problem& problem = lanes_.front()->problem();
-  const Space& space = *lanes_.front()->system().space;
+bool PanelSystem::find_transform() {
+  const Problem& problem = columns_.front()->problem();
+  const Space& space = *columns_.front()->system().space;
   const Index points = problem.grid.unknowns();
   fields_ = problem.field_count();
   if (space.physical_size() != fields_ * points || space.size() % fields_ != 0) return false;
@@ -135,12 +135,12 @@ bool LaneSystem::find_transform() {
   support_begin_ = problem.potential_field * field_size_;
   support_size_ = problem.potential->fields() * field_size_;
   std::vector<std::shared_ptr<const PointwisePotential>> potentials;
-  for (const Simulation* lane : lanes_) potentials.push_back(lane->problem().potential);
-  potential_ = potentials.front()->for_lanes(potentials, support_size_);
+  for (const Simulation* member : columns_) potentials.push_back(member->problem().potential);
+  potential_ = potentials.front()->for_members(potentials, support_size_);
   return true;
 }
 
-void LaneSystem::find_metrics() {
+void PanelSystem::find_metrics() {
   std::vector<Matrix> M, absolute;
   for (const Simulation* member : members_) {
     const LinearPart& linear = *member->system().linear;
@@ -148,17 +148,17 @@ void LaneSystem::find_metrics() {
                       [&](const Vector& in, Vector& out) { linear.apply_M(in, out); }));
     absolute.emplace_back(M.back().cwiseAbs());
   }
-  metric_ = LaneQuadratic(M);
-  absolute_metric_ = LaneQuadratic(absolute);
+  metric_ = PanelQuadratic(M);
+  absolute_metric_ = PanelQuadratic(absolute);
 }
 
-const LaneStep& LaneSystem::at(double h) {
+const PanelStep& PanelSystem::at(double h) {
   for (const auto& [length, step] : steps_)
     if (length == h) return step;
   return steps_.emplace_back(h, make_step(h)).second;
 }
 
-LaneStep LaneSystem::make_step(double h) const {
+PanelStep PanelSystem::make_step(double h) const {
   std::vector<Matrix> predict, increment, force, step, all_forces, flow;
   const std::vector<Index> support(place_.begin() + support_begin_, place_.begin() + support_begin_ + support_size_);
   for (const Simulation* member : members_) {
@@ -177,37 +177,38 @@ LaneStep LaneSystem::make_step(double h) const {
     all_forces.push_back(F);
     if (has_constant_damping_) flow.push_back(constant_flow(*member, rates_commute_ ? h / 2 : h / 4, place_));
   }
-  LaneStep maps{BlockMap(predict), BlockMap(increment), LaneQuadratic(force), BlockMap(step), BlockMap(all_forces), {}};
+  PanelStep maps{BlockMap(predict), BlockMap(increment),  PanelQuadratic(force),
+                 BlockMap(step),    BlockMap(all_forces), {}};
   if (!flow.empty()) maps.flow = BlockMap(flow);
   return maps;
 }
 
-void LaneSystem::to_values(const double* support, double* values) const {
+void PanelSystem::to_values(const double* support, double* values) const {
   for (Index row = 0; row < support_size_; row += field_size_)
-    transform_.inverse(support + row * lanes, values + row * lanes);
+    transform_.inverse(support + row * panel_members, values + row * panel_members);
 }
 
-void LaneSystem::to_coordinates(double* values, double* support) const {
+void PanelSystem::to_coordinates(double* values, double* support) const {
   for (Index row = 0; row < support_size_; row += field_size_)
-    transform_.forward(values + row * lanes, support + row * lanes);
+    transform_.forward(values + row * panel_members, support + row * panel_members);
 }
 
-void LaneSystem::load(const Vector& z, Index lane, Panel& panel) const {
-  for (Index j = 0; j < size(); ++j) panel(j, lane) = z[place_[static_cast<std::size_t>(j)]];
+void PanelSystem::load(const Vector& z, Index member, Panel& panel) const {
+  for (Index j = 0; j < size(); ++j) panel(j, member) = z[place_[static_cast<std::size_t>(j)]];
 }
 
-void LaneSystem::store(const Panel& panel, Index lane, Vector& z) const {
-  z.setZero(lanes_[static_cast<std::size_t>(lane)]->system().space->size());
-  for (Index j = 0; j < size(); ++j) z[place_[static_cast<std::size_t>(j)]] = panel(j, lane);
+void PanelSystem::store(const Panel& panel, Index member, Vector& z) const {
+  z.setZero(columns_[static_cast<std::size_t>(member)]->system().space->size());
+  for (Index j = 0; j < size(); ++j) z[place_[static_cast<std::size_t>(j)]] = panel(j, member);
 }
 
-void LaneSystem::decay(double t, double h, std::vector<LaneValues>& factors) const {
+void PanelSystem::decay(double t, double h, std::vector<PanelValues>& factors) const {
   factors.resize(static_cast<std::size_t>(fields_));
-  for (LaneValues& field : factors) field.fill(1);
+  for (PanelValues& field : factors) field.fill(1);
   const Rate* last = nullptr;
   double factor = 1;
-  for (std::size_t l = 0; l < lanes_.size(); ++l) {
-    const LinearDamping& damping = lanes_[l]->problem().damping;
+  for (std::size_t l = 0; l < columns_.size(); ++l) {
+    const LinearDamping& damping = columns_[l]->problem().damping;
     if (!damping.rate) continue;
     if (damping.rate.get() != last) factor = std::exp(-damping.rate->integral(t, h));
     last = damping.rate.get();

@@ -1,6 +1,6 @@
-#include <seiche/ensemble/lane_avf.hpp>
-#include <seiche/ensemble/lane_sav.hpp>
-#include <seiche/ensemble/lane_stepper.hpp>
+#include <seiche/ensemble/panel_avf.hpp>
+#include <seiche/ensemble/panel_sav.hpp>
+#include <seiche/ensemble/panel_stepper.hpp>
 #include <seiche/ensemble/row_loops.hpp>
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace seiche {
 namespace {
 
 void copy_rows(const double* in, Index rows, double* out) {
-  std::memcpy(out, in, sizeof(double) * static_cast<std::size_t>(rows * lanes));
+  std::memcpy(out, in, sizeof(double) * static_cast<std::size_t>(rows * panel_members));
 }
 
-void copy_scalars(const LaneState& from, LaneState& to) {
+void copy_scalars(const PanelState& from, PanelState& to) {
   to.r_squared = from.r_squared;
   to.shift = from.shift;
   to.energy_scale = from.energy_scale;
@@ -23,51 +23,51 @@ void copy_scalars(const LaneState& from, LaneState& to) {
 
 }  // namespace
 
-LaneStepper::LaneStepper(std::unique_ptr<LaneSystem> system, const MethodEntry& method)
+PanelStepper::PanelStepper(std::unique_ptr<PanelSystem> system, const MethodEntry& method)
     : system_(std::move(system)), splits_damping_(method.kind.splits_damping) {
-  for (LaneState* s : {&first_, &second_, &work_}) {
+  for (PanelState* s : {&first_, &second_, &work_}) {
     s->z = Panel(system_->size() + system_->support_size());
-    s->r_squared.fill(1);  // lanes without a member rest at z = 0
+    s->r_squared.fill(1);  // columns without a member rest at z = 0
     s->shift.fill(1);
   }
   values_ = Panel(system_->support_size());
   slopes_ = Panel(system_->support_size());
   none_.of_field.resize(static_cast<std::size_t>(system_->fields()));
-  for (LaneValues& field : none_.of_field) field.fill(1);
+  for (PanelValues& field : none_.of_field) field.fill(1);
   set_rows(none_);
 }
 
-void LaneStepper::load(const State& state, Index lane) {
-  const auto l = static_cast<std::size_t>(lane);
-  system_->load(state.z, lane, state_->z);
+void PanelStepper::load(const State& state, Index member) {
+  const auto l = static_cast<std::size_t>(member);
+  system_->load(state.z, member, state_->z);
   state_->r_squared[l] = state.r_squared;
   state_->shift[l] = state.shift;
   state_->energy_scale[l] = state.energy_scale;
 }
 
-void LaneStepper::store(Index lane, State& state) const {
-  const auto l = static_cast<std::size_t>(lane);
-  system_->store(state_->z, lane, state.z);
+void PanelStepper::store(Index member, State& state) const {
+  const auto l = static_cast<std::size_t>(member);
+  system_->store(state_->z, member, state.z);
   state.r_squared = state_->r_squared[l];
   state.shift = state_->shift[l];
   state.energy_scale = state_->energy_scale[l];
 }
 
-void LaneStepper::mend(const State& state, Index lane) {
+void PanelStepper::mend(const State& state, Index member) {
   std::swap(state_, next_);
-  load(state, lane);
+  load(state, member);
   std::swap(state_, next_);
 }
 
-void LaneStepper::accept() { std::swap(state_, next_); }
+void PanelStepper::accept() { std::swap(state_, next_); }
 
-void LaneStepper::set_rows(Decay& decay) {
+void PanelStepper::set_rows(Decay& decay) {
   decay.of_row.clear();
-  for (const LaneValues& field : decay.of_field)
+  for (const PanelValues& field : decay.of_field)
     decay.of_row.insert(decay.of_row.end(), static_cast<std::size_t>(system_->field_size()), field.data());
 }
 
-RowFactors LaneStepper::factors(Decay& decay, double t, double h) {
+RowFactors PanelStepper::factors(Decay& decay, double t, double h) {
   if (decay.h != h || !system_->has_constant_rates()) system_->decay(t, h, decay.of_field);
   if (decay.of_row.empty()) set_rows(decay);
   decay.h = h;
@@ -76,10 +76,10 @@ RowFactors LaneStepper::factors(Decay& decay, double t, double h) {
 
 // Where a half-flow is nothing but a factor for every field, it is made on the way: the first with the copy that keeps
 // the state before the step, the second with the sum that makes the new one.
-void LaneStepper::step(double t, double h, LaneReport& report) {
-  report = LaneReport{};
+void PanelStepper::step(double t, double h, PanelReport& report) {
+  report = PanelReport{};
   step_size_ = h;
-  const LaneStep& maps = system_->at(h);
+  const PanelStep& maps = system_->at(h);
   const bool on_the_way = damps_z_only() && maps.flow.rows() == 0;
   is_measured_ = false;
   if (splits_damping_) {
@@ -93,38 +93,38 @@ void LaneStepper::step(double t, double h, LaneReport& report) {
       damp(work_, t, h / 2);
     }
   }
-  LaneState& start = splits_damping_ ? work_ : *state_;
+  PanelState& start = splits_damping_ ? work_ : *state_;
   copy_scalars(start, *next_);
   const bool last_on_the_way = splits_damping_ && on_the_way;
   advance(start, maps, last_on_the_way ? factors(after_, t + h / 2, h / 2) : none_.of_row.data(), *next_, report);
   if (!splits_damping_ || last_on_the_way) return;
   damp(*next_, t + h / 2, h / 2);
-  LaneValues lost;
+  PanelValues lost;
   find_not_finite(next_->z.row(0), system_->size(), lost);
   for (std::size_t l = 0; l < lost.size(); ++l)
     if (lost[l] != 0) report.trouble[l] = 1;
 }
 
-const LaneValues& LaneStepper::twice_quadratic_energy(const LaneState& s) {
+const PanelValues& PanelStepper::twice_quadratic_energy(const PanelState& s) {
   if (!is_measured_) system_->metric()(s.z.row(0), quadratic_);
   return quadratic_;
 }
 
-void LaneStepper::flow(LaneState& s, double t, double h) {
-  const LaneStep& maps = system_->at(step_size_);
+void PanelStepper::flow(PanelState& s, double t, double h) {
+  const PanelStep& maps = system_->at(step_size_);
   const bool has_constant = maps.flow.rows() > 0;
   if (has_constant && !system_->rates_commute()) apply_flow(maps.flow, s);
   damp_rows(factors(before_, t, h), system_->size(), s.z.row(0));
   if (has_constant) apply_flow(maps.flow, s);
 }
 
-void LaneStepper::apply_flow(const BlockMap& flow, LaneState& s) {
+void PanelStepper::apply_flow(const BlockMap& flow, PanelState& s) {
   if (moved_.rows() == 0) moved_ = Panel(s.z.rows());
   flow.apply(s.z.row(0), moved_.row(0));
   std::swap(s.z, moved_);
 }
 
-void LaneStepper::potential_of(const LaneState& s, LaneValues& v, LaneValues& magnitude) {
+void PanelStepper::potential_of(const PanelState& s, PanelValues& v, PanelValues& magnitude) {
   v.fill(0);
   magnitude.fill(0);
   if (system_->support_size() == 0) return;
@@ -132,13 +132,13 @@ void LaneStepper::potential_of(const LaneState& s, LaneValues& v, LaneValues& ma
   system_->potential().value_and_magnitude(values(), v, magnitude);
 }
 
-void LaneStepper::energy(std::array<EnergyReading, lanes>& readings) {
-  LaneValues v, v_size, quadratic, size;
+void PanelStepper::energy(std::array<EnergyReading, panel_members>& readings) {
+  PanelValues v, v_size, quadratic, size;
   potential_of(*state_, v, v_size);
   const double* z = state_->z.row(0);
   system_->metric()(z, quadratic);
   Panel absolute(system_->size());
-  for (Index i = 0; i < system_->size() * lanes; ++i) absolute.row(0)[i] = std::abs(z[i]);
+  for (Index i = 0; i < system_->size() * panel_members; ++i) absolute.row(0)[i] = std::abs(z[i]);
   system_->absolute_metric()(absolute.row(0), size);
   for (std::size_t l = 0; l < readings.size(); ++l) {
     quadratic[l] /= 2;
@@ -148,13 +148,13 @@ void LaneStepper::energy(std::array<EnergyReading, lanes>& readings) {
   modified_energy(*state_, quadratic, readings);
 }
 
-std::unique_ptr<LaneStepper> make_lane_stepper(LaneSimulations members, const MethodOptions& options) {
+std::unique_ptr<PanelStepper> make_panel_stepper(PanelSimulations members, const MethodOptions& options) {
   const MethodEntry& method = members.front()->method();
   if (method.kind.members == MembersTogether::none) return nullptr;
-  std::unique_ptr<LaneSystem> system = LaneSystem::make(members, method.propagator);
+  std::unique_ptr<PanelSystem> system = PanelSystem::make(members, method.propagator);
   if (!system) return nullptr;
-  if (method.kind.members == MembersTogether::sav) return make_lane_sav(std::move(system), method, options);
-  return make_lane_avf(std::move(system), method);
+  if (method.kind.members == MembersTogether::sav) return make_panel_sav(std::move(system), method, options);
+  return make_panel_avf(std::move(system), method);
 }
 
 }  // namespace seiche

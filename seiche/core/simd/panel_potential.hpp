@@ -1,0 +1,29 @@
+// V on the physical values of many states at once, side by side in the columns of a panel.
+#pragma once
+
+#include <seiche/core/potential.hpp>
+#include <seiche/core/simd/panel.hpp>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace seiche {
+
+// Pointers to the first row of panels with one row per value; `gradient` must not overlap `u`. Each member has a
+// potential of its own, or all have the same.
+class PanelPotential {
+ public:
+  virtual ~PanelPotential() = default;
+  virtual void gradient(const double* u, double* gradient) const = 0;
+  virtual void value_and_gradient(const double* u, double* gradient, PanelValues& values) const = 0;
+  virtual void value_and_magnitude(const double* u, PanelValues& values, PanelValues& magnitudes) const = 0;
+  virtual void mean_gradient(const double* a, const double* b, double* mean) const = 0;
+};
+
+using PanelMembers = std::span<const std::shared_ptr<const PointwisePotential>>;  // one for every column
+
+// For any potentials, one member after the other. `rows` is the number of values that each reads.
+std::unique_ptr<PanelPotential> member_by_member(PanelMembers members, Index rows);
+
+}  // namespace seiche
