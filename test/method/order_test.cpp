@@ -26,7 +26,7 @@ std::vector<double> errors_of(const Reference& reference, const Problem& problem
   return list;
 }
 
-TEST(Order, OfEveryMethodOfOrderTwoIsTwoOnEveryProblem) {
+TEST(OrderSlow, OfEveryMethodOfOrderTwoIsTwoOnEveryProblem) {
   for (const auto& [name, problem] : all_cases()) {
     const Reference reference = make_reference(problem, sample_times(step_sizes, 10.0));
     for (const MethodEntry& method : methods()) {

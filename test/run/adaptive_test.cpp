@@ -92,7 +92,7 @@ const std::vector<NamedProblem>& four_problems() {
   return list;
 }
 
-TEST(Adaptive, TheToleranceOfCollocationIsTheErrorOverSixDecades) {
+TEST(AdaptiveSlow, TheToleranceOfCollocationIsTheErrorOverSixDecades) {
   for (const auto& [name, problem] : four_problems()) {
     const Reference reference = make_reference(problem, every_unit(50));
     for (const std::string method : {"egc4", "egc6", "egc8"}) {

@@ -32,7 +32,7 @@ Vector phi_sum(const Matrix& A, const Vector& z, const Matrix& c) {
   return (exponential_by_extended_series(augmented) * start).head(n);
 }
 
-TEST(Phi, SumsOfEveryBackendAreThoseOfTheDefinition) {
+TEST(PhiSlow, SumsOfEveryBackendAreThoseOfTheDefinition) {
   for (const auto& [name, problem] : all_cases()) {
     if (problem.friction || problem.has_forces()) continue;  // the L of another case
     const Matrix L = L_of(problem);

@@ -38,7 +38,7 @@ TEST(SparsePhi, RowsOfOnePolynomialAreOneTrajectory) {
 }
 
 // Many substeps, in Krylov spaces far smaller than the systems. Frequencies ω known to ε leave e^{iωh} known to ωhε.
-TEST(SparsePhi, ManySubstepsAgreeWithFullMatrices) {
+TEST(SparsePhiSlow, ManySubstepsAgreeWithFullMatrices) {
   const auto speed = [](const std::array<double, 3>& x) { return x[0] > 1.0 ? 2.0 : 1.0; };
   std::vector<Problem> problems = {
       variable_wave({.grid = {.points = {120}, .length = {2.0}, .boundary = {Boundary::dirichlet}},

@@ -152,7 +152,7 @@ TEST(Sparse, LanczosThatSettlesIsTheExponentialForEveryVerb) {
   EXPECT_LE(distance(x, y), scale);
 }
 
-TEST(Sparse, TheEnergyLawHoldsToTwelveDigitsHoweverCoarseTheExponential) {
+TEST(SparseSlow, TheEnergyLawHoldsToTwelveDigitsHoweverCoarseTheExponential) {
   const Problem p = layered_wave(200);
   for (const SparseOptions& options :
        {SparseOptions{.pade_degree = 2},
@@ -181,7 +181,7 @@ TEST(Sparse, LanczosSaysWhereItDoesNotApply) {
 }
 
 // So many blocks as the spectrum is long, and no step takes more than a few hundred.
-TEST(Sparse, LanczosThatDoesNotSettleSaysWhatWouldHelp) {
+TEST(SparseSlow, LanczosThatDoesNotSettleSaysWhatWouldHelp) {
   const Problem p = layered_wave(1500);
   const System pade = sparse(p);
   const System lanczos = sparse(p, {.exponential = ExponentialKind::lanczos});
