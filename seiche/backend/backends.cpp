@@ -4,6 +4,7 @@
 #include <seiche/backend/reference/reference.hpp>
 #include <seiche/backend/sparse/sparse.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/listed.hpp>
 
 #include <fftw3.h>
 
@@ -31,18 +32,26 @@ constexpr std::array list = {
                  .system = reference_system},
 };
 
+Listed<BackendEntry>& all_backends() {
+  static Listed<BackendEntry> all(list);
+  return all;
+}
+
 }  // namespace
 
-std::span<const BackendEntry> backends() { return list; }
+std::span<const BackendEntry> backends() { return all_backends().rows(); }
+
+AddedBackend::AddedBackend(const BackendEntry& backend) { all_backends().add(backend); }
+AddedBackend::~AddedBackend() { all_backends().remove_last(); }
 
 std::vector<std::string> backend_names() {
   std::vector<std::string> names;
-  for (const BackendEntry& entry : list) names.emplace_back(entry.name);
+  for (const BackendEntry& entry : backends()) names.emplace_back(entry.name);
   return names;
 }
 
 const BackendEntry& find_backend(std::string_view name) {
-  for (const BackendEntry& entry : list)
+  for (const BackendEntry& entry : backends())
     if (entry.name == name) return entry;
   std::vector<std::string> allowed = backend_names();
   allowed.emplace_back("auto");

@@ -19,7 +19,7 @@ enum class ParameterKind { real, integer, rate, choice, matrix };
 struct Parameter {
   std::string name;
   ParameterKind kind = ParameterKind::real;
-  std::string default_value;
+  std::string default_value = {};
   std::string meaning;
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/listed.hpp>
 #include <seiche/method/adaptive/error_estimate.hpp>
 #include <seiche/method/closure/avf.hpp>
 #include <seiche/method/closure/directed_multiplier.hpp>
@@ -187,6 +188,11 @@ constexpr std::array list = {
 };
 // clang-format on
 
+Listed<MethodEntry>& all_methods() {
+  static Listed<MethodEntry> all(list);
+  return all;
+}
+
 void require_fit(const MethodEntry& method, const System& system) {
   if (system.structure && !method.kind.takes_structure)
     throw Error("{} needs one structure matrix S; where S changes with z use egc2 … egc8, seimp or etdrk4",
@@ -198,16 +204,19 @@ void require_fit(const MethodEntry& method, const System& system) {
 
 }  // namespace
 
-std::span<const MethodEntry> methods() { return list; }
+std::span<const MethodEntry> methods() { return all_methods().rows(); }
+
+AddedMethod::AddedMethod(const MethodEntry& method) { all_methods().add(method); }
+AddedMethod::~AddedMethod() { all_methods().remove_last(); }
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
-  for (const MethodEntry& entry : list) names.emplace_back(entry.name);
+  for (const MethodEntry& entry : methods()) names.emplace_back(entry.name);
   return names;
 }
 
 const MethodEntry& find_method(std::string_view name) {
-  for (const MethodEntry& entry : list)
+  for (const MethodEntry& entry : methods())
     if (entry.name == name) return entry;
   throw unknown_name("method", name, method_names());
 }

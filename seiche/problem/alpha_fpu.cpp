@@ -1,7 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
-#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/wave.hpp>
 
 #include <cmath>
@@ -55,63 +55,32 @@ Problem alpha_fpu(const AlphaFpu& options) {
 }
 
 ProblemEntry alpha_fpu_entry() {
-  return {
-      .name = "alpha_fpu",
-      .equation = "u_tt − βu_xxt − (1 + εu_xᵏ)u_xx + m²u + γu_t = 0, u = 0 at both ends",
-      .reference = "Li, Li, Shang, Xu, Example 2; Macías-Díaz (2009)",
-      .fields = {"u", "v"},
-      .meanings = {"displacement", "velocity"},
-      .parameters =
-          {
-              {.name = "length",
-               .default_value = "2.0",
-               .meaning = "L, where the chain ends",
-               .minimum = 0,
-               .minimum_excluded = true},
-              {.name = "points",
-               .kind = ParameterKind::integer,
-               .default_value = "20",
-               .meaning = "N, grid intervals; N − 1 unknowns per field",
-               .minimum = 2,
-               .maximum = most_intervals},
-              {.name = "exponent",
-               .kind = ParameterKind::integer,
-               .default_value = "1",
-               .meaning = "k, power of u_x in the stress",
-               .minimum = 1,
-               .maximum = max_polynomial_degree - 2},
-              {.name = "epsilon", .default_value = "0.005", .meaning = "ε, strength of the nonlinear stress"},
-              {.name = "beta",
-               .default_value = "0.01",
-               .meaning = "β, Kelvin–Voigt damping, length²/time",
-               .minimum = 0},
-              {.name = "gamma",
-               .kind = ParameterKind::rate,
-               .default_value = "0.5",
-               .meaning = "γ, damping rate, 1/time"},
-              {.name = "mass", .default_value = "1.0", .meaning = "m, frequency of the mean"},
-              {.name = "formulation",
-               .kind = ParameterKind::choice,
-               .default_value = "conservative",
-               .meaning = "γ in D (conservative, Example 2.1) or in S (dissipative, Example 2.2)",
-               .choices = {"conservative", "dissipative"}},
-          },
-      .presets = {"paper"},
-      .make =
-          [](const ParameterValues& v, const std::string&) {
-            using enum AlphaFpu::Formulation;
-            return alpha_fpu({.length = v.real("length"),
-                              .points = v.integer("points"),
-                              .exponent = static_cast<int>(v.integer("exponent")),
-                              .epsilon = v.real("epsilon"),
-                              .beta = v.real("beta"),
-                              .gamma = v.damping_rate("gamma"),
-                              .mass = v.real("mass"),
-                              .formulation = v.choice("formulation") == "dissipative" ? dissipative : conservative});
-          },
-      .default_h = "1/256",
-      .default_end = 50.0,
-  };
+  using P = AlphaFpu;
+  return ProblemRows<P>({.name = "alpha_fpu",
+                         .equation = "u_tt − βu_xxt − (1 + εu_xᵏ)u_xx + m²u + γu_t = 0, u = 0 at both ends",
+                         .reference = "Li, Li, Shang, Xu, Example 2; Macías-Díaz (2009)",
+                         .fields = {"u", "v"},
+                         .meanings = {"displacement", "velocity"},
+                         .default_h = "1/256",
+                         .default_end = 50.0},
+                        alpha_fpu)
+      .row(&P::length, {.name = "length", .meaning = "L, where the chain ends", .minimum = 0, .minimum_excluded = true})
+      .row(&P::points, {.name = "points",
+                        .meaning = "N, grid intervals; N − 1 unknowns per field",
+                        .minimum = 2,
+                        .maximum = most_intervals})
+      .row(&P::exponent, {.name = "exponent",
+                          .meaning = "k, power of u_x in the stress",
+                          .minimum = 1,
+                          .maximum = max_polynomial_degree - 2})
+      .row(&P::epsilon, {.name = "epsilon", .meaning = "ε, strength of the nonlinear stress"})
+      .row(&P::beta, {.name = "beta", .meaning = "β, Kelvin–Voigt damping, length²/time", .minimum = 0})
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.5", .meaning = "γ, damping rate, 1/time"})
+      .row(&P::mass, {.name = "mass", .meaning = "m, frequency of the mean"})
+      .choice(&P::formulation, {.name = "formulation",
+                                .meaning = "γ in D (conservative, Example 2.1) or in S (dissipative, Example 2.2)",
+                                .choices = {"conservative", "dissipative"}})
+      .preset("paper");
 }
 
 }  // namespace seiche

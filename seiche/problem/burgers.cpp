@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/problem/burgers.hpp>
-#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/wave.hpp>
 
 #include <cmath>
@@ -63,50 +63,25 @@ Problem burgers(const Burgers& options) {
 }
 
 ProblemEntry burgers_entry() {
-  return {
-      .name = "burgers",
-      .equation = "u_t + αuu_x + εu_xxx − νu_xx + γu = 0, periodic, with H = ½∫u²",
-      .reference = "Burgers (1948); Korteweg, de Vries (1895)",
-      .fields = {"u"},
-      .meanings = {"velocity"},
-      .parameters =
-          {
-              {.name = "length",
-               .default_value = "1.0",
-               .meaning = "L, the period in x",
-               .minimum = 0,
-               .minimum_excluded = true},
-              {.name = "points",
-               .kind = ParameterKind::integer,
-               .default_value = "128",
-               .meaning = "N, grid points in one period",
-               .minimum = 5,
-               .maximum = most_intervals},
-              discretisation_parameter(),
-              {.name = "alpha", .default_value = "1.0", .meaning = "α, strength of the transport"},
-              {.name = "epsilon", .default_value = "0.0", .meaning = "ε, dispersion: α = 6, ε = 1 is KdV"},
-              {.name = "nu", .default_value = "0.01", .meaning = "ν, viscosity", .minimum = 0},
-              {.name = "gamma",
-               .kind = ParameterKind::rate,
-               .default_value = "0.0",
-               .meaning = "γ, damping rate, 1/time"},
-          },
-      .presets = {"sine", "soliton"},
-      .make =
-          [](const ParameterValues& v, const std::string& preset) {
-            return burgers({.length = v.real("length"),
-                            .points = v.integer("points"),
-                            .discretisation = discretisation_of(v),
-                            .alpha = v.real("alpha"),
-                            .epsilon = v.real("epsilon"),
-                            .nu = v.real("nu"),
-                            .gamma = v.damping_rate("gamma"),
-                            .soliton = preset == "soliton"});
-          },
-      .default_h = "1/256",
-      .default_end = 1.0,
-      .default_method = "egc6",
-  };
+  using P = Burgers;
+  return ProblemRows<P>({.name = "burgers",
+                         .equation = "u_t + αuu_x + εu_xxx − νu_xx + γu = 0, periodic, with H = ½∫u²",
+                         .reference = "Burgers (1948); Korteweg, de Vries (1895)",
+                         .fields = {"u"},
+                         .meanings = {"velocity"},
+                         .default_h = "1/256",
+                         .default_end = 1.0,
+                         .default_method = "egc6"},
+                        burgers)
+      .row(&P::length, {.name = "length", .meaning = "L, the period in x", .minimum = 0, .minimum_excluded = true})
+      .row(&P::points,
+           {.name = "points", .meaning = "N, grid points in one period", .minimum = 5, .maximum = most_intervals})
+      .row(discretisation_parameter(), [](P& p, const ParameterValues& v) { p.discretisation = discretisation_of(v); })
+      .row(&P::alpha, {.name = "alpha", .meaning = "α, strength of the transport"})
+      .row(&P::epsilon, {.name = "epsilon", .meaning = "ε, dispersion: α = 6, ε = 1 is KdV"})
+      .row(&P::nu, {.name = "nu", .meaning = "ν, viscosity", .minimum = 0})
+      .row(&P::gamma, {.name = "gamma", .meaning = "γ, damping rate, 1/time"})
+      .presets(&P::soliton, {"sine", "soliton"});
 }
 
 }  // namespace seiche

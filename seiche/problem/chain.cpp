@@ -2,7 +2,7 @@
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/potential/sum.hpp>
 #include <seiche/problem/chain.hpp>
-#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/wave.hpp>
 
 #include <cmath>
@@ -57,62 +57,40 @@ Boundary chain_boundary(const ParameterValues& values) {
 }
 
 ProblemEntry chain_entry() {
-  return {
-      .name = "chain",
-      .equation =
-          "mü_j = k(d_j − d_{j−1}) + k₃(d_j³ − d_{j−1}³) − gu_j − g₃u_j³ − mγu̇_j + mν(ḋ_j − ḋ_{j−1}), "
-          "d_j = u_{j+1} − u_j",
-      .reference = "Li, Li, Shang, Xu, section 1; Born, von Kármán (1912)",
-      .fields = {"u", "p"},
-      .meanings = {"displacement", "momentum"},
-      .parameters =
-          {
-              {.name = "points",
-               .kind = ParameterKind::integer,
-               .default_value = "32",
-               .meaning = "N, bonds; N masses on a ring, N − 1 between fixed ends",
-               .minimum = 2,
-               .maximum = most_intervals},
-              chain_boundary_parameter("dirichlet"),
-              {.name = "mass", .default_value = "1.0", .meaning = "m", .minimum = 0, .minimum_excluded = true},
-              {.name = "neighbour_spring",
-               .default_value = "1.0",
-               .meaning = "k, stiffness of the springs between neighbours",
-               .minimum = 0},
-              {.name = "neighbour_cubic", .default_value = "0.5", .meaning = "k₃, their cubic stiffness"},
-              {.name = "ground_spring",
-               .default_value = "0.1",
-               .meaning = "g, stiffness of the springs to the ground",
-               .minimum = 0},
-              {.name = "ground_cubic", .default_value = "0.1", .meaning = "g₃, their cubic stiffness"},
-              {.name = "neighbour_damping",
-               .default_value = "0.05",
-               .meaning = "ν, dashpots between neighbours over m, 1/time",
-               .minimum = 0},
-              {.name = "gamma",
-               .kind = ParameterKind::rate,
-               .default_value = "0.01",
-               .meaning = "γ, dashpots to the ground over m, 1/time"},
-              {.name = "amplitude", .default_value = "1.0", .meaning = "of the initial data"},
-          },
-      .presets = {"kick", "first_mode"},
-      .make =
-          [](const ParameterValues& v, const std::string& preset) {
-            return chain({.points = v.integer("points"),
-                          .boundary = chain_boundary(v),
-                          .mass = v.real("mass"),
-                          .neighbour_spring = v.real("neighbour_spring"),
-                          .neighbour_cubic = v.real("neighbour_cubic"),
-                          .ground_spring = v.real("ground_spring"),
-                          .ground_cubic = v.real("ground_cubic"),
-                          .neighbour_damping = v.real("neighbour_damping"),
-                          .gamma = v.damping_rate("gamma"),
-                          .initial = preset == "first_mode" ? Chain::Initial::first_mode : Chain::Initial::kick,
-                          .amplitude = v.real("amplitude")});
-          },
-      .default_h = "1/64",
-      .default_end = 50.0,
-  };
+  using P = Chain;
+  return ProblemRows<P>(
+             {.name = "chain",
+              .equation = "mü_j = k(d_j − d_{j−1}) + k₃(d_j³ − d_{j−1}³) − gu_j − g₃u_j³ − mγu̇_j + mν(ḋ_j − ḋ_{j−1}), "
+                          "d_j = u_{j+1} − u_j",
+              .reference = "Li, Li, Shang, Xu, section 1; Born, von Kármán (1912)",
+              .fields = {"u", "p"},
+              .meanings = {"displacement", "momentum"},
+              .default_h = "1/64",
+              .default_end = 50.0},
+             chain)
+      .row(&P::points, {.name = "points",
+                        .meaning = "N, bonds; N masses on a ring, N − 1 between fixed ends",
+                        .minimum = 2,
+                        .maximum = most_intervals})
+      .row(chain_boundary_parameter("dirichlet"),
+           [](P& p, const ParameterValues& v) { p.boundary = chain_boundary(v); })
+      .row(&P::mass, {.name = "mass", .meaning = "m", .minimum = 0, .minimum_excluded = true})
+      .row(&P::neighbour_spring,
+           {.name = "neighbour_spring", .meaning = "k, stiffness of the springs between neighbours", .minimum = 0})
+      .row(&P::neighbour_cubic,
+           {.name = "neighbour_cubic", .default_value = "0.5", .meaning = "k₃, their cubic stiffness"})
+      .row(&P::ground_spring, {.name = "ground_spring",
+                               .default_value = "0.1",
+                               .meaning = "g, stiffness of the springs to the ground",
+                               .minimum = 0})
+      .row(&P::ground_cubic, {.name = "ground_cubic", .default_value = "0.1", .meaning = "g₃, their cubic stiffness"})
+      .row(&P::neighbour_damping, {.name = "neighbour_damping",
+                                   .default_value = "0.05",
+                                   .meaning = "ν, dashpots between neighbours over m, 1/time",
+                                   .minimum = 0})
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.01", .meaning = "γ, dashpots to the ground over m, 1/time"})
+      .row(&P::amplitude, {.name = "amplitude", .meaning = "of the initial data"})
+      .presets(&P::initial, {"kick", "first_mode"});
 }
 
 }  // namespace seiche

@@ -1,5 +1,5 @@
 #include <seiche/potential/polynomials.hpp>
-#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/gkdv.hpp>
 
@@ -25,54 +25,28 @@ Problem gkdv(const Gkdv& options) {
 }
 
 ProblemEntry gkdv_entry() {
-  return {
-      .name = "gkdv",
-      .equation = "u_t + εu_xxx + ∂_x(σu^{k+1}) + μu = 0, periodic",
-      .reference = "Li, Li, Shang, Xu, Example 3; Ali et al. (2017)",
-      .fields = {"u"},
-      .meanings = {"elevation"},
-      .parameters =
-          {
-              {.name = "length",
-               .default_value = "10.0",
-               .meaning = "L, the period in x",
-               .minimum = 0,
-               .minimum_excluded = true},
-              {.name = "points",
-               .kind = ParameterKind::integer,
-               .default_value = "20",
-               .meaning = "N, grid points in one period",
-               .minimum = 3,
-               .maximum = most_intervals},
-              discretisation_parameter(),
-              dealias_parameter(),
-              {.name = "exponent",
-               .kind = ParameterKind::integer,
-               .default_value = "2",
-               .meaning = "k, power of the nonlinearity",
-               .minimum = 1,
-               .maximum = max_polynomial_degree - 2},
-              {.name = "sigma",
-               .default_value = "0.001",
-               .meaning = "σ, strength of the nonlinearity; positive: V unbounded below"},
-              {.name = "epsilon", .default_value = "1.0", .meaning = "ε, dispersion", .minimum = 0},
-              {.name = "mu", .kind = ParameterKind::rate, .default_value = "0.5", .meaning = "μ, damping rate, 1/time"},
-          },
-      .presets = {"paper"},
-      .make =
-          [](const ParameterValues& v, const std::string&) {
-            return gkdv({.length = v.real("length"),
-                         .points = v.integer("points"),
-                         .discretisation = discretisation_of(v),
-                         .two_thirds = two_thirds_of(v),
-                         .exponent = static_cast<int>(v.integer("exponent")),
-                         .sigma = v.real("sigma"),
-                         .epsilon = v.real("epsilon"),
-                         .mu = v.damping_rate("mu")});
-          },
-      .default_h = "1/512",
-      .default_end = 50.0,
-  };
+  using P = Gkdv;
+  return ProblemRows<P>({.name = "gkdv",
+                         .equation = "u_t + εu_xxx + ∂_x(σu^{k+1}) + μu = 0, periodic",
+                         .reference = "Li, Li, Shang, Xu, Example 3; Ali et al. (2017)",
+                         .fields = {"u"},
+                         .meanings = {"elevation"},
+                         .default_h = "1/512",
+                         .default_end = 50.0},
+                        gkdv)
+      .row(&P::length, {.name = "length", .meaning = "L, the period in x", .minimum = 0, .minimum_excluded = true})
+      .row(&P::points,
+           {.name = "points", .meaning = "N, grid points in one period", .minimum = 3, .maximum = most_intervals})
+      .row(discretisation_parameter(), [](P& p, const ParameterValues& v) { p.discretisation = discretisation_of(v); })
+      .row(dealias_parameter(), [](P& p, const ParameterValues& v) { p.two_thirds = two_thirds_of(v); })
+      .row(&P::exponent, {.name = "exponent",
+                          .meaning = "k, power of the nonlinearity",
+                          .minimum = 1,
+                          .maximum = max_polynomial_degree - 2})
+      .row(&P::sigma, {.name = "sigma", .meaning = "σ, strength of the nonlinearity; positive: V unbounded below"})
+      .row(&P::epsilon, {.name = "epsilon", .meaning = "ε, dispersion", .minimum = 0})
+      .row(&P::mu, {.name = "mu", .default_value = "0.5", .meaning = "μ, damping rate, 1/time"})
+      .preset("paper");
 }
 
 }  // namespace seiche

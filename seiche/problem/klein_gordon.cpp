@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 
@@ -31,38 +32,23 @@ Problem klein_gordon(const KleinGordon& options) {
 }
 
 ProblemEntry klein_gordon_entry() {
-  std::vector<Parameter> parameters = grid_parameters("20", "2.0");
-  parameters.insert(
-      parameters.end(),
-      {
-          {.name = "kappa", .default_value = "0.04", .meaning = "κ, wave speed squared", .minimum = 0},
-          {.name = "omega_squared",
-           .default_value = "0.2",
-           .meaning = "ω², frequency squared of the mean; negative: a double well"},
-          {.name = "alpha",
-           .default_value = "-1.0",
-           .meaning = "α, strength of the cubic force; negative: focusing, V unbounded below"},
-          {.name = "gamma", .kind = ParameterKind::rate, .default_value = "0.1", .meaning = "γ, damping rate, 1/time"},
-      });
-  return {
-      .name = "klein_gordon",
-      .equation = "u_tt + γu_t − κΔu + ω²u + αu³ = 0",
-      .reference = "Li, Li, Shang, Xu, Example 1; Côte et al. (2021)",
-      .fields = {"u", "v"},
-      .meanings = {"displacement", "velocity"},
-      .parameters = std::move(parameters),
-      .presets = {"paper"},
-      .make =
-          [](const ParameterValues& v, const std::string&) {
-            return klein_gordon({.grid = grid_options(v),
-                                 .kappa = v.real("kappa"),
-                                 .omega_squared = v.real("omega_squared"),
-                                 .alpha = v.real("alpha"),
-                                 .gamma = v.damping_rate("gamma")});
-          },
-      .default_h = "1/256",
-      .default_end = 50.0,
-  };
+  using P = KleinGordon;
+  return ProblemRows<P>({.name = "klein_gordon",
+                         .equation = "u_tt + γu_t − κΔu + ω²u + αu³ = 0",
+                         .reference = "Li, Li, Shang, Xu, Example 1; Côte et al. (2021)",
+                         .fields = {"u", "v"},
+                         .meanings = {"displacement", "velocity"},
+                         .default_h = "1/256",
+                         .default_end = 50.0},
+                        klein_gordon)
+      .grid(&P::grid)
+      .row(&P::kappa, {.name = "kappa", .meaning = "κ, wave speed squared", .minimum = 0})
+      .row(&P::omega_squared,
+           {.name = "omega_squared", .meaning = "ω², frequency squared of the mean; negative: a double well"})
+      .row(&P::alpha,
+           {.name = "alpha", .meaning = "α, strength of the cubic force; negative: focusing, V unbounded below"})
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.1", .meaning = "γ, damping rate, 1/time"})
+      .preset("paper");
 }
 
 }  // namespace seiche

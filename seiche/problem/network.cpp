@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/second_order.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/network.hpp>
@@ -43,11 +44,6 @@ SparseMatrix laplacian(const SparseMatrix& adjacency) {
       entries.push_back({i, i, w});
     }
   return assembled(adjacency.rows(), entries);
-}
-
-// Weights from whichever matrix of a graph: those of a Laplacian have the other sign.
-SparseMatrix weights(const SparseMatrix& matrix, const std::string& kind) {
-  return kind == "laplacian" ? SparseMatrix(-1.0 * matrix) : matrix;
 }
 
 }  // namespace
@@ -95,75 +91,55 @@ Problem network(const Network& options) {
   return p;
 }
 
+namespace {
+
+// What a case file says: Network, with a graph from a file or made.
+struct NetworkCase {
+  MatrixPointer graph = nullptr;
+  bool is_laplacian = false;
+  Index nodes = 20, neighbours = 2, shortcuts = 6, seed = 1;
+  double coupling = 1.0, omega_squared = 0.2, alpha = 1.0;
+  DampingRate gamma = nullptr;
+};
+
+Problem from_graph(const NetworkCase& c) {
+  const auto made = [&] { return small_world(c.nodes, c.neighbours, c.shortcuts, static_cast<std::uint64_t>(c.seed)); };
+  // The weights of a Laplacian have the other sign.
+  const auto given = [&] { return c.is_laplacian ? SparseMatrix(-1.0 * *c.graph) : *c.graph; };
+  return network({.adjacency = c.graph ? given() : made(),
+                  .coupling = c.coupling,
+                  .omega_squared = c.omega_squared,
+                  .alpha = c.alpha,
+                  .gamma = c.gamma});
+}
+
+}  // namespace
+
 ProblemEntry network_entry() {
-  return {
-      .name = "network",
-      .equation = "ü_i + γu̇_i + ω²u_i + κΣ_j w_ij(u_i − u_j) + αu_i³ = 0",
-      .reference = "Newman and Watts (1999) for the graph",
-      .fields = {"u", "v"},
-      .meanings = {"displacement", "velocity"},
-      .parameters =
-          {
-              {.name = "graph",
-               .kind = ParameterKind::matrix,
-               .default_value = "",
-               .meaning = "w, a Matrix Market file; \"\": a ring with shortcuts, by the four below"},
-              {.name = "graph_matrix",
-               .kind = ParameterKind::choice,
-               .default_value = "adjacency",
-               .meaning = "what the file holds",
-               .choices = {"adjacency", "laplacian"}},
-              {.name = "nodes",
-               .kind = ParameterKind::integer,
-               .default_value = "20",
-               .meaning = "of the ring",
-               .minimum = 3,
-               .maximum = 1 << 24},
-              {.name = "neighbours",
-               .kind = ParameterKind::integer,
-               .default_value = "2",
-               .meaning = "to which a node is joined, on each side",
-               .minimum = 1,
-               .maximum = 1000},
-              {.name = "shortcuts",
-               .kind = ParameterKind::integer,
-               .default_value = "6",
-               .meaning = "further edges",
-               .minimum = 0,
-               .maximum = 10000},
-              {.name = "seed",
-               .kind = ParameterKind::integer,
-               .default_value = "1",
-               .meaning = "of the shortcuts",
-               .minimum = 0},
-              {.name = "coupling", .default_value = "1.0", .meaning = "κ, strength of the edges", .minimum = 0},
-              {.name = "omega_squared",
-               .default_value = "0.2",
-               .meaning = "ω², frequency squared of a node alone",
-               .minimum = 0},
-              {.name = "alpha", .default_value = "1.0", .meaning = "α, strength of the cubic force"},
-              {.name = "gamma",
-               .kind = ParameterKind::rate,
-               .default_value = "0.1",
-               .meaning = "γ, damping rate, 1/time"},
-          },
-      .presets = {"one_node"},
-      .make =
-          [](const ParameterValues& v, const std::string&) {
-            const auto& file = v.matrix("graph");
-            const SparseMatrix adjacency =
-                file ? weights(*file, v.choice("graph_matrix"))
-                     : small_world(v.integer("nodes"), v.integer("neighbours"), v.integer("shortcuts"),
-                                   static_cast<std::uint64_t>(v.integer("seed")));
-            return network({.adjacency = adjacency,
-                            .coupling = v.real("coupling"),
-                            .omega_squared = v.real("omega_squared"),
-                            .alpha = v.real("alpha"),
-                            .gamma = v.damping_rate("gamma")});
-          },
-      .default_h = "1/64",
-      .default_end = 20.0,
-  };
+  using P = NetworkCase;
+  return ProblemRows<P>({.name = "network",
+                         .equation = "ü_i + γu̇_i + ω²u_i + κΣ_j w_ij(u_i − u_j) + αu_i³ = 0",
+                         .reference = "Newman and Watts (1999) for the graph",
+                         .fields = {"u", "v"},
+                         .meanings = {"displacement", "velocity"},
+                         .default_h = "1/64",
+                         .default_end = 20.0},
+                        from_graph)
+      .row(&P::graph,
+           {.name = "graph", .meaning = "w, a Matrix Market file; \"\": a ring with shortcuts, by the four below"})
+      .choice(&P::is_laplacian,
+              {.name = "graph_matrix", .meaning = "what the file holds", .choices = {"adjacency", "laplacian"}})
+      .row(&P::nodes, {.name = "nodes", .meaning = "of the ring", .minimum = 3, .maximum = 1 << 24})
+      .row(&P::neighbours,
+           {.name = "neighbours", .meaning = "to which a node is joined, on each side", .minimum = 1, .maximum = 1000})
+      .row(&P::shortcuts, {.name = "shortcuts", .meaning = "further edges", .minimum = 0, .maximum = 10000})
+      .row(&P::seed, {.name = "seed", .meaning = "of the shortcuts", .minimum = 0})
+      .row(&P::coupling, {.name = "coupling", .meaning = "κ, strength of the edges", .minimum = 0})
+      .row(&P::omega_squared,
+           {.name = "omega_squared", .meaning = "ω², frequency squared of a node alone", .minimum = 0})
+      .row(&P::alpha, {.name = "alpha", .meaning = "α, strength of the cubic force"})
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.1", .meaning = "γ, damping rate, 1/time"})
+      .preset("one_node");
 }
 
 }  // namespace seiche

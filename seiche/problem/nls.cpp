@@ -1,4 +1,5 @@
 #include <seiche/potential/modulus.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/nls.hpp>
 
@@ -43,40 +44,22 @@ Problem nls(const Nls& options) {
 }
 
 ProblemEntry nls_entry() {
-  std::vector<Parameter> parameters = grid_parameters("128", "40.0");
-  parameters.insert(
-      parameters.end(),
-      {
-          {.name = "kappa",
-           .default_value = "1.0",
-           .meaning = "κ, strength of the cubic term; positive: focusing, V unbounded below"},
-          {.name = "gamma",
-           .kind = ParameterKind::rate,
-           .default_value = "0.05",
-           .meaning = "γ, damping rate of the amplitude, 1/time"},
-          {.name = "amplitude", .default_value = "1.0", .meaning = "A, of the initial data"},
-          {.name = "velocity", .default_value = "0.5", .meaning = "c, of the initial data along the first axis"},
-      });
-  return {
-      .name = "nls",
-      .equation = "iψ_t + ½Δψ + κ|ψ|²ψ = −iγψ, ψ = p + iq",
-      .reference = "Zakharov, Shabat (1972); with damping: Fibich (2001)",
-      .fields = {"p", "q"},
-      .meanings = {"real part of ψ", "imaginary part of ψ"},
-      .parameters = std::move(parameters),
-      .presets = {"soliton", "gaussian"},
-      .make =
-          [](const ParameterValues& v, const std::string& preset) {
-            return nls({.grid = grid_options(v),
-                        .kappa = v.real("kappa"),
-                        .gamma = v.damping_rate("gamma"),
-                        .amplitude = v.real("amplitude"),
-                        .velocity = v.real("velocity"),
-                        .initial = preset == "gaussian" ? Nls::Initial::gaussian : Nls::Initial::soliton});
-          },
-      .default_h = "1/64",
-      .default_end = 20.0,
-  };
+  using P = Nls;
+  return ProblemRows<P>({.name = "nls",
+                         .equation = "iψ_t + ½Δψ + κ|ψ|²ψ = −iγψ, ψ = p + iq",
+                         .reference = "Zakharov, Shabat (1972); with damping: Fibich (2001)",
+                         .fields = {"p", "q"},
+                         .meanings = {"real part of ψ", "imaginary part of ψ"},
+                         .default_h = "1/64",
+                         .default_end = 20.0},
+                        nls)
+      .grid(&P::grid)
+      .row(&P::kappa,
+           {.name = "kappa", .meaning = "κ, strength of the cubic term; positive: focusing, V unbounded below"})
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.05", .meaning = "γ, damping rate of the amplitude, 1/time"})
+      .row(&P::amplitude, {.name = "amplitude", .meaning = "A, of the initial data"})
+      .row(&P::velocity, {.name = "velocity", .meaning = "c, of the initial data along the first axis"})
+      .presets(&P::initial, {"soliton", "gaussian"});
 }
 
 }  // namespace seiche

@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
-#include <seiche/problem/common/grid_options.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/second_order.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/oscillator.hpp>
@@ -25,40 +25,23 @@ Problem oscillator(const Oscillator& options) {
 }
 
 ProblemEntry oscillator_entry() {
-  return {
-      .name = "oscillator",
-      .equation = "q̈ + γq̇ + ω²q + αq³ = 0",
-      .reference = "Duffing (1918)",
-      .fields = {"q", "p"},
-      .meanings = {"displacement", "momentum"},
-      .parameters =
-          {
-              {.name = "points",
-               .kind = ParameterKind::integer,
-               .default_value = "1",
-               .meaning = "number of oscillators, which do not touch",
-               .minimum = 1,
-               .maximum = most_intervals},
-              {.name = "omega_squared",
-               .default_value = "1.0",
-               .meaning = "ω², frequency squared; negative: a double well"},
-              {.name = "alpha", .default_value = "1.0", .meaning = "α, strength of the cubic force"},
-              {.name = "gamma",
-               .kind = ParameterKind::rate,
-               .default_value = "0.1",
-               .meaning = "γ, damping rate, 1/time"},
-          },
-      .presets = {"release"},
-      .make =
-          [](const ParameterValues& v, const std::string&) {
-            return oscillator({.points = v.integer("points"),
-                               .omega_squared = v.real("omega_squared"),
-                               .alpha = v.real("alpha"),
-                               .gamma = v.damping_rate("gamma")});
-          },
-      .default_h = "1/64",
-      .default_end = 50.0,
-  };
+  using P = Oscillator;
+  return ProblemRows<P>({.name = "oscillator",
+                         .equation = "q̈ + γq̇ + ω²q + αq³ = 0",
+                         .reference = "Duffing (1918)",
+                         .fields = {"q", "p"},
+                         .meanings = {"displacement", "momentum"},
+                         .default_h = "1/64",
+                         .default_end = 50.0},
+                        oscillator)
+      .row(&P::points, {.name = "points",
+                        .meaning = "number of oscillators, which do not touch",
+                        .minimum = 1,
+                        .maximum = most_intervals})
+      .row(&P::omega_squared, {.name = "omega_squared", .meaning = "ω², frequency squared; negative: a double well"})
+      .row(&P::alpha, {.name = "alpha", .meaning = "α, strength of the cubic force"})
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.1", .meaning = "γ, damping rate, 1/time"})
+      .preset("release");
 }
 
 }  // namespace seiche

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/listed.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/beta_fpu.hpp>
 #include <seiche/problem/burgers.hpp>
@@ -17,14 +18,34 @@
 
 namespace seiche {
 
-std::span<const ProblemEntry> problems() {
-  static const std::vector<ProblemEntry> list = {
-      klein_gordon_entry(), alpha_fpu_entry(), gkdv_entry(),    sine_gordon_entry(),   oscillator_entry(),
-      nls_entry(),          beta_fpu_entry(),  chain_entry(),   variable_wave_entry(), truss_entry(),
-      network_entry(),      sparse_entry(),    burgers_entry(), rigid_body_entry(),
-  };
+namespace {
+
+Listed<ProblemEntry>& all_problems() {
+  static Listed<ProblemEntry> list(std::vector<ProblemEntry>{
+      klein_gordon_entry(),
+      alpha_fpu_entry(),
+      gkdv_entry(),
+      sine_gordon_entry(),
+      oscillator_entry(),
+      nls_entry(),
+      beta_fpu_entry(),
+      chain_entry(),
+      variable_wave_entry(),
+      truss_entry(),
+      network_entry(),
+      sparse_entry(),
+      burgers_entry(),
+      rigid_body_entry(),
+  });
   return list;
 }
+
+}  // namespace
+
+std::span<const ProblemEntry> problems() { return all_problems().rows(); }
+
+AddedProblem::AddedProblem(ProblemEntry problem) { all_problems().add(std::move(problem)); }
+AddedProblem::~AddedProblem() { all_problems().remove_last(); }
 
 std::vector<std::string> problem_names() {
   std::vector<std::string> names;

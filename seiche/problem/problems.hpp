@@ -18,10 +18,10 @@ struct ProblemEntry {
   std::string reference;  // where it comes from
   std::vector<std::string> fields;
   std::vector<std::string> meanings = {};  // of the fields, in their order: "displacement"
-  std::vector<Parameter> parameters;
-  std::vector<std::string> presets;  // names of initial data, the default first
+  std::vector<Parameter> parameters = {};
+  std::vector<std::string> presets = {};  // names of initial data, the default first
   // Throws Error where the values do not fit together.
-  std::function<Problem(const ParameterValues& values, const std::string& preset)> make;
+  std::function<Problem(const ParameterValues& values, const std::string& preset)> make = {};
   // What `seiche new` proposes, and a case file that is silent takes.
   std::string default_h;
   double default_end;
@@ -31,5 +31,15 @@ struct ProblemEntry {
 std::span<const ProblemEntry> problems();
 std::vector<std::string> problem_names();
 const ProblemEntry& find_problem(std::string_view name);  // throws Error with the nearest name
+
+// A problem of a program's own, in the list for as long as this lives: case files may name it. Removed in the order of
+// a stack; throws Error where the name is taken.
+class AddedProblem {
+ public:
+  explicit AddedProblem(ProblemEntry problem);
+  ~AddedProblem();
+  AddedProblem(const AddedProblem&) = delete;
+  AddedProblem& operator=(const AddedProblem&) = delete;
+};
 
 }  // namespace seiche

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/second_order.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/rigid_body.hpp>
@@ -39,35 +40,28 @@ Problem rigid_body(const RigidBody& options) {
 }
 
 ProblemEntry rigid_body_entry() {
+  using P = RigidBody;
   const auto moment = [](const char* name, const char* value, const char* meaning) {
     return Parameter{.name = name, .default_value = value, .meaning = meaning, .minimum = 0, .minimum_excluded = true};
   };
-  return {
-      .name = "rigid_body",
-      .equation = "L̇ = L × I⁻¹L − γL",
-      .reference = "Euler (1765)",
-      .fields = {"l1", "l2", "l3"},
-      .meanings = {"angular momentum, axis 1", "angular momentum, axis 2", "angular momentum, axis 3"},
-      .parameters =
-          {
-              moment("inertia_1", "1.0", "I₁, moment of inertia about the first axis"),
-              moment("inertia_2", "2.0", "I₂"),
-              moment("inertia_3", "3.0", "I₃"),
-              {.name = "gamma",
-               .kind = ParameterKind::rate,
-               .default_value = "0.02",
-               .meaning = "γ, damping rate, 1/time"},
-          },
-      .presets = {"tumbling"},
-      .make =
-          [](const ParameterValues& v, const std::string&) {
-            return rigid_body({.inertia = {v.real("inertia_1"), v.real("inertia_2"), v.real("inertia_3")},
-                               .gamma = v.damping_rate("gamma")});
-          },
-      .default_h = "1/16",
-      .default_end = 100.0,
-      .default_method = "egc6",
+  const auto of_axis = [](std::size_t axis, const char* name) {
+    return [axis, name](P& p, const ParameterValues& v) { p.inertia[axis] = v.real(name); };
   };
+  return ProblemRows<P>({.name = "rigid_body",
+                         .equation = "L̇ = L × I⁻¹L − γL",
+                         .reference = "Euler (1765)",
+                         .fields = {"l1", "l2", "l3"},
+                         .meanings = {"angular momentum, axis 1", "angular momentum, axis 2",
+                                      "angular momentum, axis 3"},
+                         .default_h = "1/16",
+                         .default_end = 100.0,
+                         .default_method = "egc6"},
+                        rigid_body)
+      .row(moment("inertia_1", "1.0", "I₁, moment of inertia about the first axis"), of_axis(0, "inertia_1"))
+      .row(moment("inertia_2", "2.0", "I₂"), of_axis(1, "inertia_2"))
+      .row(moment("inertia_3", "3.0", "I₃"), of_axis(2, "inertia_3"))
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.02", .meaning = "γ, damping rate, 1/time"})
+      .preset("tumbling");
 }
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/cosine.hpp>
 #include <seiche/potential/nodal.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/sine_gordon.hpp>
 
@@ -30,39 +31,25 @@ Problem sine_gordon(const SineGordon& options) {
 }
 
 ProblemEntry sine_gordon_entry() {
-  std::vector<Parameter> parameters = grid_parameters("256", "40.0");
-  parameters.insert(
-      parameters.end(),
-      {
-          {.name = "kappa", .default_value = "1.0", .meaning = "κ, wave speed squared", .minimum = 0},
-          {.name = "alpha", .default_value = "1.0", .meaning = "α, strength of the pendulums"},
-          {.name = "gamma", .kind = ParameterKind::rate, .default_value = "0.05", .meaning = "γ, damping rate, 1/time"},
-          {.name = "breather_frequency",
-           .default_value = "0.5",
-           .meaning = "ω, of the initial breather, below 1",
-           .minimum = 0,
-           .maximum = 0.999,
-           .minimum_excluded = true},
-      });
-  return {
-      .name = "sine_gordon",
-      .equation = "u_tt + γu_t − κΔu + α sin u = 0",
-      .reference = "Ablowitz, Kaup, Newell, Segur (1973); with friction: McLaughlin, Scott (1978)",
-      .fields = {"u", "v"},
-      .meanings = {"phase", "velocity of the phase"},
-      .parameters = std::move(parameters),
-      .presets = {"breather"},
-      .make =
-          [](const ParameterValues& v, const std::string&) {
-            return sine_gordon({.grid = grid_options(v),
-                                .kappa = v.real("kappa"),
-                                .alpha = v.real("alpha"),
-                                .gamma = v.damping_rate("gamma"),
-                                .breather_frequency = v.real("breather_frequency")});
-          },
-      .default_h = "1/64",
-      .default_end = 50.0,
-  };
+  using P = SineGordon;
+  return ProblemRows<P>({.name = "sine_gordon",
+                         .equation = "u_tt + γu_t − κΔu + α sin u = 0",
+                         .reference = "Ablowitz, Kaup, Newell, Segur (1973); with friction: McLaughlin, Scott (1978)",
+                         .fields = {"u", "v"},
+                         .meanings = {"phase", "velocity of the phase"},
+                         .default_h = "1/64",
+                         .default_end = 50.0},
+                        sine_gordon)
+      .grid(&P::grid)
+      .row(&P::kappa, {.name = "kappa", .meaning = "κ, wave speed squared", .minimum = 0})
+      .row(&P::alpha, {.name = "alpha", .meaning = "α, strength of the pendulums"})
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.05", .meaning = "γ, damping rate, 1/time"})
+      .row(&P::breather_frequency, {.name = "breather_frequency",
+                                    .meaning = "ω, of the initial breather, below 1",
+                                    .minimum = 0,
+                                    .maximum = 0.999,
+                                    .minimum_excluded = true})
+      .preset("breather");
 }
 
 }  // namespace seiche

@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/second_order.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/sparse.hpp>
@@ -29,21 +30,6 @@ SparseMatrix chain_metric(Index count) {
     entries.push_back({i - 1, i, -1});
   }
   return assembled(2 * count, entries);
-}
-
-Problem from_matrices(const ParameterValues& v, const std::string&) {
-  SparseSystem options{.fields = v.integer("fields"),
-                       .matrices = {},
-                       .cubic = v.real("cubic"),
-                       .quartic = v.real("quartic"),
-                       .gamma = v.damping_rate("gamma")};
-  const auto& M = v.matrix("M");
-  if (!M && (v.matrix("S") || v.matrix("D") || options.fields != 2))
-    throw Error("problem.M names no file; without it M is that of a chain of 20, and neither S, D nor fields is given");
-  options.matrices.M = M ? *M : chain_metric(20);
-  if (v.matrix("S")) options.matrices.S = *v.matrix("S");
-  if (v.matrix("D")) options.matrices.D = *v.matrix("D");
-  return sparse_problem(std::move(options));
 }
 
 }  // namespace
@@ -80,40 +66,51 @@ Problem sparse_problem(SparseSystem options) {
   return p;
 }
 
+namespace {
+
+// What a case file says: SparseSystem, with its matrices from files.
+struct SparseCase {
+  MatrixPointer M = nullptr, S = nullptr, D = nullptr;
+  Index fields = 2;
+  double cubic = 0.0, quartic = 1.0;
+  DampingRate gamma = nullptr;
+};
+
+Problem from_files(const SparseCase& c) {
+  if (!c.M && (c.S || c.D || c.fields != 2))
+    throw Error("problem.M names no file; without it M is that of a chain of 20, and neither S, D nor fields is given");
+  SparseSystem options{.fields = c.fields, .matrices = {}, .cubic = c.cubic, .quartic = c.quartic, .gamma = c.gamma};
+  options.matrices.M = c.M ? *c.M : chain_metric(20);
+  if (c.S) options.matrices.S = *c.S;
+  if (c.D) options.matrices.D = *c.D;
+  return sparse_problem(std::move(options));
+}
+
+}  // namespace
+
 ProblemEntry sparse_entry() {
-  const auto file = [](const char* name, const char* meaning) {
-    return Parameter{.name = name, .kind = ParameterKind::matrix, .default_value = "", .meaning = meaning};
-  };
-  return {
-      .name = "sparse",
-      .equation = "ż = S∇H(z) − Dz,  H = ½zᵀMz + a₃/3 Σu³ + a₄/4 Σu⁴",
-      .reference = "Matrix Market files: Boisvert, Pozo, Remington, NISTIR 5935 (1996)",
-      .fields = {"u", "v"},
-      .meanings = {"displacement", "momentum"},
-      .parameters =
-          {
-              file("M",
-                   "symmetric, positive semidefinite; a Matrix Market file; \"\": a chain of 20, held at its ends"),
-              file("S", "the structure; a law is promised where S + Sᵀ ⪯ 0; \"\": [[0, I], [−I, 0]]"),
-              file("D", "constant damping; \"\": none"),
-              {.name = "fields",
-               .kind = ParameterKind::integer,
-               .default_value = "2",
-               .meaning = "z = (u, v), or u alone",
-               .minimum = 1,
-               .maximum = 2},
-              {.name = "cubic", .default_value = "0.0", .meaning = "a₃"},
-              {.name = "quartic", .default_value = "1.0", .meaning = "a₄"},
-              {.name = "gamma",
-               .kind = ParameterKind::rate,
-               .default_value = "0.1",
-               .meaning = "γ, further damping of the last field, 1/time"},
-          },
-      .presets = {"bump"},
-      .make = from_matrices,
-      .default_h = "1/64",
-      .default_end = 20.0,
-  };
+  using P = SparseCase;
+  return ProblemRows<P>({.name = "sparse",
+                         .equation = "ż = S∇H(z) − Dz,  H = ½zᵀMz + a₃/3 Σu³ + a₄/4 Σu⁴",
+                         .reference = "Matrix Market files: Boisvert, Pozo, Remington, NISTIR 5935 (1996)",
+                         .fields = {"u", "v"},
+                         .meanings = {"displacement", "momentum"},
+                         .default_h = "1/64",
+                         .default_end = 20.0},
+                        from_files)
+      .row(&P::M,
+           {.name = "M",
+            .meaning = "symmetric, positive semidefinite; a Matrix Market file; \"\": a chain of 20, held at its "
+                       "ends"})
+      .row(&P::S,
+           {.name = "S", .meaning = "the structure; a law is promised where S + Sᵀ ⪯ 0; \"\": [[0, I], [−I, 0]]"})
+      .row(&P::D, {.name = "D", .meaning = "constant damping; \"\": none"})
+      .row(&P::fields, {.name = "fields", .meaning = "z = (u, v), or u alone", .minimum = 1, .maximum = 2})
+      .row(&P::cubic, {.name = "cubic", .meaning = "a₃"})
+      .row(&P::quartic, {.name = "quartic", .meaning = "a₄"})
+      .row(&P::gamma,
+           {.name = "gamma", .default_value = "0.1", .meaning = "γ, further damping of the last field, 1/time"})
+      .preset("bump");
 }
 
 }  // namespace seiche

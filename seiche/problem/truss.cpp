@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/bars.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/second_order.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/truss.hpp>
@@ -96,51 +97,30 @@ Problem truss(const Truss& options) {
 }
 
 ProblemEntry truss_entry() {
-  const auto positive = [](const char* name, const char* value, const char* meaning) {
-    return Parameter{.name = name, .default_value = value, .meaning = meaning, .minimum = 0, .minimum_excluded = true};
-  };
-  return {
-      .name = "truss",
-      .equation = "m ü = −Σ_bars n (EA/ℓ e + a₃e² + a₄e³ + c ė) − γ m u̇,  e = n·(u_b − u_a)",
-      .reference = "Argyris and Mlejnek, Dynamics of Structures (1991)",
-      .fields = {"x", "y", "px", "py"},
-      .meanings = {"horizontal displacement", "vertical displacement", "horizontal momentum", "vertical momentum"},
-      .parameters =
-          {
-              {.name = "panels",
-               .kind = ParameterKind::integer,
-               .default_value = "6",
-               .meaning = "squares between the two supports",
-               .minimum = 2,
-               .maximum = 1 << 22},
-              positive("side", "1.0", "of a square, length"),
-              positive("mass", "1.0", "m, of every node"),
-              positive("stiffness", "100.0", "EA: a bar of length ℓ is a spring of EA/ℓ"),
-              {.name = "cubic", .default_value = "0.0", .meaning = "a₃ of the force −a₃e² of a bar"},
-              {.name = "quartic", .default_value = "200.0", .meaning = "a₄ of the force −a₄e³ of a bar"},
-              {.name = "dashpot", .default_value = "0.2", .meaning = "c, force per rate of elongation", .minimum = 0},
-              {.name = "gamma",
-               .kind = ParameterKind::rate,
-               .default_value = "0.05",
-               .meaning = "γ, drag of the air, 1/time"},
-              {.name = "amplitude", .default_value = "0.1", .meaning = "of the initial deflection, length"},
-          },
-      .presets = {"deflected"},
-      .make =
-          [](const ParameterValues& v, const std::string&) {
-            return truss({.panels = v.integer("panels"),
-                          .side = v.real("side"),
-                          .mass = v.real("mass"),
-                          .stiffness = v.real("stiffness"),
-                          .cubic = v.real("cubic"),
-                          .quartic = v.real("quartic"),
-                          .dashpot = v.real("dashpot"),
-                          .gamma = v.rate("gamma"),
-                          .amplitude = v.real("amplitude")});
-          },
-      .default_h = "1/64",
-      .default_end = 20.0,
-  };
+  using P = Truss;
+  return ProblemRows<P>({.name = "truss",
+                         .equation = "m ü = −Σ_bars n (EA/ℓ e + a₃e² + a₄e³ + c ė) − γ m u̇,  e = n·(u_b − u_a)",
+                         .reference = "Argyris and Mlejnek, Dynamics of Structures (1991)",
+                         .fields = {"x", "y", "px", "py"},
+                         .meanings = {"horizontal displacement", "vertical displacement", "horizontal momentum",
+                                      "vertical momentum"},
+                         .default_h = "1/64",
+                         .default_end = 20.0},
+                        truss)
+      .row(&P::panels,
+           {.name = "panels", .meaning = "squares between the two supports", .minimum = 2, .maximum = 1 << 22})
+      .row(&P::side, {.name = "side", .meaning = "of a square, length", .minimum = 0, .minimum_excluded = true})
+      .row(&P::mass, {.name = "mass", .meaning = "m, of every node", .minimum = 0, .minimum_excluded = true})
+      .row(&P::stiffness, {.name = "stiffness",
+                           .meaning = "EA: a bar of length ℓ is a spring of EA/ℓ",
+                           .minimum = 0,
+                           .minimum_excluded = true})
+      .row(&P::cubic, {.name = "cubic", .meaning = "a₃ of the force −a₃e² of a bar"})
+      .row(&P::quartic, {.name = "quartic", .meaning = "a₄ of the force −a₄e³ of a bar"})
+      .row(&P::dashpot, {.name = "dashpot", .meaning = "c, force per rate of elongation", .minimum = 0})
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.05", .meaning = "γ, drag of the air, 1/time"})
+      .row(&P::amplitude, {.name = "amplitude", .meaning = "of the initial deflection, length"})
+      .preset("deflected");
 }
 
 }  // namespace seiche

@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/second_order.hpp>
 #include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/variable_wave.hpp>
@@ -55,13 +56,23 @@ SparseMatrix stiffness(const VariableWave& options, const Grid& grid) {
   return assembled(n, entries);
 }
 
+// What a case file says: VariableWave in a medium of two parts.
+struct WaveCase {
+  GridOptions grid = {.points = {64}, .length = {2.0}, .boundary = {Boundary::dirichlet}};
+  bool is_inclusion = false;
+  double speed = 1.0, second_speed = 2.0, second_size = 0.5;
+  VariableWave::Faces faces = VariableWave::Faces::harmonic;
+  double mass = 0.0, alpha = 1.0;
+  DampingRate gamma = nullptr;
+};
+
 // c₁ beyond a plane, or in a ball; c₀ elsewhere.
-std::function<double(const Place&)> medium(const ParameterValues& v, const Grid& grid) {
-  const double outside = v.real("speed");
-  const double inside = v.real("second_speed");
-  const double size = v.real("second_size");
+std::function<double(const Place&)> medium(const WaveCase& c, const Grid& grid) {
+  const double outside = c.speed;
+  const double inside = c.second_speed;
+  const double size = c.second_size;
   const GridAxis first = grid.axis(0);
-  if (v.choice("medium") == "layers") {
+  if (!c.is_inclusion) {
     const double plane = (1 - size) * first.length;
     return [=](const Place& x) { return x[0] > plane ? inside : outside; };
   }
@@ -75,17 +86,6 @@ std::function<double(const Place&)> medium(const ParameterValues& v, const Grid&
       distance += square(x[static_cast<std::size_t>(a)] - centre[static_cast<std::size_t>(a)]);
     return distance < square(radius) ? inside : outside;
   };
-}
-
-Problem from_media(const ParameterValues& v, const std::string&) {
-  const GridOptions grid = axes_options(v);
-  const bool harmonic = v.choice("faces") == "harmonic";
-  return variable_wave({.grid = grid,
-                        .speed = medium(v, make_grid(grid)),
-                        .faces = harmonic ? VariableWave::Faces::harmonic : VariableWave::Faces::arithmetic,
-                        .mass = v.real("mass"),
-                        .alpha = v.real("alpha"),
-                        .gamma = v.damping_rate("gamma")});
 }
 
 }  // namespace
@@ -109,53 +109,51 @@ Problem variable_wave(const VariableWave& options) {
   return p;
 }
 
+namespace {
+
+Problem in_medium(const WaveCase& c) {
+  return variable_wave({.grid = c.grid,
+                        .speed = medium(c, make_grid(c.grid)),
+                        .faces = c.faces,
+                        .mass = c.mass,
+                        .alpha = c.alpha,
+                        .gamma = c.gamma});
+}
+
+}  // namespace
+
 ProblemEntry variable_wave_entry() {
-  std::vector<Parameter> parameters;
-  for (Parameter& parameter : axes_parameters("64", "2.0")) {
-    if (parameter.name == "boundary") parameter.default_value = "dirichlet";
-    parameters.push_back(std::move(parameter));
-  }
-  parameters.push_back(discretisation_parameter());
-  parameters.back().choices = {"fd2"};  // a higher order is lost where c jumps
-  const auto speed = [](const char* name, const char* value, const char* meaning) {
-    return Parameter{.name = name, .default_value = value, .meaning = meaning, .minimum = 0, .minimum_excluded = true};
+  using P = WaveCase;
+  const auto positive = [](const char* name, const char* meaning) {
+    return Parameter{.name = name, .meaning = meaning, .minimum = 0, .minimum_excluded = true};
   };
-  parameters.insert(
-      parameters.end(),
-      {
-          {.name = "medium",
-           .kind = ParameterKind::choice,
-           .default_value = "layers",
-           .meaning = "where the second speed holds: beyond a plane, or in a ball in the middle",
-           .choices = {"layers", "inclusion"}},
-          speed("speed", "1.0", "c of the first part"),
-          speed("second_speed", "2.0", "c of the second part"),
-          {.name = "second_size",
-           .default_value = "0.5",
-           .meaning = "width of the second part, as a fraction of the first axis",
-           .minimum = 0,
-           .maximum = 1},
-          {.name = "faces",
-           .kind = ParameterKind::choice,
-           .default_value = "harmonic",
-           .meaning = "mean of c² between two points",
-           .choices = {"harmonic", "arithmetic"}},
-          {.name = "mass", .default_value = "0.0", .meaning = "m, frequency of the mean", .minimum = 0},
-          {.name = "alpha", .default_value = "1.0", .meaning = "α, strength of the cubic force"},
-          {.name = "gamma", .kind = ParameterKind::rate, .default_value = "0.1", .meaning = "γ, damping rate, 1/time"},
-      });
-  return {
-      .name = "wave",
-      .equation = "u_tt + γu_t = ∇·(c(x)²∇u) − m²u − αu³",
-      .reference = "LeVeque, Finite Volume Methods for Hyperbolic Problems (2002), ch. 9",
-      .fields = {"u", "v"},
-      .meanings = {"displacement", "velocity"},
-      .parameters = std::move(parameters),
-      .presets = {"bump"},
-      .make = from_media,
-      .default_h = "1/64",
-      .default_end = 10.0,
-  };
+  Parameter discretisation = discretisation_parameter();
+  discretisation.choices = {"fd2"};  // a higher order is lost where c jumps
+  return ProblemRows<P>({.name = "wave",
+                         .equation = "u_tt + γu_t = ∇·(c(x)²∇u) − m²u − αu³",
+                         .reference = "LeVeque, Finite Volume Methods for Hyperbolic Problems (2002), ch. 9",
+                         .fields = {"u", "v"},
+                         .meanings = {"displacement", "velocity"},
+                         .default_h = "1/64",
+                         .default_end = 10.0},
+                        in_medium)
+      .axes(&P::grid)
+      .row(discretisation, [](P&, const ParameterValues&) {})
+      .choice(&P::is_inclusion, {.name = "medium",
+                                 .meaning = "where the second speed holds: beyond a plane, or in a ball in the middle",
+                                 .choices = {"layers", "inclusion"}})
+      .row(&P::speed, positive("speed", "c of the first part"))
+      .row(&P::second_speed, positive("second_speed", "c of the second part"))
+      .row(&P::second_size, {.name = "second_size",
+                             .meaning = "width of the second part, as a fraction of the first axis",
+                             .minimum = 0,
+                             .maximum = 1})
+      .choice(&P::faces,
+              {.name = "faces", .meaning = "mean of c² between two points", .choices = {"harmonic", "arithmetic"}})
+      .row(&P::mass, {.name = "mass", .meaning = "m, frequency of the mean", .minimum = 0})
+      .row(&P::alpha, {.name = "alpha", .meaning = "α, strength of the cubic force"})
+      .row(&P::gamma, {.name = "gamma", .default_value = "0.1", .meaning = "γ, damping rate, 1/time"})
+      .preset("bump");
 }
 
 }  // namespace seiche

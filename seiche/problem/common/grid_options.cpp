@@ -89,6 +89,19 @@ std::vector<Parameter> axes_parameters(const std::string& default_points, const 
   };
 }
 
+std::vector<Parameter> axes_parameters(const GridOptions& defaults) {
+  std::vector<Parameter> parameters = axes_parameters(std::to_string(defaults.points.front()), "");
+  parameters[0].default_value = default_text(defaults.length.front());
+  parameters[2].default_value = parameters[2].choices.at(static_cast<std::size_t>(defaults.boundary.front()));
+  return parameters;
+}
+
+std::string default_text(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
 std::vector<Parameter> grid_parameters(const std::string& default_points, const std::string& default_length) {
   std::vector<Parameter> parameters = axes_parameters(default_points, default_length);
   parameters.push_back(discretisation_parameter());
