@@ -139,12 +139,12 @@ constexpr MethodKind nystrom{.composition = "nystrom",
                              .takes_linear = true,
                              .takes_force = false,
                              .doubles_with_tables = doubles_of_one_step};
-constexpr MethodKind kick{.composition = "kick",
-                          .make = by_projection,
-                          .make_adaptive = with_weights,
-                          .make_base = [](const MethodEntry&, const System& s, const PhiEvaluator& phi,
-                                          const MethodOptions&) { return strang_exact(s, phi); },
-                          .doubles_with_tables = doubles_of_one_step};
+constexpr MethodKind strang_flow{.composition = "strang_exact",
+                                 .make = by_projection,
+                                 .make_adaptive = with_weights,
+                                 .make_base = [](const MethodEntry&, const System& s, const PhiEvaluator& phi,
+                                                 const MethodOptions&) { return strang_exact(s, phi); },
+                                 .doubles_with_tables = doubles_of_one_step};
 constexpr MethodKind chin{.composition = "chin",
                           .make = by_projection,
                           .make_adaptive = with_doubling,
@@ -183,7 +183,7 @@ constexpr std::array list = {
     MethodEntry{"etdrk4", runge_kutta, exponential, 4, "H",          "Krogstad (2005), J. Comput. Phys. 203; with projection", interval},
     MethodEntry{"crkn4",  nystrom,     exponential, 4, "H",          "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
     MethodEntry{"crkn6",  nystrom,     exponential, 6, "H",          "Blanes, Moan (2002), J. Comput. Appl. Math. 142; with projection", interval},
-    MethodEntry{"strang_exact", kick,  exponential, 2, "H",          "Strang splitting of the linear flow; with projection", guard},
+    MethodEntry{"strang_exact", strang_flow, exponential, 2, "H",          "Strang splitting of the linear flow; with projection", guard},
     MethodEntry{"chin4",  chin,        exponential, 4, "H",          "Seiche: positive splitting with absorbed commutator, page Theory", guard},
 };
 // clang-format on

@@ -306,9 +306,9 @@ TEST_F(Cli, AnAuditOfARunByToleranceLooksAtTheSnapshotsInsideStepsToo) {
   }
 }
 
-class CliSlow : public Cli {};
+class CliLawSlow : public Cli {};
 
-TEST_F(CliSlow, EverySummaryHoldsTheCertificateThatCheckGives) {
+TEST_F(CliLawSlow, EverySummaryHoldsTheCertificateThatCheckGives) {
   int open_questions = 0;
   for (const auto& entry : fs::directory_iterator(fs::path(test::source_directory()) / "cases")) {
     if (entry.path().extension() != ".toml") continue;
