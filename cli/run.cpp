@@ -80,8 +80,7 @@ void print(const RunArguments& arguments, const RunSpec& spec, const EnsembleCas
     print_lines(fmt::format("{:<10} mean {:.9g} → {:.9g}\n{:<10} {} members in {:.3g} s\n{:<10} {}\n", "H",
                             result.first.H.mean, result.last.H.mean, "time", result.members, result.wall_seconds,
                             "files", spec.output_directory));
-  } else if (outcome.failed > 0 || !outcome.is_written || outcome.violated > 0 || outcome.replaced > 0 ||
-             outcome.drifted > 0) {
+  } else if (outcome.is_remarkable()) {
     print_note(outcome.message);
   }
 }
@@ -93,7 +92,7 @@ ExitCode run_ensemble(const RunArguments& arguments, const RunSpec& spec) {
     return exit_code(result.outcome.status(), result.outcome.violated > 0);
   } catch (const Error& error) {
     if (!has_stopped()) throw;
-    print_note(error.what());  // before a member had started
+    print_note(error.what());  // a signal came before the members were set up
     return interrupted;
   }
 }

@@ -116,6 +116,7 @@ def ensemble_of_problems(
 ) -> Ensemble: ...
 class CaseRun:
     summary: str
+    notes: list[str]
     remarks: list[str]
 
 def run(case: Case, folder: str, threads: int, restart: bool) -> CaseRun: ...

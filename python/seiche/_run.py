@@ -14,7 +14,7 @@ from ._result import Answer, SeicheWarning
 
 
 class CaseRun(Answer):
-    """What ``summary.json`` says of a run; keys are attributes too. ``folder`` is where its files are."""
+    """What ``summary.json`` says of a run; keys are attributes too. ``notes`` were said before it; ``folder`` has its files."""
 
     @property
     def success(self) -> bool:
@@ -38,7 +38,7 @@ def run(
     restart : begin anew where the folder holds a run that did not finish, which is removed
     **overrides : keys of the case to replace: ``seiche.run("case.toml", **{"method.h": "1/64"})``
 
-    Returns what ``summary.json`` holds, and ``folder``. A computation that fails is a status, with what was computed
+    Returns what ``summary.json`` holds, ``notes`` and ``folder``. A computation that fails is a status, with what was computed
     before on disk. Ctrl-C ends the run after the step it is in: its status is then "interrupted", and its files are whole.
     """
     if not isinstance(case, Case):
@@ -51,4 +51,4 @@ def run(
     done = _core.run(case._core, directory, thread_count(threads), truth("restart", restart))
     for remark in done.remarks:
         warnings.warn(remark, SeicheWarning, stacklevel=2)
-    return CaseRun(json.loads(done.summary), folder=pathlib.Path(directory))
+    return CaseRun(json.loads(done.summary), notes=done.notes, folder=pathlib.Path(directory))

@@ -15,38 +15,52 @@ namespace {
 
 struct CaseRun {
   std::string summary;
-  std::vector<std::string> remarks;  // what nobody should miss
+  std::vector<std::string> notes,
+      remarks;  // what there was to say before the run, and what nobody should miss after it
 };
 
-CaseRun run_to(const std::string& folder, const RunSpec& spec, RunCaseOptions options) {
+CaseRun run_to(const std::string& folder, RunSpec spec, RunCaseOptions options) {
   CaseRun done;
+  settle_method(spec);
   options.warn = [&](const std::string& note) { done.remarks.push_back(note); };
   if (spec.ensemble) {
-    done.summary = run_ensemble_case(spec, folder, options).summary;
+    EnsembleCaseResult result = run_ensemble_case(std::move(spec), folder, options);
+    done.summary = std::move(result.summary);
+    if (result.outcome.is_remarkable()) done.remarks.push_back(result.outcome.message);
     return done;
   }
-  CaseResult result = run_case(spec, folder, options);
+  CaseResult result = run_case(std::move(spec), folder, options);
   done.summary = std::move(result.summary);
   for (std::string& remark : result.report.remarks()) done.remarks.push_back(std::move(remark));
   return done;
 }
 
-// On a thread of its own, while this one looks for Ctrl-C: the run ends after its step, with its files whole.
-CaseRun run(RunSpec spec, const std::string& folder, int threads, bool restart) {
-  settle_method(spec);
-  std::atomic<bool> stop = false;
+// On a thread of its own, while this one looks for Ctrl-C: the run ends after its step, with its files whole. Where the
+// last step is taken, what can be had later is left out.
+CaseRun run(const RunSpec& spec, const std::string& folder, int threads, bool restart) {
+  std::atomic<bool> stop = false, has_ended = false, leave = false;
+  std::vector<std::string> notes;
   return without_gil([&] {
-    auto done = std::async(std::launch::async, [&] {
-      return run_to(folder, spec,
-                    {.threads = threads, .restart = restart, .begins = [&](const std::vector<std::string>&) {
-                       return &stop;
-                     }});
-    });
+    const RunCaseOptions options{.threads = threads,
+                                 .restart = restart,
+                                 .begins =
+                                     [&](const std::vector<std::string>& said) {
+                                       notes = said;
+                                       return &stop;
+                                     },
+                                 .ends =
+                                     [&] {
+                                       has_ended = true;
+                                       return &leave;
+                                     }};
+    auto done = std::async(std::launch::async, [&] { return run_to(folder, spec, options); });
     const StopsAtEnd stops{stop};
     SignalCheck signals;
     while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
-      if (signals()) stop = true;
-    return done.get();
+      if (signals()) (has_ended ? leave : stop) = true;
+    CaseRun result = done.get();
+    result.notes = std::move(notes);
+    return result;
   });
 }
 
@@ -55,6 +69,7 @@ CaseRun run(RunSpec spec, const std::string& folder, int threads, bool restart) 
 void bind_runs(py::module_& module) {
   py::class_<CaseRun>(module, "CaseRun")
       .def_readonly("summary", &CaseRun::summary)
+      .def_readonly("notes", &CaseRun::notes)
       .def_readonly("remarks", &CaseRun::remarks);
   module.def("run", &run);
 }

@@ -35,7 +35,7 @@ def test_a_case_leaves_the_files_of_the_program(case, tmp_path):
     names = {path.name for path in (tmp_path / "out").iterdir()}
     assert {"case.toml", "energy.csv", "final.txt", "solution.h5", "solution.xdmf", "summary.json", "report.html"} <= names
     assert run.success and run.status == "success" and run.steps == 32 and run.folder == tmp_path / "out"
-    assert json.loads((tmp_path / "out" / "summary.json").read_text()) == {k: v for k, v in run.items() if k != "folder"}
+    assert json.loads((tmp_path / "out" / "summary.json").read_text()) == {k: v for k, v in run.items() if k not in ("notes", "folder")}
 
 
 def test_it_takes_the_steps_of_solve(case, tmp_path):
@@ -55,7 +55,7 @@ def test_keys_are_replaced_by_name(case, tmp_path):
 def test_an_ensemble_leaves_its_tables(case, tmp_path):
     case.write_text(CASE.replace("snapshot_every = 8", "") + "[ensemble]\nmembers = 3\nperturb_initial = 1e-3\n")
     run = seiche.run(case, tmp_path / "out", threads=2)
-    assert run.members == 3 and run.statuses["success"] == 3
+    assert run.members == 3 and run.statuses["success"] == 3 and run.notes == []
     assert {"members.csv", "finals.csv", "energy.csv"} <= {path.name for path in (tmp_path / "out").iterdir()}
 
 
@@ -76,8 +76,13 @@ def test_a_failure_is_a_status_with_what_was_computed(case, tmp_path):
 
 def test_ctrl_c_ends_it_with_whole_files(case, tmp_path):
     program = """
-    import os, signal, threading, seiche
-    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    import os, signal, threading, time, seiche
+    def interrupt():
+        while not os.path.exists(os.path.join(FOLDER, "case.toml")):
+            time.sleep(0.01)
+        time.sleep(0.5)
+        os.kill(os.getpid(), signal.SIGINT)
+    threading.Thread(target=interrupt, daemon=True).start()
     run = seiche.run(CASE, FOLDER, **{"time.end": 1e7, "output.energy_every": 100000, "output.snapshot_every": 1000000})
     print(run.status, run.steps > 0)
     """

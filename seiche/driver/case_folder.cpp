@@ -23,7 +23,7 @@ CaseFolder::CaseFolder(const std::filesystem::path& path, RunKind kind, const Ru
   write_file(folder_, "case.toml", write_case(spec));
 }
 
-const std::atomic<bool>* begin(const RunCaseOptions& options, const std::vector<std::string>& notes) {
+const std::atomic<bool>* begin_run(const RunCaseOptions& options, const std::vector<std::string>& notes) {
   static const std::atomic<bool> never = false;
   const std::atomic<bool>* stop = options.begins ? options.begins(notes) : nullptr;
   return stop != nullptr ? stop : &never;

@@ -28,7 +28,7 @@ class CaseFolder {
 };
 
 // Calls options.begins with the notes; its flag, or one that nobody sets.
-const std::atomic<bool>* begin(const RunCaseOptions& options, const std::vector<std::string>& notes);
+const std::atomic<bool>* begin_run(const RunCaseOptions& options, const std::vector<std::string>& notes);
 std::map<std::string, std::string> all_versions(const RunCaseOptions& options);
 
 }  // namespace seiche

@@ -70,6 +70,10 @@ RunReport::Status EnsembleOutcome::status() const {
   return interrupted > 0 ? RunReport::Status::interrupted : RunReport::Status::success;
 }
 
+bool EnsembleOutcome::is_remarkable() const {
+  return failed > 0 || !is_written || violated > 0 || replaced > 0 || drifted > 0;
+}
+
 std::string EnsembleOutcome::law() const {
   if (violated > 0) return to_string(LawVerdict::violated);
   if (not_promised > 0) return to_string(LawVerdict::not_promised);

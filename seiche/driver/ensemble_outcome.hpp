@@ -18,6 +18,7 @@ struct EnsembleOutcome {
 
   void fail_to_write(const std::string& reason);
   RunReport::Status status() const;  // failed, if one member is
+  bool is_remarkable() const;        // is there anything in the message that nobody should miss?
   std::string law() const;           // "" where every member failed and none broke a law
 };
 

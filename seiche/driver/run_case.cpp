@@ -13,11 +13,14 @@
 #include <seiche/simulation/prepared_run.hpp>
 #include <seiche/version.hpp>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace seiche {
@@ -104,7 +107,7 @@ class CaseRun {
     if (std::holds_alternative<FileData>(spec_.initial))
       if (const std::string lost = lost_between_runs(run_.simulation()); !lost.empty()) spec_.notes.push_back(lost);
     notes_ = case_notes(spec_, problem);
-    stop_ = begin(options, notes_);
+    stop_ = begin_run(options, notes_);
     folder_.emplace(directory, RunKind::run, spec_, options.restart);
     if (spec_.measure_plans) write_file(folder_->folder(), wisdom_name, planning_wisdom());
   }

@@ -107,7 +107,8 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
                                                     .method_options = spec.method_options,
                                                     .t_end = spec.t_end,
                                                     .sample_solution = false});
-  const std::atomic<bool>& stop = *begin(options, notes_on(members, *simulation, spec));
+  const std::vector<std::string> notes = notes_on(members, *simulation, spec);
+  const std::atomic<bool>& stop = *begin_run(options, notes);
   const CaseFolder case_folder(directory, RunKind::ensemble, spec, options.restart);
   const Folder& folder = case_folder.folder();
   ReserveFile reserve(folder, 2 * ReserveFile::of_a_summary);

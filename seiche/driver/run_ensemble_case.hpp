@@ -11,12 +11,12 @@ struct EnsembleCaseResult {
   EnsembleRecord first, last;  // of the statistics
   std::int64_t members = 0;
   double wall_seconds = 0.0;
-  std::string summary;  // summary.json; "" where the run was interrupted before a member had started
+  std::string summary;  // summary.json
 };
 
 // Leaves case.toml, members.csv, energy.csv (statistics of H over the members that run), finals.csv and summary.json in
-// `folder`. Throws Error as run_case. Fails if any member failed; what the others computed is on disk.
-EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& folder,
+// `directory`. Throws Error as run_case. Fails if any member failed; what the others computed is on disk.
+EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& directory,
                                      const RunCaseOptions& options = {});
 
 }  // namespace seiche

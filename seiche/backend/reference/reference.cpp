@@ -28,7 +28,7 @@ class ReferencePropagator final : public PlainPropagator {
  private:
   void product(const Matrix& a, const Vector& x, Vector& out) const {
     out.noalias() = a * x;
-    if (maps_.T.size() == 0) return;
+    if (maps_.T.size() == 0) return;  // else `a` leads to coordinates of energy, and T from there
     y_ = out;
     out.noalias() = maps_.T * y_;
   }

@@ -52,6 +52,7 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarge
     return outcome;
   }
   if (conditioned && solve(*line_, start_, aim, z, outcome)) return outcome;
+  line_.reset();  // the lines below use its scratch
   {
     EnergyLine line(system_, phi_, scratch_, z, Direction::steepest);
     if (solve(line, line.at(0), aim, z, outcome)) return outcome;

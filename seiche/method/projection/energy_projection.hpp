@@ -32,7 +32,7 @@ class EnergyProjection {
     double values = 0;        // |½ẑᵀMẑ| + |V(ẑ)|, of the z that was passed
     double terms = 0;         // the sizes of the terms of H, of the z that came out
   };
-  // Ĥ = H(z), and the line through z that `project` moves it along: z is to stay as it is between the two.
+  // Ĥ = H(z), and the line through z that `project` moves it along: each `project` follows a `measure` of the same z.
   double measure(const Vector& z);
   // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned:
   // then z stays as it is if target < cap and H(z) ≤ cap, for the cap is the law; and otherwise it moves along ∇H. If

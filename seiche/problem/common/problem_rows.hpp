@@ -14,6 +14,7 @@
 
 namespace seiche {
 
+// Throws Error with the nearest name.
 std::size_t place_among(const std::vector<std::string>& names, const std::string& name);
 
 template <class Options>
