@@ -7,7 +7,7 @@ namespace seiche {
 namespace {
 
 constexpr std::string_view methods_that_split =
-    "methods that split the damping off (\"strang\" in seiche list methods) and egc2 … egc8 take it";
+    "methods that split the damping off (savf, seavf, seisav, seilm, …) and egc2 … egc8 take it";
 
 bool any_entry_in_row(const BlockStencil& a, Index row) {
   for (Index j = 0; j < a.fields(); ++j)
@@ -42,7 +42,7 @@ Problem with_matrix_merged(const Problem& problem) {
       if (!alone || diagonal <= 0)
         throw Error(
             "a method that merges the damping into S needs Dz = D'∇H(z), but in {} ∇H is not a multiple of z at entry "
-            "{}, which is damped; methods that split the damping off (\"strang\" in seiche list methods) and egc2 … egc8 take it",
+            "{}, which is damped; methods that split the damping off (savf, seavf, seisav, seilm, …) and egc2 … egc8 take it",
             problem.name, column + 1);
       entry.valueRef() /= diagonal;
     }
@@ -134,12 +134,12 @@ Problem with_damping_merged(const Problem& problem) {
   if (damping.field_rate)
     throw Error(
         "a method that merges the damping into S needs a constant D, but the rate {} changes from point to "
-        "point; methods that split the damping off (\"strang\" in seiche list methods) and egc2 … egc8 take it",
+        "point; methods that split the damping off (savf, seavf, seisav, seilm, …) and egc2 … egc8 take it",
         damping.field_rate->text());
   if (damping.rate && !damping.rate->is_constant()) {
     throw Error(
         "a method that merges the damping into S needs a constant D, but the rate {} varies with time; "
-        "methods that split the damping off (\"strang\" in seiche list methods) and egc2 … egc8 take it",
+        "methods that split the damping off (savf, seavf, seisav, seilm, …) and egc2 … egc8 take it",
         damping.rate->text());
   }
   if (problem.matrices) return with_matrix_merged(problem);
@@ -149,7 +149,7 @@ Problem with_damping_merged(const Problem& problem) {
     if (!gradient_is_identity(problem, column)) {
       throw Error(
           "a method that merges the damping into S needs Dz = D'∇H(z), but in {} the damped field {} has "
-          "∇H ≠ {}; methods that split the damping off (\"strang\" in seiche list methods) and egc2 … egc8 take it",
+          "∇H ≠ {}; methods that split the damping off (savf, seavf, seisav, seilm, …) and egc2 … egc8 take it",
           problem.name, problem.fields[static_cast<std::size_t>(column)],
           problem.fields[static_cast<std::size_t>(column)]);
     }
