@@ -15,18 +15,25 @@ struct StopsAtEnd {
   ~StopsAtEnd() { stop = true; }
 };
 
-// study(stop) on a thread of its own, while this one looks for Ctrl-C.
+// work() on a thread of its own, while this one calls on_signal() at each Ctrl-C.
+template <class Work, class OnSignal>
+auto beside_signals(std::atomic<bool>& stop, const Work& work, const OnSignal& on_signal) {
+  return without_gil([&] {
+    auto result = std::async(std::launch::async, work);
+    const StopsAtEnd stops{stop};
+    SignalCheck signals;
+    while (result.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
+      if (signals()) on_signal();
+    return result.get();
+  });
+}
+
+// study(stop), which Ctrl-C ends without a result.
 template <class Study>
 auto interruptible(const Study& study) {
   std::atomic<bool> stop = false;
-  return without_gil([&] {
-    auto document = std::async(std::launch::async, [&] { return study(&stop); });
-    const StopsAtEnd stops{stop};
-    SignalCheck signals;
-    while (document.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
-      if (signals()) throw Error("interrupted");
-    return document.get();
-  });
+  return beside_signals(
+      stop, [&] { return study(&stop); }, [] { throw Error("interrupted"); });
 }
 
 }  // namespace seiche::python

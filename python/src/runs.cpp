@@ -40,28 +40,22 @@ CaseRun run_to(const std::string& folder, RunSpec spec, RunCaseOptions options) 
 CaseRun run(const RunSpec& spec, const std::string& folder, int threads, bool restart) {
   std::atomic<bool> stop = false, has_ended = false, leave = false;
   std::vector<std::string> notes;
-  return without_gil([&] {
-    const RunCaseOptions options{.threads = threads,
-                                 .restart = restart,
-                                 .begins =
-                                     [&](const std::vector<std::string>& said) {
-                                       notes = said;
-                                       return &stop;
-                                     },
-                                 .ends =
-                                     [&] {
-                                       has_ended = true;
-                                       return &leave;
-                                     }};
-    auto done = std::async(std::launch::async, [&] { return run_to(folder, spec, options); });
-    const StopsAtEnd stops{stop};
-    SignalCheck signals;
-    while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
-      if (signals()) (has_ended ? leave : stop) = true;
-    CaseRun result = done.get();
-    result.notes = std::move(notes);
-    return result;
-  });
+  const RunCaseOptions options{.threads = threads,
+                               .restart = restart,
+                               .begins =
+                                   [&](const std::vector<std::string>& said) {
+                                     notes = said;
+                                     return &stop;
+                                   },
+                               .ends =
+                                   [&] {
+                                     has_ended = true;
+                                     return &leave;
+                                   }};
+  CaseRun result = beside_signals(
+      stop, [&] { return run_to(folder, spec, options); }, [&] { (has_ended ? leave : stop) = true; });
+  result.notes = std::move(notes);
+  return result;
 }
 
 }  // namespace

@@ -44,15 +44,10 @@ std::span<const BackendEntry> backends() { return all_backends().rows(); }
 AddedBackend::AddedBackend(const BackendEntry& backend) { all_backends().add(backend); }
 AddedBackend::~AddedBackend() { all_backends().remove_last(); }
 
-std::vector<std::string> backend_names() {
-  std::vector<std::string> names;
-  for (const BackendEntry& entry : backends()) names.emplace_back(entry.name);
-  return names;
-}
+std::vector<std::string> backend_names() { return all_backends().names(); }
 
 const BackendEntry& find_backend(std::string_view name) {
-  for (const BackendEntry& entry : backends())
-    if (entry.name == name) return entry;
+  if (const BackendEntry* entry = all_backends().find(name)) return *entry;
   std::vector<std::string> allowed = backend_names();
   allowed.emplace_back("auto");
   throw unknown_name("backend", name, allowed);

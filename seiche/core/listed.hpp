@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,10 +22,18 @@ class Listed {
     rows_.assign(written.begin(), written.end());
   }
   std::span<const Row> rows() const { return rows_; }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const Row& row : rows_) names.emplace_back(row.name);
+    return names;
+  }
+  const Row* find(std::string_view name) const {  // null: there is none
+    const auto place = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row.name == name; });
+    return place == rows_.end() ? nullptr : &*place;
+  }
 
   void add(Row row) {
-    if (std::any_of(rows_.begin(), rows_.end(), [&](const Row& r) { return r.name == row.name; }))
-      throw Error("'{}' is in the list already", row.name);
+    if (find(row.name) != nullptr) throw Error("'{}' is in the list already", row.name);
     if (rows_.size() == rows_.capacity()) throw Error("no more than {} rows can be added", most_added);
     rows_.push_back(std::move(row));
   }

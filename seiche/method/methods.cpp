@@ -209,15 +209,10 @@ std::span<const MethodEntry> methods() { return all_methods().rows(); }
 AddedMethod::AddedMethod(const MethodEntry& method) { all_methods().add(method); }
 AddedMethod::~AddedMethod() { all_methods().remove_last(); }
 
-std::vector<std::string> method_names() {
-  std::vector<std::string> names;
-  for (const MethodEntry& entry : methods()) names.emplace_back(entry.name);
-  return names;
-}
+std::vector<std::string> method_names() { return all_methods().names(); }
 
 const MethodEntry& find_method(std::string_view name) {
-  for (const MethodEntry& entry : methods())
-    if (entry.name == name) return entry;
+  if (const MethodEntry* entry = all_methods().find(name)) return *entry;
   throw unknown_name("method", name, method_names());
 }
 

@@ -47,15 +47,10 @@ std::span<const ProblemEntry> problems() { return all_problems().rows(); }
 AddedProblem::AddedProblem(ProblemEntry problem) { all_problems().add(std::move(problem)); }
 AddedProblem::~AddedProblem() { all_problems().remove_last(); }
 
-std::vector<std::string> problem_names() {
-  std::vector<std::string> names;
-  for (const ProblemEntry& entry : problems()) names.push_back(entry.name);
-  return names;
-}
+std::vector<std::string> problem_names() { return all_problems().names(); }
 
 const ProblemEntry& find_problem(std::string_view name) {
-  for (const ProblemEntry& entry : problems())
-    if (entry.name == name) return entry;
+  if (const ProblemEntry* entry = all_problems().find(name)) return *entry;
   throw unknown_name("problem", name, problem_names());
 }
 

@@ -2,6 +2,8 @@
 // sentence that names the key, the value and what is allowed; the place is put before it by the caller.
 #pragma once
 
+#include <seiche/core/text/toml_real.hpp>
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -30,7 +32,6 @@ std::string read_text(std::string_view key, const CaseValue& value);
 std::string read_name(std::string_view key, const CaseValue& value, const std::vector<std::string>& names);
 
 std::string trimmed(std::string_view text);      // without blanks at its ends
-std::string toml_real(double value);             // the shortest that reads back the same; 2 is written 2.0
 bool is_toml_number(std::string_view text);      // may it stand in a case file without quotes?
 std::string toml_string(std::string_view text);  // in quotes, escaped
 

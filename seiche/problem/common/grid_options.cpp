@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/grid/truncated_potential.hpp>
 #include <seiche/core/physical_memory.hpp>
+#include <seiche/core/text/toml_real.hpp>
 #include <seiche/problem/common/grid_options.hpp>
 
 #include <algorithm>
@@ -91,15 +92,9 @@ std::vector<Parameter> axes_parameters(const std::string& default_points, const 
 
 std::vector<Parameter> axes_parameters(const GridOptions& defaults) {
   std::vector<Parameter> parameters = axes_parameters(std::to_string(defaults.points.front()), "");
-  parameters[0].default_value = default_text(defaults.length.front());
+  parameters[0].default_value = toml_real(defaults.length.front());
   parameters[2].default_value = parameters[2].choices.at(static_cast<std::size_t>(defaults.boundary.front()));
   return parameters;
-}
-
-std::string default_text(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
-  return text;
 }
 
 std::vector<Parameter> grid_parameters(const std::string& default_points, const std::string& default_length) {

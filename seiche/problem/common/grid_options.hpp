@@ -40,7 +40,6 @@ GridOptions grid_options(const ParameterValues& values);
 std::vector<Parameter> axes_parameters(const std::string& default_points, const std::string& default_length);
 std::vector<Parameter> axes_parameters(const GridOptions& defaults);
 GridOptions axes_options(const ParameterValues& values);
-std::string default_text(double value);  // "2.0", "0.04": as case files have it
 
 // Each of the others.
 Parameter discretisation_parameter();

@@ -2,6 +2,7 @@
 // that it sets. A row without a default takes that of the options.
 #pragma once
 
+#include <seiche/core/text/toml_real.hpp>
 #include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 
@@ -27,7 +28,7 @@ class ProblemRows {
       : entry_(std::move(about)), from_options_(from_options) {}
 
   ProblemRows& row(double Options::*option, Parameter p) {
-    return add(std::move(p), ParameterKind::real, default_text(Options{}.*option),
+    return add(std::move(p), ParameterKind::real, toml_real(Options{}.*option),
                [option](Options& o, const ParameterValues& v, const std::string& name) { o.*option = v.real(name); });
   }
   ProblemRows& row(Index Options::*option, Parameter p) { return whole(option, std::move(p)); }
