@@ -6,7 +6,6 @@ import difflib
 import numbers
 import operator
 import os
-import re
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
@@ -16,18 +15,45 @@ from ._toml import section, toml
 
 _KEYWORDS = "<keywords>"
 
+# Keys of case files whose argument has another name than they.
+_KEY_ARGUMENTS = {
+    "method.name": "method",
+    "backend.name": "backend",
+    "backend.plan": "plan",
+    "backend.exponential": "exponential",
+    "backend.pade_degree": "pade_degree",
+    "backend.lanczos_dimension": "lanczos_dimension",
+    "time.end": "t_end",
+    "output.energy_every": "energy_every",
+}
+
+
+def _argument(key: str) -> str:
+    """What `solve` and the others call a key of a case file."""
+    return _KEY_ARGUMENTS.get(key, key.removeprefix("method.").removeprefix("problem."))
+
 
 def _refused(error: ValueError, by_arguments: bool = True) -> ValueError:
-    """The sentence of the case parser without places that a Python user never wrote, about arguments if those were written."""
-    text = re.sub(rf"^{_KEYWORDS}(:\d+:\d+)?: ", "", str(error))
-    text = re.sub(r"^--set \S+?=.*?: (?=[a-z])", "", text)
+    """The same without places that a Python user never wrote, about arguments if those were written."""
+    parts = error.parts
+    if not parts["place"].startswith((_KEYWORDS, "--set ")):
+        return ValueError(str(error))
     if not by_arguments:
-        return ValueError(text)
-    if text.startswith("unknown key in [method] "):  # its keys are arguments, and its name is `method`
-        text = text.replace("unknown key in [method] ", "unknown argument ").replace("Allowed: name,", "Allowed: method,")
-    elif text.startswith("unknown key in [problem] "):
-        text = text.replace("Allowed: name, ", "Allowed: ")
-    return ValueError(text)
+        return ValueError(parts["sentence"])
+    if parts["kind"].startswith("key in ["):
+        return ValueError(_unknown_argument(**parts))
+    return ValueError(_argument(parts["key"]) + parts["sentence"].removeprefix(parts["key"]))
+
+
+def _unknown_argument(kind: str, name: str, nearest: str, allowed: Sequence[str], **_: str) -> str:
+    is_of_method = kind == "key in [method]"
+    if is_of_method:
+        allowed = [_argument(f"method.{key}") for key in allowed]
+    else:  # a problem's name is no keyword of it
+        allowed = [key for key in allowed if key != "name"]
+    hint = f"; did you mean '{_argument(nearest)}'?" if nearest else "."
+    names = f" Allowed: {', '.join(allowed)}" if allowed else ""
+    return f"unknown {'argument' if is_of_method else kind} '{name}'{hint}{names}"
 
 
 def parse_keywords(text: str, overrides: Sequence[str] = (), folder: str = "") -> _core.Case:
@@ -342,16 +368,7 @@ def require_start(given: Problem, *callers: str) -> None:
     raise ValueError(f"the initial state is missing: give initial to seiche.Problem{also}")
 
 
-_SECTIONS = {
-    "method": "method.name",
-    "backend": "backend.name",
-    "plan": "backend.plan",
-    "exponential": "backend.exponential",
-    "pade_degree": "backend.pade_degree",
-    "lanczos_dimension": "backend.lanczos_dimension",
-    "t_end": "time.end",
-    "energy_every": "output.energy_every",
-}
+_SECTIONS = {argument: key for key, argument in _KEY_ARGUMENTS.items()}
 
 
 _OTHER_NAMES = dict.fromkeys(("t_end", "tend", "tmax", "t_max", "T", "tspan"), "t_span") | dict.fromkeys(("y0", "u0", "x0"), "z0")

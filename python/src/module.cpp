@@ -16,6 +16,19 @@ py::array view(const double* data, std::vector<py::ssize_t> shape, std::vector<p
   return array;
 }
 
+py::dict parts_of(const Error& error) {
+  const ErrorParts& parts = error.parts();
+  py::dict named;
+  named["place"] = parts.place;
+  named["sentence"] = parts.sentence;
+  named["key"] = parts.key;
+  named["kind"] = parts.kind;
+  named["name"] = parts.name;
+  named["nearest"] = parts.nearest;
+  named["allowed"] = parts.allowed;
+  return named;
+}
+
 }  // namespace seiche::python
 
 PYBIND11_MODULE(_core, module) {
@@ -24,7 +37,9 @@ PYBIND11_MODULE(_core, module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const seiche::Error& error) {
-      PyErr_SetString(PyExc_ValueError, error.what());
+      py::object refusal = py::reinterpret_borrow<py::object>(PyExc_ValueError)(error.what());
+      refusal.attr("parts") = seiche::python::parts_of(error);
+      PyErr_SetObject(PyExc_ValueError, refusal.ptr());
     }
   });
   module.attr("__version__") = seiche::version_number;

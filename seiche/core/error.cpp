@@ -45,7 +45,27 @@ std::size_t farthest_help(std::string_view wanted) {
   return wanted.size() <= 3 ? 1 : std::max<std::size_t>(2, wanted.size() / 2);
 }
 
+std::string text_of(const ErrorParts& parts) {
+  return parts.place.empty() ? parts.sentence : fmt::format("{}: {}", parts.place, parts.sentence);
+}
+
 }  // namespace
+
+Error::Error(ErrorParts parts)
+    : std::runtime_error(text_of(parts)), parts_(std::make_shared<const ErrorParts>(std::move(parts))) {}
+
+Error Error::at(std::string_view place) const {
+  ErrorParts parts = *parts_;
+  parts.place = place;
+  return Error(std::move(parts));
+}
+
+Error Error::under(std::string_view key) const {
+  if (!parts_->sentence.starts_with(key)) return *this;
+  ErrorParts parts = *parts_;
+  parts.key = key;
+  return Error(std::move(parts));
+}
 
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names) {
   std::string best;
@@ -63,9 +83,12 @@ std::string nearest_name(std::string_view wanted, const std::vector<std::string>
 
 Error unknown_name(std::string_view what, std::string_view wanted, const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(wanted, names);
-  const std::string hint = nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-  return Error("unknown {} '{}'{}{} Allowed: {}", what, wanted, hint, nearest.empty() ? "." : "",
-               fmt::join(names, ", "));
+  const std::string hint = nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest);
+  return Error({.sentence = fmt::format("unknown {} '{}'{} Allowed: {}", what, wanted, hint, fmt::join(names, ", ")),
+                .kind = std::string(what),
+                .name = std::string(wanted),
+                .nearest = nearest,
+                .allowed = names});
 }
 
 }  // namespace seiche

@@ -37,9 +37,9 @@ class Sections {
     for (const CaseSection& section : r_.table.sections) {
       const bool known = std::find(sections.begin(), sections.end(), section.name) != sections.end();
       if (!section.is_table) {
-        r_.complain(section.order, section.place, key_outside_sections(section.name, r_.problem));
+        r_.complain(section.order, section.place, Error(key_outside_sections(section.name, r_.problem)));
       } else if (!known) {
-        r_.complain(section.order, section.place, unknown_name("section", section.name, sections).what());
+        r_.complain(section.order, section.place, unknown_name("section", section.name, sections));
       } else if (section.name != "problem" || r_.problem != nullptr) {
         refuse_unknown_keys(section);
       }
@@ -92,12 +92,11 @@ class Sections {
     const double records = spec_.t_end / spec_.h / static_cast<double>(spec_.energy_every);
     if (!(records > most_records)) return;
     const CaseValue* h = r_.table.value("method", "h");
-    r_.complain(
-        h ? h->order : CaseReading::at_the_end, h ? h->place : r_.name,
-        fmt::format("h = {} makes {:.3g} steps, and output.energy_every = {} would record {:.3g} energies; set it to "
-                    "at least {:.0f}, or choose a larger h",
-                    spec_.h, spec_.t_end / spec_.h, spec_.energy_every, records,
-                    std::ceil(spec_.t_end / spec_.h / most_records)));
+    r_.complain(h ? h->order : CaseReading::at_the_end, h ? h->place : r_.name,
+                Error("h = {} makes {:.3g} steps, and output.energy_every = {} would record {:.3g} energies; set it to "
+                      "at least {:.0f}, or choose a larger h",
+                      spec_.h, spec_.t_end / spec_.h, spec_.energy_every, records,
+                      std::ceil(spec_.t_end / spec_.h / most_records)));
   }
 
   void read_output() {
@@ -138,10 +137,10 @@ class Sections {
     const CaseSection* section = r_.table.section("ensemble");
     if (section == nullptr || !section->is_table) return;
     if (spec_.ledger)
-      r_.complain(section->order, section->place, "an ensemble keeps no ledger: write output.ledger = \"off\"");
+      r_.complain(section->order, section->place, Error("an ensemble keeps no ledger: write output.ledger = \"off\""));
     if (spec_.tolerance)
       r_.complain(section->order, section->place,
-                  "an ensemble takes steps of one size: write method.h, and no tolerance");
+                  Error("an ensemble takes steps of one size: write method.h, and no tolerance"));
     EnsembleSpec& ensemble = spec_.ensemble.emplace();
     const std::size_t complaints = r_.complaints.size();
     for (const CaseEntry& entry : section->entries) {
@@ -154,7 +153,7 @@ class Sections {
                                        [&](const CaseEntry& entry) { return is_one_of(entry, keys); });
     const std::string complaint = ensemble_complaint(ensemble);
     if (all_known && r_.complaints.size() == complaints && !complaint.empty())
-      r_.complain(section->order, section->place, complaint);
+      r_.complain(section->order, section->place, Error(complaint));
   }
 
   CaseReading& r_;

@@ -3,7 +3,6 @@
 #include <seiche/config/case/key_synonyms.hpp>
 #include <seiche/config/case/method_option_keys.hpp>
 #include <seiche/config/custom/custom_case.hpp>
-#include <seiche/core/error.hpp>
 
 #include <fmt/ranges.h>
 
@@ -57,16 +56,25 @@ std::string key_outside_sections(const std::string& key, const ProblemEntry* pro
   return fmt::format("the key '{}' stands outside every section ({})", key, fmt::join(sections, ", "));
 }
 
-std::string unknown_key(const std::string& section, const std::string& key, const ProblemEntry* problem) {
+Error unknown_key(const std::string& section, const std::string& key, const ProblemEntry* problem) {
   const std::string where = section == "problem" && problem != nullptr ? fmt::format("[problem] {}", problem->name)
                                                                        : fmt::format("[{}]", section);
   const std::vector<std::string> keys = case_keys(section, problem);
   const MeantKey meant = meant_here(key, problem);
-  if (meant.key.empty()) return unknown_name("key in " + where, key, keys).what();
+  if (meant.key.empty()) return unknown_name(kind, key, keys);
+  const std::string kind = "key in " + where;
   if (meant.section != section)
-    return fmt::format("unknown key in {} '{}'; did you mean '{}' in [{}]?", where, key, meant.key, meant.section);
-  return fmt::format("unknown key in {} '{}'; did you mean '{}'? Allowed: {}", where, key, meant.key,
-                     fmt::join(keys, ", "));
+    return Error(
+        {.sentence = fmt::format("unknown {} '{}'; did you mean '{}' in [{}]?", kind, key, meant.key, meant.section),
+         .kind = kind,
+         .name = key,
+         .nearest = meant.section + "." + meant.key});
+  return Error({.sentence = fmt::format("unknown {} '{}'; did you mean '{}'? Allowed: {}", kind, key, meant.key,
+                                        fmt::join(keys, ", ")),
+                .kind = kind,
+                .name = key,
+                .nearest = meant.key,
+                .allowed = keys});
 }
 
 }  // namespace seiche

@@ -1,6 +1,7 @@
 // Which sections and keys a case file may have, and what is said of others.
 #pragma once
 
+#include <seiche/core/error.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <string>
@@ -16,6 +17,6 @@ std::vector<std::string> case_keys(const std::string& section, const ProblemEntr
 // Sentences for what stands where it means nothing. What a word means in other programs comes before what it looks
 // like: dt is h, and rtol the tolerance.
 std::string key_outside_sections(const std::string& key, const ProblemEntry* problem);
-std::string unknown_key(const std::string& section, const std::string& key, const ProblemEntry* problem);
+Error unknown_key(const std::string& section, const std::string& key, const ProblemEntry* problem);
 
 }  // namespace seiche

@@ -6,16 +6,16 @@
 
 namespace seiche {
 
-void CaseReading::complain(std::size_t order, std::string_view place, std::string_view sentence) {
-  complaints.push_back({order, fmt::format("{}: {}", place, sentence)});
+void CaseReading::complain(std::size_t order, std::string_view place, const Error& error) {
+  complaints.push_back({order, error.at(place)});
 }
 
-void CaseReading::complain_about_source(std::string_view sentence) { complain(at_the_end, name, sentence); }
+void CaseReading::complain_about_source(std::string_view sentence) { complain(at_the_end, name, Error(sentence)); }
 
 void CaseReading::throw_first_complaint() const {
   const auto first = std::min_element(complaints.begin(), complaints.end(),
                                       [](const auto& a, const auto& b) { return a.order < b.order; });
-  if (first != complaints.end()) throw Error(first->text);
+  if (first != complaints.end()) throw Error(first->error);
 }
 
 CaseValue default_value(const std::string& text) {

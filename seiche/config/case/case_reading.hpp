@@ -26,11 +26,11 @@ struct CaseReading {
 
   struct Complaint {
     std::size_t order;
-    std::string text;
+    Error error;
   };
   std::vector<Complaint> complaints = {};
 
-  void complain(std::size_t order, std::string_view place, std::string_view sentence);
+  void complain(std::size_t order, std::string_view place, const Error& error);
   void complain_about_source(std::string_view sentence);  // of what is not there
   void throw_first_complaint() const;
 
@@ -42,7 +42,7 @@ struct CaseReading {
     try {
       read(section + "." + key, *value);
     } catch (const Error& error) {
-      complain(value->order, value->place, error.what());
+      complain(value->order, value->place, error.under(section + "." + key));
     }
     return true;
   }

@@ -128,14 +128,15 @@ void put_into(CaseValue& into, const std::string& so_far, std::string_view path,
   if (into.kind != Kind::table) {
     const std::string whole = value.kind == Kind::text ? toml_string(value.text) : value.shown();
     const bool is_inner = std::count(so_far.begin(), so_far.end(), '.') > 1;
-    throw Error("{}: {} = {} is no table, so that nothing can be put into it{}", value.place, so_far, into.shown(),
-                is_inner ? "" : fmt::format("; a whole one is written as {}={{ {} = {} }}", so_far, path, whole));
+    throw Error("{} = {} is no table, so that nothing can be put into it{}", so_far, into.shown(),
+                is_inner ? "" : fmt::format("; a whole one is written as {}={{ {} = {} }}", so_far, path, whole))
+        .at(value.place);
   }
   into.place = value.place;
   into.order = value.order;
   const std::size_t dot = path.find('.');
   const std::string key(path.substr(0, dot));
-  if (key.empty()) throw Error("{}: a key is missing between two dots", value.place);
+  if (key.empty()) throw Error("a key is missing between two dots").at(value.place);
   auto entry = std::find_if(into.entries.begin(), into.entries.end(), [&](const auto& e) { return e.first == key; });
   if (entry == into.entries.end()) entry = into.entries.insert(entry, {key, empty_table()});
   if (dot == std::string_view::npos) {
@@ -150,7 +151,7 @@ void apply_override(CaseTable& table, const std::string& given, std::size_t numb
   const std::string path = trimmed(std::string_view(given).substr(0, equals));
   const std::size_t dot = path.find('.');
   if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == path.size())
-    throw Error("--set {}: write it as section.key=value, for example --set method.h=1/64", given);
+    throw Error("write it as section.key=value, for example --set method.h=1/64").at("--set " + given);
 
   const Source source{.name = "--set " + given, .is_override = true, .override_number = number};
   const std::string name = path.substr(0, dot);
@@ -204,12 +205,12 @@ const CaseValue* CaseTable::value(std::string_view section_name, std::string_vie
 
 CaseTable read_case_table(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
   CaseTable table;
+  const Source file{.name = std::string(name)};
   try {
-    const Source file{.name = std::string(name)};
     table = convert(toml::parse(text), file);
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    throw Error("{}:{}:{}: {}{}", name, at.line, at.column, error.description(), pointer_into(text, at));
+    throw Error("{}{}", error.description(), pointer_into(text, at)).at(file.place(error.source()));
   }
   for (std::size_t i = 0; i < overrides.size(); ++i) apply_override(table, overrides[i], i);
   return table;

@@ -83,16 +83,17 @@ class ProblemSection {
       r_.problem = spec_.entry.get();
       spec_.custom = std::move(custom);
     } catch (const Error& error) {
-      complain_about_custom(error.what());
+      complain_about_custom(error);
     }
   }
 
   // At the key that the sentence begins with.
-  void complain_about_custom(const std::string& sentence) {
+  void complain_about_custom(const Error& error) {
     const CaseValue* at = nullptr;
     for (const std::string& key : custom_keys())
-      if (sentence.starts_with("problem." + key) && r_.gives("problem", key)) at = r_.table.value("problem", key);
-    r_.complain(at != nullptr ? at->order : CaseReading::at_the_end, at != nullptr ? at->place : r_.name, sentence);
+      if (!error.under("problem." + key).parts().key.empty() && r_.gives("problem", key))
+        at = r_.table.value("problem", key);
+    r_.complain(at != nullptr ? at->order : CaseReading::at_the_end, at != nullptr ? at->place : r_.name, error);
   }
 
   // Formulas are tried on a small grid, so that a mistake is said at its key, and before a large one is made.
@@ -101,7 +102,7 @@ class ProblemSection {
     try {
       try_formulas(*spec_.custom, spec_.parameters);
     } catch (const Error& error) {
-      complain_about_custom(error.what());
+      complain_about_custom(error);
     }
   }
 
