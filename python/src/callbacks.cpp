@@ -1,12 +1,17 @@
 #include "callbacks.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
 
 namespace seiche::python {
 namespace {
 
 thread_local bool interrupted = false;
 thread_local int scopes = 0;
+
+std::atomic<bool> interpreter_ends = false;
+std::atomic<int> runs = 0;
 
 }  // namespace
 
@@ -22,6 +27,19 @@ Interruption::Scope::Scope() {
 Interruption::Scope::~Scope() { --scopes; }
 bool Interruption::seen() { return interrupted; }
 void Interruption::note() { interrupted = true; }
+
+InterpreterEnd::Run::Run() { ++runs; }
+InterpreterEnd::Run::~Run() { --runs; }
+bool InterpreterEnd::is_near() { return interpreter_ends; }
+
+void InterpreterEnd::stop_runs() {
+  interpreter_ends = true;
+  const py::gil_scoped_release released;
+  constexpr auto patience = std::chrono::seconds(60);  // for one long step
+  const auto give_up = std::chrono::steady_clock::now() + patience;
+  while (runs > 0 && std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
 
 Array array_of(std::span<const double> values) { return Array(std::ssize(values), values.data()); }
 
@@ -71,6 +89,7 @@ void copy_from(const py::object& result, std::span<double> out, const std::strin
 Vector vector_from(const Array& values) { return Eigen::Map<const Vector>(values.data(), values.size()); }
 
 bool SignalCheck::operator()() {
+  if (InterpreterEnd::is_near()) return interrupted = true;
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return interrupted;
   next_ = now + std::chrono::milliseconds(50);

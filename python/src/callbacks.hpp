@@ -42,6 +42,22 @@ class Interruption {
   static void note();
 };
 
+// The end of the interpreter: a thread that asks for the GIL then never comes back, and takes the program with it. So
+// runs on other threads end first.
+class InterpreterEnd {
+ public:
+  // One run, as long as it lives; held with the GIL.
+  class Run {
+   public:
+    Run();
+    ~Run();
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
+  };
+  static bool is_near();
+  static void stop_runs();  // asks them to end, and waits; with the GIL held
+};
+
 // call(): with the GIL held. A KeyboardInterrupt becomes an Error, which ends the run, and is noted.
 template <class Call>
 auto with_gil(const Call& call) {
@@ -60,6 +76,7 @@ auto with_gil(const Call& call) {
 template <class Call>
 auto without_gil(const Call& call) {
   const Interruption::Scope scope;
+  const InterpreterEnd::Run run;
   try {
     const py::gil_scoped_release released;
     return call();

@@ -42,6 +42,7 @@ PYBIND11_MODULE(_core, module) {
       PyErr_SetObject(PyExc_ValueError, refusal.ptr());
     }
   });
+  py::module_::import("atexit").attr("register")(py::cpp_function(&seiche::python::InterpreterEnd::stop_runs));
   module.attr("__version__") = seiche::version_number;
   seiche::python::bind_problems(module);
   seiche::python::bind_solve(module);

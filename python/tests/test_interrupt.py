@@ -151,3 +151,20 @@ except KeyboardInterrupt:
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
     assert done.stdout == "interrupted True\n", done.stderr
+
+
+@pytest.mark.parametrize("problem", [BY_NAME, BY_PARTS])
+@pytest.mark.parametrize("more", ["", ", observer=lambda t, y, energy: None"])
+def test_a_run_on_a_daemon_thread_does_not_abort_the_end_of_the_interpreter(problem, more):
+    program = f"""
+        import threading, time
+        import numpy as np
+        import seiche
+        {problem}
+        run = lambda: seiche.solve(problem, 1e6, h=1e-3, record_every=1000{more})
+        threading.Thread(target=run, daemon=True).start()
+        time.sleep(0.5)
+        print("the end")
+    """
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(program)], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout) == (0, "the end\n"), done.stderr
