@@ -1,3 +1,4 @@
+#include <seiche/core/control/stop_request.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/event_finder.hpp>
@@ -315,3 +316,6 @@ RunReport integrate_either(const System& system, Stepper& stepper, AdaptiveStepp
 }
 
 }  // namespace seiche
+  const StopRequest stoppable(options.stop);
+  } catch (const Stopped&) {
+    recording.interrupt_inside_step(options.t_end);

@@ -1,3 +1,4 @@
+#include <seiche/core/control/stop_request.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/run/event_finder.hpp>
 #include <seiche/run/integrate.hpp>
@@ -134,3 +135,6 @@ RunReport integrate(const System& system, Stepper& stepper, State& state, const 
 }
 
 }  // namespace seiche
+  const StopRequest stoppable(options.stop);
+  } catch (const Stopped&) {
+    recording.interrupt_inside_step(options.t_end);

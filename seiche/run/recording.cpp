@@ -114,6 +114,11 @@ void Recording::interrupt(double t_end) {
   report_.message = fmt::format("stopped at t = {:.9g} (step {}) of {:.9g}", state_.t, state_.n, t_end);
 }
 
+void Recording::interrupt_inside_step(double t_end) {
+  state_ = good_;
+  interrupt(t_end);
+}
+
 void Recording::abandon(const std::string& reason) {
   fail(fmt::format("the run stopped after t = {:.9g} (step {}): {}", state_.t, state_.n, reason));
   state_ = good_;

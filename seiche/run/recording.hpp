@@ -41,6 +41,7 @@ class Recording {
   void fail_step(const std::string& reason);
   void interrupt(double t_end);
 
+  void interrupt_inside_step(double t_end);  // which has left the state in between: back to the last record
   // Everything that is left to do when the loop has ended, by success or not. `objection`: why the promise is withdrawn
   // after all, or null; `remark`: what a successful run says about its steps.
   RunReport finish(const std::function<std::string()>& objection, const std::string& remark);

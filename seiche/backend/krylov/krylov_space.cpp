@@ -1,5 +1,6 @@
 #include <seiche/backend/krylov/krylov_space.hpp>
 #include <seiche/backend/phi/force_map.hpp>
+#include <seiche/core/control/stop_request.hpp>
 #include <seiche/core/error.hpp>
 
 #include <algorithm>
@@ -79,6 +80,7 @@ void KrylovSpace::build(const SparseMatrix& S, const SparseMatrix& M, const Matr
   Index last = append(M, block, R_);
   const double scale = R_.norm();
   for (int k = 1; last > 0; ++k) {
+    end_if_asked();
     // SM of the last block: inside the block, T; along the block before, −Tᵀ; the rest is the next block.
     const Index known = size_;
     const Index from = known - last;

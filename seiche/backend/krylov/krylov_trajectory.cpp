@@ -1,5 +1,6 @@
 #include <seiche/backend/krylov/krylov_trajectory.hpp>
 #include <seiche/backend/sparse/balance.hpp>
+#include <seiche/core/control/stop_request.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +89,7 @@ KrylovTrajectory::Walk KrylovTrajectory::walk(double length, double sigma, std::
   Walk walked;
   flow_.start();
   while (walked.length < length) {
+    end_if_asked();
     double to = std::min(length, walked.length + piece);
     if (walked.outputs < ahead.size()) to = std::min(to, ahead[walked.outputs].sigma - sigma);
     flow_.advance(to - walked.length);

@@ -1,3 +1,4 @@
+#include <seiche/core/control/stop_request.hpp>
 #include <seiche/method/closure/gmres.hpp>
 
 #include <Eigen/Jacobi>
@@ -19,6 +20,7 @@ Vector gmres(const Space& space, FunctionRef<void(const Vector& w, Vector& out)>
 
   int n = 0;
   while (n < most && std::abs(residual[n]) > tolerance * size) {
+    end_if_asked();
     Vector w(b.size());
     apply(basis.back(), w);
     auto column = R.col(n);
