@@ -21,6 +21,7 @@ void add_paper(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_spectrum(CLI::App& app, Action& action);
 void add_audit(CLI::App& app, Action& action);
+void add_resume(CLI::App& app, Action& action);
 void add_recover(CLI::App& app, Action& action);
 void add_plot(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);

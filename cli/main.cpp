@@ -41,6 +41,7 @@ ExitCode run_program(const std::vector<std::string>& arguments) {
   app.get_formatter()->column_width(36);
   Action action;
   add_run(app, action);
+  add_resume(app, action);
   add_converge(app, action);
   add_paper(app, action);
   add_check(app, action);

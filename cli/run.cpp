@@ -1,10 +1,11 @@
-// seiche run: one case, one method, and the files that a run leaves.
+// seiche run: one case, one method, and the files that a run leaves. seiche resume: the same from a checkpoint.
 #include "command_line.hpp"
 #include "load_case.hpp"
 #include "stop_signal.hpp"
 #include "versions.hpp"
 
 #include <fmt/format.h>
+#include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
@@ -12,19 +13,29 @@
 #include <seiche/output/solution_file.hpp>
 
 #include <memory>
-#include <utility>
+#include <optional>
+#include <string>
 
 namespace seiche::cli {
 namespace {
 
+// Of both commands.
 struct RunArguments {
-  CaseArgument case_argument;
   std::string directory;
-  bool directory_given = false;
   int threads = 1;
+  double max_hours = 0;
   bool restart = false;
   bool json = false;
   bool quiet = false;
+};
+
+struct NewRunArguments : RunArguments {
+  CaseArgument case_argument;
+  bool directory_given = false;
+};
+
+struct ResumeArguments : RunArguments {
+  std::optional<double> until;
 };
 
 ExitCode exit_code(RunReport::Status status, bool is_law_violated) {
@@ -39,6 +50,8 @@ ExitCode exit_code(RunReport::Status status, bool is_law_violated) {
 RunCaseOptions run_options(const RunArguments& arguments) {
   return {.threads = arguments.threads,
           .restart = arguments.restart,
+          .max_hours = arguments.max_hours,
+          .save = &save_on_signal(),
           .begins =
               [quiet = arguments.quiet](const std::vector<std::string>& notes) {
                 const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
@@ -50,14 +63,14 @@ RunCaseOptions run_options(const RunArguments& arguments) {
           .versions = versions()};
 }
 
-void print(const RunArguments& arguments, const RunSpec& spec, const CaseResult& result) {
+void print(const RunArguments& arguments, const std::string& directory, const CaseResult& result) {
   const RunReport& report = result.report;
   if (arguments.json) print_data(result.summary);
   if (!arguments.quiet) {
     print_lines(report.full());  // the notes stand above it already
     if (!result.certificate.theorem.empty())
       print_lines(fmt::format("{:<10} {}\n", "theorem", result.certificate.theorem));
-    print_lines(fmt::format("{:<10} {}\n", "files", spec.output_directory));
+    print_lines(fmt::format("{:<10} {}\n", "files", directory));
     // Again, where a reader's eye ends.
     if (report.drift) print_note(fmt::format("{}, and what came out may be inaccurate", report.drift->text()));
     if (report.replaced.count > 0)
@@ -97,8 +110,9 @@ ExitCode run_ensemble(const RunArguments& arguments, const RunSpec& spec) {
   }
 }
 
-ExitCode run(const RunArguments& arguments) {
+ExitCode run(const NewRunArguments& arguments) {
   hdf5_without_cleanup_at_exit();
+  outlive_readers();
   RunSpec spec = load_case(arguments.case_argument);
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
   if (arguments.directory_given) spec.output_directory = arguments.directory;
@@ -107,33 +121,65 @@ ExitCode run(const RunArguments& arguments) {
   Progress progress(stderr, spec.t_end);
   if (ProgressBar::is_wanted(arguments.quiet)) options.observers.push_back(&progress);
   const CaseResult result = run_case(spec, spec.output_directory, options);
-  print(arguments, spec, result);
+  print(arguments, spec.output_directory, result);
   return exit_code(result.report.status, result.report.law == LawVerdict::violated);
+}
+
+ExitCode resume(const ResumeArguments& arguments) {
+  hdf5_without_cleanup_at_exit();
+  outlive_readers();
+  const std::string& directory = arguments.directory;
+  RunCaseOptions options = run_options(arguments);
+  const double t_end = arguments.until ? *arguments.until : read_case(directory + "/case.toml").t_end;
+  Progress progress(stderr, t_end);
+  if (ProgressBar::is_wanted(arguments.quiet)) options.observers.push_back(&progress);
+  const CaseResult result = resume_case(directory, arguments.until, options);
+  print(arguments, directory, result);
+  return exit_code(result.report.status, result.report.law == LawVerdict::violated);
+}
+
+// The options of both commands.
+void add_options(CLI::App& command, RunArguments& arguments) {
+  command
+      .add_option("--threads", arguments.threads,
+                  "Threads, over a large grid or the members of an ensemble; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65536));
+  command
+      .add_option("--max-hours", arguments.max_hours,
+                  "Write a checkpoint and stop after so much time, as a queue allows")
+      ->type_name("H")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--json", arguments.json, "Print summary.json on stdout");
+  command.add_flag("--quiet", arguments.quiet, "No progress bar, and a word only when something went wrong");
 }
 
 }  // namespace
 
 void add_run(CLI::App& app, Action& action) {
-  auto arguments = std::make_shared<RunArguments>();
+  auto arguments = std::make_shared<NewRunArguments>();
   CLI::App* command =
       app.add_subcommand("run", "Run one case; its report goes to stderr, with --json its summary to stdout");
   add_case(*command, arguments->case_argument);
   CLI::Option* out =
       command->add_option("--out", arguments->directory, "Where the files go, instead of output.directory")
           ->type_name("DIR");
-  command
-      ->add_option("--threads", arguments->threads,
-                   "Threads, over a large grid or the members of an ensemble; results do not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(1, 65536));
+  add_options(*command, *arguments);
   command->add_flag("--restart", arguments->restart,
                     "Begin anew where the folder holds a run that did not finish, which is removed");
-  command->add_flag("--json", arguments->json, "Print summary.json on stdout");
-  command->add_flag("--quiet", arguments->quiet, "No progress bar, and a word only when something went wrong");
   command->callback([arguments, out, &action] {
     arguments->directory_given = out->count() > 0;
     action = [arguments] { return run(*arguments); };
   });
+}
+
+void add_resume(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<ResumeArguments>();
+  CLI::App* command = app.add_subcommand("resume", "Go on with a run that was stopped or killed, from its checkpoint");
+  command->add_option("DIR", arguments->directory, "The directory that the run left")->required()->type_name("");
+  command->add_option("--until", arguments->until, "Where to end, instead of time.end of its case")->type_name("T");
+  add_options(*command, *arguments);
+  command->callback([arguments, &action] { action = [arguments] { return resume(*arguments); }; });
 }
 
 }  // namespace seiche::cli

@@ -1,13 +1,20 @@
-// Ctrl-C and SIGTERM. While a run computes, the first asks it to end, and the second ends the program at once.
+// What signals ask of a run. While it computes, the first of Ctrl-C, TERM, HUP and XCPU asks it to end, and a second
+// Ctrl-C or TERM ends the program at once; USR1 asks for a checkpoint.
 #pragma once
 
 #include <atomic>
 
 namespace seiche::cli {
 
-// From now on; the flag is set by the first signal.
+// From now on; the flag is set by the first signal. HUP stays ignored where the program was started so (nohup).
 const std::atomic<bool>& stop_on_signal();
 bool has_stopped();  // has a signal come?
+
+// Set by USR1, from now on; whoever answers clears it.
+std::atomic<bool>& save_on_signal();
+
+// A reader of our messages that has gone ends no run.
+void outlive_readers();
 
 // From now on no signal ends the program: files are being written that nobody could write again. The flag, set by a
 // signal that comes now, asks to leave out what can be had later.

@@ -71,6 +71,7 @@ const std::vector<ThirdParty> third_party = {
     {"CLI/", {"cli"}},
     {"pybind11/", {"python"}},
     {"boost/numeric/odeint", {"study"}},
+    {"boost/crc.hpp", {"output"}},
     {"boost/math/", {"core", "damping", "study", "method", "run"}},
 };
 

@@ -19,7 +19,7 @@ from ._core import __version__, backends, methods, problems
 from ._ensemble import EnsembleResult, solve_ensemble
 from ._problem import Case, Problem, load, problem
 from ._result import DenseOutput, Result, SeicheWarning, Status
-from ._run import CaseRun, run
+from ._run import CaseRun, resume, run
 from ._solve import solve
 from ._studies import check, converge, spectrum
 
@@ -44,6 +44,7 @@ __all__ = [
     "plot",
     "problem",
     "problems",
+    "resume",
     "run",
     "solve",
     "solve_ensemble",

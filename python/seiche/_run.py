@@ -26,6 +26,7 @@ def run(
     folder: str | os.PathLike | None = None,
     threads: int = 1,
     restart: bool = False,
+    max_hours: float | None = None,
     **overrides: Any,
 ) -> CaseRun:
     """Run a case, or an ensemble, to the files that ``seiche run`` leaves.
@@ -36,6 +37,7 @@ def run(
     folder : where the files go; by default the ``output.directory`` of the case
     threads : over a large grid, or over the members of an ensemble; results do not depend on it
     restart : begin anew where the folder holds a run that did not finish, which is removed
+    max_hours : write a checkpoint and stop after so much time; `resume` goes on from there
     **overrides : keys of the case to replace: ``seiche.run("case.toml", **{"method.h": "1/64"})``
 
     Returns what ``summary.json`` holds, ``notes`` and ``folder``. A computation that fails is a status, with what was computed
@@ -48,7 +50,37 @@ def run(
     directory = os.fspath(case._core.output_directory if folder is None else folder)
     if not directory:
         raise ValueError("folder must not be empty")
-    done = _core.run(case._core, directory, thread_count(threads), truth("restart", restart))
+    done = _core.run(case._core, directory, thread_count(threads), truth("restart", restart), _hours(max_hours))
+    return _case_run(done, directory)
+
+
+def resume(
+    folder: str | os.PathLike, until: float | None = None, threads: int = 1, max_hours: float | None = None
+) -> CaseRun:
+    """Go on with a run that was stopped or killed, from the newest checkpoint in its folder.
+
+    Its files are then those of a run that was never stopped. Ctrl-C, ``max_hours`` and the case's ``[checkpoint]`` leave
+    checkpoints.
+
+    Parameters
+    ----------
+    folder : where `run`, or the program, left its files
+    until : where to end, instead of the case's ``time.end``
+    """
+    t_end = None if until is None else float(until)
+    directory = os.fspath(folder)
+    return _case_run(_core.resume(directory, t_end, thread_count(threads), _hours(max_hours)), directory)
+
+
+def _hours(given: float | None) -> float:
+    if given is None:
+        return 0.0
+    if not given > 0:
+        raise ValueError(f"max_hours = {given!r} must be > 0")
+    return float(given)
+
+
+def _case_run(done: _core.CaseRun, directory: str) -> CaseRun:
     for remark in done.remarks:
-        warnings.warn(remark, SeicheWarning, stacklevel=2)
+        warnings.warn(remark, SeicheWarning, stacklevel=3)
     return CaseRun(json.loads(done.summary), notes=done.notes, folder=pathlib.Path(directory))

@@ -6,6 +6,8 @@
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +21,12 @@ struct CaseRun {
       remarks;  // what there was to say before the run, and what nobody should miss after it
 };
 
+CaseRun with_result(CaseRun done, CaseResult result) {
+  done.summary = std::move(result.summary);
+  for (std::string& remark : result.report.remarks()) done.remarks.push_back(std::move(remark));
+  return done;
+}
+
 CaseRun run_to(const std::string& folder, RunSpec spec, RunCaseOptions options) {
   CaseRun done;
   settle_method(spec);
@@ -29,33 +37,40 @@ CaseRun run_to(const std::string& folder, RunSpec spec, RunCaseOptions options) 
     if (result.outcome.is_remarkable()) done.remarks.push_back(result.outcome.message);
     return done;
   }
-  CaseResult result = run_case(std::move(spec), folder, options);
-  done.summary = std::move(result.summary);
-  for (std::string& remark : result.report.remarks()) done.remarks.push_back(std::move(remark));
-  return done;
+  return with_result(std::move(done), run_case(std::move(spec), folder, options));
 }
 
 // On a thread of its own, while this one looks for Ctrl-C: the run ends after its step, with its files whole. Where the
 // last step is taken, what can be had later is left out.
-CaseRun run(const RunSpec& spec, const std::string& folder, int threads, bool restart) {
+CaseRun interruptible_run(RunCaseOptions options, const std::function<CaseRun(const RunCaseOptions&)>& run) {
   std::atomic<bool> stop = false, has_ended = false, leave = false;
   std::vector<std::string> notes;
-  const RunCaseOptions options{.threads = threads,
-                               .restart = restart,
-                               .begins =
-                                   [&](const std::vector<std::string>& said) {
-                                     notes = said;
-                                     return &stop;
-                                   },
-                               .ends =
-                                   [&] {
-                                     has_ended = true;
-                                     return &leave;
-                                   }};
+  options.begins = [&](const std::vector<std::string>& said) {
+    notes = said;
+    return &stop;
+  };
+  options.ends = [&] {
+    has_ended = true;
+    return &leave;
+  };
   CaseRun result = beside_signals(
-      stop, [&] { return run_to(folder, spec, options); }, [&] { (has_ended ? leave : stop) = true; });
+      stop, [&] { return run(options); }, [&] { (has_ended ? leave : stop) = true; });
   result.notes = std::move(notes);
   return result;
+}
+
+CaseRun run(const RunSpec& spec, const std::string& folder, int threads, bool restart, double max_hours) {
+  return interruptible_run({.threads = threads, .restart = restart, .max_hours = max_hours},
+                           [&](const RunCaseOptions& options) { return run_to(folder, spec, options); });
+}
+
+CaseRun resume(const std::string& folder, std::optional<double> t_end, int threads, double max_hours) {
+  return interruptible_run({.threads = threads, .max_hours = max_hours}, [&](RunCaseOptions options) {
+    CaseRun done;
+    options.warn = [&](const std::string& note) { done.remarks.push_back(note); };
+    CaseResult result = resume_case(folder, t_end, options);
+    return with_result(std::move(done), std::move(result));
+  });
 }
 
 }  // namespace
@@ -66,6 +81,7 @@ void bind_runs(py::module_& module) {
       .def_readonly("notes", &CaseRun::notes)
       .def_readonly("remarks", &CaseRun::remarks);
   module.def("run", &run);
+  module.def("resume", &resume);
 }
 
 }  // namespace seiche::python

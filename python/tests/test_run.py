@@ -90,3 +90,24 @@ def test_ctrl_c_ends_it_with_whole_files(case, tmp_path):
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, timeout=60, env=os.environ)
     assert done.stdout == "interrupted True\n", done.stderr
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "interrupted"
+
+
+def test_resume_leaves_what_an_unbroken_run_leaves(case, tmp_path):
+    keys = {"time.end": 200, "output.snapshot_every": 64}
+    seiche.run(case, tmp_path / "whole", **keys)
+    stopped = seiche.run(case, tmp_path / "out", max_hours=1e-9, **keys)
+    assert stopped.status == "interrupted" and stopped.t < 200 and "seiche resume" in stopped.message
+    with pytest.raises(ValueError, match="holds a checkpoint"):
+        seiche.run(case, tmp_path / "out", **keys)
+    done = seiche.resume(tmp_path / "out", threads=2)
+    assert done.success and done.t == 200 and done.resumed_at == [stopped.t]
+    for name in ("energy.csv", "final.txt", "solution.xdmf"):
+        assert (tmp_path / "out" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name
+
+
+def test_resume_refuses_a_folder_without_a_checkpoint(case, tmp_path):
+    seiche.run(case, tmp_path / "out")
+    with pytest.raises(ValueError, match="holds no checkpoint"):
+        seiche.resume(tmp_path / "out")
+    with pytest.raises(ValueError, match="max_hours = 0 must be > 0"):
+        seiche.resume(tmp_path / "out", max_hours=0)

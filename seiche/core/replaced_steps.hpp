@@ -1,6 +1,8 @@
 // Steps in which no solution was found, and something that keeps the law stands for one.
 #pragma once
 
+#include <seiche/core/control/archive.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -11,6 +13,11 @@ struct ReplacedSteps {
   bool ruinous = false;                    // did what stands for one lose nine tenths of z?
   std::string_view why = {}, remedy = {};  // why the first of them was replaced, and what helps; literals
 
+  void archive(Archive& a) {
+    a(count, ruinous);
+    a.literal(why);
+    a.literal(remedy);
+  }
   ReplacedSteps& operator+=(const ReplacedSteps& other) {
     if (count == 0) {
       why = other.why;

@@ -1,6 +1,7 @@
 // Everything that evolves; nothing that evolves hides elsewhere, so a copy of a State is a checkpoint.
 #pragma once
 
+#include <seiche/core/control/archive.hpp>
 #include <seiche/core/vector.hpp>
 
 #include <cstdint>
@@ -23,6 +24,10 @@ struct State {
   // Collocation: the forces at the nodes of the last step, whose length was history_h; none after a start or restart.
   std::vector<Vector> history = {};
   double history_h = 0.0;
+
+  void archive(Archive& a) {
+    a(z, t, n, r_squared, shift, energy_scale, energy, energy_terms, history, history_h);
+  }
 };
 
 }  // namespace seiche

@@ -1,5 +1,7 @@
 #include <seiche/config/case/case_file.hpp>
+#include <seiche/core/error.hpp>
 #include <seiche/driver/case_folder.hpp>
+#include <seiche/driver/saved_run.hpp>
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/study/versions.hpp>
 
@@ -16,11 +18,25 @@ const std::filesystem::path& made(const std::filesystem::path& path) {
 CaseFolder::CaseFolder(const std::filesystem::path& path, RunKind kind, const RunSpec& spec, bool restart)
     : folder_(made(path)), lock_(folder_) {
   require_own_files(path, kind, kind == RunKind::run && spec.report);
-  if (!restart) require_finished(path);
+  if (!restart) {
+    require_no_checkpoint(path);
+    require_finished(path);
+  }
   remove_earlier_results(path);
+  for (const char* name : {checkpoint_name, earlier_checkpoint_name}) remove_file(folder_, name);
   remove_own_report(path);
   remove_pictures(path);
   write_file(folder_, "case.toml", write_case(spec));
+}
+
+CaseFolder::CaseFolder(const std::filesystem::path& path) : folder_(path), lock_(folder_) {}
+
+void require_no_checkpoint(const std::filesystem::path& path) {
+  if (has_checkpoint(path))
+    throw Error(
+        "{0} holds a checkpoint of a run that did not reach its end: `seiche resume {0}` goes on from it, `seiche run` "
+        "with --restart removes it and begins anew, and another folder keeps both",
+        path.string());
 }
 
 const std::atomic<bool>* begin_run(const RunCaseOptions& options, const std::vector<std::string>& notes) {

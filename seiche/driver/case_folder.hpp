@@ -19,6 +19,8 @@ class CaseFolder {
  public:
   // Throws Error where it is in use, holds files of others or, unless `restart`, a run that did not finish.
   CaseFolder(const std::filesystem::path& path, RunKind kind, const RunSpec& spec, bool restart);
+  // Of a run that goes on: locked, with all of its files. Throws Error where it is in use.
+  explicit CaseFolder(const std::filesystem::path& path);
 
   const Folder& folder() const { return folder_; }
 
@@ -26,6 +28,9 @@ class CaseFolder {
   Folder folder_;
   FolderLock lock_;
 };
+
+// Throws Error, which names both ways on, where a run in the folder could go on from a checkpoint.
+void require_no_checkpoint(const std::filesystem::path& path);
 
 // Calls options.begins with the notes; its flag, or one that nobody sets.
 const std::atomic<bool>* begin_run(const RunCaseOptions& options, const std::vector<std::string>& notes);

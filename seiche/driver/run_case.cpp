@@ -2,8 +2,10 @@
 #include <seiche/config/data/initial_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/driver/case_folder.hpp>
+#include <seiche/driver/checkpoint_keeper.hpp>
 #include <seiche/driver/last_words.hpp>
 #include <seiche/driver/run_case.hpp>
+#include <seiche/driver/saved_run.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/output/energy_trace.hpp>
@@ -16,6 +18,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -27,6 +30,12 @@ namespace seiche {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::vector<std::string> lines_of(const std::map<std::string, std::string>& versions) {
+  std::vector<std::string> lines;
+  for (const auto& [name, version] : versions) lines.push_back(fmt::format("{} {}", name, version));
+  return lines;
+}
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path);
@@ -96,20 +105,22 @@ std::string write_for_readers(const Folder& folder, const RunSpec& spec, const S
 
 class CaseRun {
  public:
-  CaseRun(RunSpec spec, const Problem& problem, const fs::path& directory, const RunCaseOptions& options)
+  // In `folder`, from a checkpoint; or in the folder that the case names, from its start.
+  CaseRun(RunSpec spec, const Problem& problem, const RunCaseOptions& options, CaseFolder* folder = nullptr,
+          Checkpoint* from = nullptr)
       : spec_(std::move(spec)),
         options_(options),
         versions_(all_versions(options)),
         problem_(problem.name),
         run_(problem, plan(spec_, options.threads)),
-        is_modified_(run_.simulation().stepper().has_modified_energy()) {
-    spec_.notes.insert(spec_.notes.end(), run_.notes().begin(), run_.notes().end());
-    if (std::holds_alternative<FileData>(spec_.initial))
-      if (const std::string lost = lost_between_runs(run_.simulation()); !lost.empty()) spec_.notes.push_back(lost);
-    notes_ = case_notes(spec_, problem);
-    stop_ = begin_run(options, notes_);
-    folder_.emplace(directory, RunKind::run, spec_, options.restart);
-    if (spec_.measure_plans) write_file(folder_->folder(), wisdom_name, planning_wisdom());
+        is_modified_(run_.simulation().stepper().has_modified_energy()),
+        from_(from),
+        folder_(folder) {
+    if (from_ != nullptr) {
+      go_on();
+    } else {
+      begin(problem);
+    }
   }
 
   CaseResult result() {
@@ -117,24 +128,32 @@ class CaseRun {
     Simulation& simulation = run_.simulation();
     const auto summary = [this](const RunReport& report) { return this->summary(report); };
     LastWords last_words(folder, simulation, summary);
-    EnergyTrace trace(folder, is_modified_, {.every_steps = spec_.energy_every}, spec_.ledger);
+    make_files();
+    EnergyTrace& trace = *trace_;
+    SolutionFile& solution = *solution_;
     if (spec_.ledger) simulation.stepper().keep_ledger();
-    SolutionFile solution(folder, simulation.problem(), *simulation.system().space,
-                          {.schedule = {.every_steps = spec_.snapshot_every}, .interval = spec_.snapshot_interval},
-                          is_modified_, description(spec_, simulation, versions_));
     solution.before_writing([&] { trace.flush(); });
-    const std::atomic<bool>* leave = nullptr;
-    AtTheEnd hold([&](const RunReport&) { leave = options_.ends ? options_.ends() : nullptr; });
-    AtTheEnd words([&](const RunReport& report) { last_words.write(report); });
-    std::vector<Observer*> observers = {&hold, &trace, &words, &solution};
-    observers.insert(observers.end(), options_.observers.begin(), options_.observers.end());
-
-    RunReport report = run_.integrate(*stop_, observers);
-    last_words.correct(report);
-    // From here on nothing is lost: it can all be had again from the files that are there.
     const auto warn = [this](const std::string& note) {
       if (options_.warn) options_.warn(note);
     };
+    keeper_.emplace(folder,
+                    CheckpointKeeper::Options{.when = spec_.checkpoint,
+                                              .asked = options_.save,
+                                              .seconds = 3600 * options_.max_hours,
+                                              .describe = [this](SavedRun& saved) { describe(saved); },
+                                              .warn = warn},
+                    from_ != nullptr ? from_->run.steps : 0);
+    const std::atomic<bool>* leave = nullptr;
+    AtTheEnd hold([&](const RunReport&) { leave = options_.ends ? options_.ends() : nullptr; });
+    AtTheEnd words([&](const RunReport& report) { last_words.write(with_way_on(report)); });
+    std::vector<Observer*> observers = {&hold, &trace, &words, &solution};
+    observers.insert(observers.end(), options_.observers.begin(), options_.observers.end());
+
+    const Resumption resumption{.checkpoints = &*keeper_, .from = from_ != nullptr ? &from_->rest : nullptr};
+    RunReport report = with_way_on(run_.integrate(*stop_, observers, resumption));
+    if (report.status == RunReport::Status::success) keeper_->remove();
+    last_words.correct(report);
+    // From here on nothing is lost: it can all be had again from the files that are there.
     if (const std::string failure = write_for_readers(folder, spec_, solution, leave, warn); !failure.empty()) {
       report.status = RunReport::Status::failed;
       report.message += "; " + failure;
@@ -150,6 +169,66 @@ class CaseRun {
   static constexpr const char* wisdom_name = "fftw_wisdom";
 
  private:
+  void begin(const Problem& problem) {
+    spec_.notes.insert(spec_.notes.end(), run_.notes().begin(), run_.notes().end());
+    if (std::holds_alternative<FileData>(spec_.initial))
+      if (const std::string lost = lost_between_runs(run_.simulation()); !lost.empty()) spec_.notes.push_back(lost);
+    notes_ = case_notes(spec_, problem);
+    stop_ = begin_run(options_, notes_);
+    folder_ = &own_folder_.emplace(spec_.output_directory, RunKind::run, spec_, options_.restart);
+    if (spec_.measure_plans) write_file(folder_->folder(), wisdom_name, planning_wisdom());
+  }
+
+  void go_on() {
+    notes_ = from_->run.notes;
+    std::vector<std::string> said = {
+        fmt::format("going on from {}, t = {:.9g} (step {})", from_->name, from_->run.t, from_->run.steps)};
+    for (const std::string& version : lines_of(versions_))
+      if (std::find(from_->run.versions.begin(), from_->run.versions.end(), version) == from_->run.versions.end())
+        said.push_back(fmt::format("the checkpoint was not written by {}: last bits may differ", version));
+    notes_.insert(notes_.end(), said.begin() + 1, said.end());
+    stop_ = begin_run(options_, said);
+    // What they tell is of a run that had stopped.
+    for (const char* name : {"summary.json", "solution.xdmf"}) remove_file(folder_->folder(), name);
+  }
+
+  void make_files() {
+    const Folder& folder = folder_->folder();
+    const Simulation& simulation = run_.simulation();
+    const Space& space = *simulation.system().space;
+    const Schedule energy_steps{.every_steps = spec_.energy_every};
+    const SnapshotTimes times{.schedule = {.every_steps = spec_.snapshot_every}, .interval = spec_.snapshot_interval};
+    if (from_ != nullptr) {
+      trace_.emplace(folder, from_->run.energies, is_modified_, energy_steps, spec_.ledger);
+      solution_.emplace(folder, from_->run.solution, simulation.problem(), space, times, is_modified_);
+    } else {
+      trace_.emplace(folder, is_modified_, energy_steps, spec_.ledger);
+      solution_.emplace(folder, simulation.problem(), space, times, is_modified_,
+                        description(spec_, simulation, versions_));
+    }
+  }
+
+  void describe(SavedRun& saved) {
+    const State& state = run_.simulation().state();
+    saved = {.versions = lines_of(versions_),
+             .case_text = write_case(spec_),
+             .notes = notes_,
+             .resumed_at = resumed_at(),
+             .t = state.t,
+             .steps = state.n,
+             .energies = trace_->mark(),
+             .solution = solution_->mark()};
+  }
+
+  // Why it was interrupted, if not by somebody, and how it goes on.
+  RunReport with_way_on(RunReport report) const {
+    if (report.status != RunReport::Status::interrupted) return report;
+    if (keeper_->is_out_of_time()) report.message += fmt::format(", after {:.3g} hours as asked", options_.max_hours);
+    if (keeper_->has_saved())
+      report.message += fmt::format("; `seiche resume {}` goes on from there", folder_->folder().path().string());
+    return report;
+  }
+
   RunReport with_notes(RunReport report) const {
     for (const std::string& note : notes_) report.message += "; " + note;
     return report;
@@ -163,8 +242,16 @@ class CaseRun {
                          .h = spec_.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec_.h,
                          .tolerance = spec_.tolerance,
                          .certificate = certificate_json(run_.certificate_after(report)),
-                         .versions = versions_},
+                         .versions = versions_,
+                         .resumed_at = resumed_at()},
                         with_notes(report));
+  }
+
+  std::vector<double> resumed_at() const {
+    if (from_ == nullptr) return {};
+    std::vector<double> times = from_->run.resumed_at;
+    times.push_back(from_->run.t);
+    return times;
   }
 
   RunSpec spec_;
@@ -175,7 +262,12 @@ class CaseRun {
   bool is_modified_;
   std::vector<std::string> notes_;
   const std::atomic<bool>* stop_ = nullptr;
-  std::optional<CaseFolder> folder_;
+  Checkpoint* from_;  // null: from the start
+  CaseFolder* folder_;
+  std::optional<CaseFolder> own_folder_;  // of a run from the start
+  std::optional<EnergyTrace> trace_;
+  std::optional<SolutionFile> solution_;
+  std::optional<CheckpointKeeper> keeper_;
 };
 
 }  // namespace
@@ -186,7 +278,23 @@ CaseResult run_case(RunSpec spec, const fs::path& folder, const RunCaseOptions& 
   if (spec.measure_plans) use_planning_wisdom(text_of(folder / CaseRun::wisdom_name));
   const Problem problem = make_problem(spec);
   settle_snapshots(spec, problem);
-  return CaseRun(std::move(spec), problem, folder, options).result();
+  return CaseRun(std::move(spec), problem, options).result();
+}
+
+CaseResult resume_case(const fs::path& folder, std::optional<double> t_end, const RunCaseOptions& options) {
+  CaseFolder case_folder(folder);
+  std::vector<std::string> notes;
+  Checkpoint from = newest_checkpoint(case_folder.folder(), notes);
+  from.run.notes.insert(from.run.notes.end(), notes.begin(), notes.end());
+  RunSpec spec = parse_case(from.run.case_text, from.name, {}, folder);
+  spec.output_directory = folder.string();
+  if (t_end) spec.t_end = *t_end;
+  if (spec.t_end < from.run.t)
+    throw Error("t = {:.9g} is before the checkpoint, which is at t = {:.9g}", spec.t_end, from.run.t);
+  if (t_end) write_file(case_folder.folder(), "case.toml", write_case(spec));
+  if (spec.measure_plans) use_planning_wisdom(text_of(folder / CaseRun::wisdom_name));
+  const Problem problem = make_problem(spec);
+  return CaseRun(std::move(spec), problem, options, &case_folder, &from).result();
 }
 
 }  // namespace seiche

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,10 @@ namespace seiche {
 
 // What the caller lends a run. All of it may be left out.
 struct RunCaseOptions {
-  int threads = 1;       // over a large grid, or the members of an ensemble; results do not depend on it
-  bool restart = false;  // begin anew where the folder holds a run that did not finish, which is removed
+  int threads = 1;                    // over a large grid, or the members of an ensemble; results do not depend on it
+  bool restart = false;               // begin anew where the folder holds a run that did not finish, which is removed
+  double max_hours = 0;               // after which a run is saved and ends as if it had been interrupted; 0: never
+  std::atomic<bool>* save = nullptr;  // where it is set, a run writes a checkpoint, clears it, and goes on
   // Before the first step, when nothing is refused any more: what there is to say. Returns a flag that ends the run
   // after the step in which it is set, or null.
   std::function<const std::atomic<bool>*(const std::vector<std::string>& notes)> begins = {};
@@ -41,5 +44,11 @@ struct CaseResult {
 // which replaces spec.output_directory. Throws Error for set-up mistakes, and where the folder is in use or not its
 // own; a computation that fails is a status of the report, with what was computed before on disk.
 CaseResult run_case(RunSpec spec, const std::filesystem::path& folder, const RunCaseOptions& options = {});
+
+// Goes on from the newest checkpoint in `folder`, to `t_end` or else to where the case ends, and leaves the same files
+// with the same numbers as a run that was never stopped. Throws Error where there is no checkpoint that is whole and
+// fits the files beside it.
+CaseResult resume_case(const std::filesystem::path& folder, std::optional<double> t_end = {},
+                       const RunCaseOptions& options = {});
 
 }  // namespace seiche

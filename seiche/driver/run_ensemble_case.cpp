@@ -97,6 +97,8 @@ std::vector<std::string> notes_on(const Members& members, const Simulation& simu
 
 EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& directory,
                                      const RunCaseOptions& options) {
+  if (options.max_hours > 0)
+    throw Error("an ensemble keeps no checkpoints, from which it could go on after {:.3g} hours", options.max_hours);
   spec.output_directory = directory.string();
   const Members members = make_members(spec);
   const Problem& problem = *members.list.front().problem;

@@ -6,11 +6,12 @@ namespace seiche {
 namespace {
 
 constexpr auto flush_at_least_every = std::chrono::seconds(5);
+constexpr const char* file_name = "energy.csv";
 
 }  // namespace
 
 EnergyTrace::EnergyTrace(const Folder& folder, bool has_modified_energy, Schedule schedule, bool ledger)
-    : file_(folder, "energy.csv"), has_modified_energy_(has_modified_energy), has_ledger_(ledger), schedule_(schedule) {
+    : file_(folder, file_name), has_modified_energy_(has_modified_energy), has_ledger_(ledger), schedule_(schedule) {
   std::string header = has_modified_energy ? "t,H,H_modified" : "t,H";
   if (ledger) {
     for (const LedgerPart& part : ledger_parts()) header += fmt::format(",{}", part.name);
@@ -18,6 +19,26 @@ EnergyTrace::EnergyTrace(const Folder& folder, bool has_modified_energy, Schedul
   }
   file_.write(header + "\n");
 }
+
+EnergyTrace::EnergyTrace(const Folder& folder, const Mark& mark, bool has_modified_energy, Schedule schedule,
+                         bool ledger)
+    : file_(folder, file_name, mark.file),
+      has_modified_energy_(has_modified_energy),
+      has_ledger_(ledger),
+      schedule_(schedule),
+      last_(mark.last),
+      is_first_(mark.is_first) {}
+
+std::string EnergyTrace::complaint(const Folder& folder, const Mark& mark) {
+  return complaint_about(folder, file_name, mark.file);
+}
+
+void EnergyTrace::Mark::archive(Archive& a) {
+  a(file.length, file.checksum, is_first);
+  a.numbers(last);
+}
+
+EnergyTrace::Mark EnergyTrace::mark() { return {.file = file_.mark(), .last = last_, .is_first = is_first_}; }
 
 void EnergyTrace::observe(const State& state, const EnergyReading& energy) {
   row_.clear();

@@ -20,6 +20,17 @@ std::chrono::duration<double> write_at_least_every() {
   return std::chrono::duration<double>(end != given && *end == '\0' && seconds >= 0 ? seconds : usual);
 }
 
+constexpr const char* file_name = "solution.h5";
+constexpr const char* of_each_time[] = {"H", "H_modified", "t"};  // a number each
+
+// The checksum of t and the energies up to a row, behind what has the checksum `before`.
+std::uint32_t checksum_of_rows(const Hdf5Dataset& numbers, std::uint64_t begin, std::uint64_t end,
+                               std::uint32_t before) {
+  std::vector<double> values(static_cast<std::size_t>(end - begin));
+  numbers.read(begin, values);
+  return checksum({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)}, before);
+}
+
 std::string meaning_of(const SolutionDescription& description, std::size_t field, const std::string& name) {
   return field < description.meanings.size() ? description.meanings[field] : "field " + name;
 }
@@ -28,7 +39,7 @@ std::string meaning_of(const SolutionDescription& description, std::size_t field
 
 SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
                            bool has_modified_energy, const SolutionDescription& description)
-    : path_(folder, "solution.h5"),
+    : path_(folder, file_name),
       layout_(solution_layout(problem)),
       file_(Hdf5File::create(path_.open(), path_.temporary())),
       space_(space),
@@ -41,8 +52,7 @@ SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const S
   set_attribute(file_.id(), "Conventions", "CF-1.10");
   for (const auto& [name, text] : description.texts) set_attribute(file_.id(), name, text);
   set_attribute(file_.id(), "fields", fmt::format("{}", fmt::join(layout_.fields, " ")));
-  for (const auto& [name, value] : {std::pair("status", "unfinished"), {"message", ""}, {"energy_law", ""}})
-    set_attribute(file_.id(), name, value);
+  write_unfinished();
 
   // Written again with more rows, these chunks keep their size and place, and whatever tells where they are stays as
   // it is.
@@ -68,6 +78,69 @@ SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const S
   }
   attach_scales(file_, all);
   file_.flush();
+}
+
+// The rows of a chunk that is not full are kept, as if they had just been observed.
+SolutionFile::SolutionFile(const Folder& folder, const Mark& mark, const Problem& problem, const Space& space,
+                           const SnapshotTimes& times, bool has_modified_energy)
+    : path_(folder, file_name),
+      layout_(solution_layout(problem)),
+      file_((path_.reopen(), Hdf5File::open_to_write(folder, path_.temporary().filename().string()))),
+      space_(space),
+      times_(times),
+      shown_(mark.shown),
+      last_t_(mark.last_t),
+      has_modified_(has_modified_energy),
+      waiting_(mark.in_chunk),
+      most_waiting_(layout_.chunk().front()),
+      written_(mark.in_chunk),
+      write_at_least_every_(write_at_least_every()),
+      last_write_(std::chrono::steady_clock::now()),
+      values_(space.physical_size()) {
+  std::vector<std::string> names = layout_.fields;
+  for (const char* name : of_each_time)
+    if (file_.has(name)) names.emplace_back(name);
+  for (const std::string& name : names) {
+    columns_.push_back({file_.dataset(name), {}});
+    auto& [data, rows] = columns_.back();
+    data.cut(mark.rows);
+    if (columns_.size() > layout_.fields.size()) continue;
+    rows.resize(mark.in_chunk * data.row_size());
+    data.read(mark.rows - mark.in_chunk, rows);
+  }
+  write_unfinished();
+  file_.flush();
+}
+
+std::string SolutionFile::complaint(const Folder& folder, const Mark& mark) {
+  const std::string left = name_left_behind(folder, file_name);
+  const Hdf5File file = Hdf5File::open(folder, left);
+  std::uint32_t found = checksum_of_nothing;
+  for (const char* name : of_each_time) {
+    if (!file.has(name)) continue;
+    const Hdf5Dataset numbers = file.dataset(name);
+    if (numbers.rows() < mark.rows)
+      return fmt::format("{} of {} has {} rows, and had {} at the checkpoint", name, left, numbers.rows(), mark.rows);
+    found = checksum_of_rows(numbers, 0, mark.rows, found);
+  }
+  return found == mark.checksum ? "" : fmt::format("{} is not what it was at the checkpoint", left);
+}
+
+SolutionFile::Mark SolutionFile::mark() {
+  if (broken_) throw Error("{} could not be written", path_.path().string());
+  if (waiting_ > written_) write_rows(false);
+  path_.keep();
+  file_.flush();
+  Mark mark{.rows = columns_.back().data.rows(), .in_chunk = waiting_, .shown = shown_, .last_t = last_t_};
+  for (std::size_t i = layout_.fields.size(); i < columns_.size(); ++i)
+    mark.checksum = checksum_of_rows(columns_[i].data, 0, mark.rows, mark.checksum);
+  path_.sync();
+  return mark;
+}
+
+void SolutionFile::write_unfinished() {
+  for (const auto& [name, value] : {std::pair("status", "unfinished"), {"message", ""}, {"energy_law", ""}})
+    set_attribute(file_.id(), name, value);
 }
 
 // Every problem is stated in units of its own, so that its numbers carry none.

@@ -3,6 +3,7 @@
 // it.
 #pragma once
 
+#include <seiche/core/control/archive.hpp>
 #include <seiche/core/observer.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/space.hpp>
@@ -41,9 +42,24 @@ struct SnapshotTimes {
 // it comes, so that chunks are written again and again before they are full. Anything but a number ≥ 0 is ignored.
 class SolutionFile : public Observer {
  public:
+  // As far as it had come at a checkpoint. The checksum is that of t and the energies: those of the fields would take
+  // as long as the run has written.
+  struct Mark {
+    std::uint64_t rows = 0, in_chunk = 0;  // in all, and in the last chunk where that is not full
+    std::uint32_t checksum = checksum_of_nothing;
+    std::int64_t shown = 0;
+    double last_t = -std::numeric_limits<double>::infinity();
+    void archive(Archive& a) { a(rows, in_chunk, checksum, shown, last_t); }
+  };
+
   // `space` outlives the observer. Throws Error where nothing can be written.
   SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
                bool has_modified_energy, const SolutionDescription& description = {});
+  // Goes on behind the mark in the file that an earlier run has left.
+  SolutionFile(const Folder& folder, const Mark& mark, const Problem& problem, const Space& space,
+               const SnapshotTimes& times, bool has_modified_energy);
+  // Why that file does not begin as it was at the mark; "" where it does.
+  static std::string complaint(const Folder& folder, const Mark& mark);
   ~SolutionFile() override;  // without finish, what was observed stays as solution.h5.partial
 
   bool is_due(const State& state, bool last) const override;
@@ -52,6 +68,7 @@ class SolutionFile : public Observer {
   void finish(const RunReport& report) override;  // solution.h5
   // Called before rows go to the disk: what is written of the same run elsewhere goes first.
   void before_writing(std::function<void()> call) { before_writing_ = std::move(call); }
+  Mark mark();  // with its rows on the disk
   // solution.xdmf, after finish, for which ParaView asks; not where `stop` is set meanwhile.
   void describe(const std::atomic<bool>* stop = nullptr) const;
 
@@ -66,6 +83,7 @@ class SolutionFile : public Observer {
   void write_bars();
   void add(Column& column, std::span<const double> row) const;
   void write_rows(bool last);
+  void write_unfinished();
   void close(const RunReport& report);
 
   PartialPath path_;

@@ -47,6 +47,7 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                     {"halved", report.halved}}},
                   {"wall_seconds", number(report.wall_seconds)},
                   {"versions", versions}};
+  if (!run.resumed_at.empty()) summary["resumed_at"] = run.resumed_at;
   if (!run.certificate.empty()) summary["certificate"] = Json::parse(run.certificate);
   if (run.tolerance) {
     summary["tolerance"] = number(*run.tolerance);

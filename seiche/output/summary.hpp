@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace seiche {
 
@@ -18,6 +19,7 @@ struct RunIdentity {
   std::optional<double> tolerance = std::nullopt;
   std::string certificate = {};  // a JSON document: which hypotheses of the energy law are met, or "" for none
   std::map<std::string, std::string> versions = {};
+  std::vector<double> resumed_at = {};  // times of checkpoints from which it went on
 };
 
 // A number that is not finite becomes null, since JSON has no NaN; so does `modified` for a method that has none.

@@ -26,6 +26,7 @@ class AdaptiveLoop {
         recording_(recording),
         controller_(stepper.order(), options.tolerance),
         events_(options.events),
+        checkpoints_(options.events.empty() ? options.resumption.checkpoints : nullptr),
         pace_(state.t, options.t_end, system.space->size()),
         time_(state.t),
         size_(system.space->max_norm(system.space->physical(state.z))) {
@@ -37,17 +38,12 @@ class AdaptiveLoop {
   }
 
   void run() {
-    if (!recording_.record(state_.t >= options_.t_end)) return;
-    const EventFinder::Found at_start = events_.begin(system_, state_);
-    if (at_start.empty())
-      start();
-    else if (!happen(at_start))
+    if (options_.resumption.from != nullptr)
+      archive(*options_.resumption.from);
+    else if (!begin())
       return;
     while (state_.t < options_.t_end) {
-      if (options_.stop && options_.stop->load(std::memory_order_relaxed)) {
-        if (unproven_) state_ = backup_;
-        return recording_.interrupt(options_.t_end);
-      }
+      if (pauses()) return recording_.interrupt(options_.t_end);
       if (!advance()) return;
       const std::string objection = pace_.objection(state_.t, h_, [&] { return system_.space->norm(state_.z); });
       if (objection.empty()) continue;
@@ -69,6 +65,43 @@ class AdaptiveLoop {
   }
 
  private:
+  bool begin() {
+    if (!recording_.record(state_.t >= options_.t_end)) return false;
+    const EventFinder::Found at_start = events_.begin(system_, state_);
+    if (!at_start.empty()) return happen(at_start);
+    start();
+    return true;
+  }
+
+  // Is the run to stop here? It is saved before that, and whenever somebody wants it; but not behind a first step whose
+  // error is not known yet.
+  bool pauses() {
+    const bool stops = options_.stop && options_.stop->load(std::memory_order_relaxed);
+    if (unproven_) {
+      if (!stops) return false;
+      take_back_first();
+    }
+    if (checkpoints_ == nullptr) return stops;
+    const Checkpoints::Wish wish = stops ? Checkpoints::Wish::save_and_stop : checkpoints_->wish(state_.n);
+    if (wish != Checkpoints::Wish::none && recording_.is_sound())
+      checkpoints_->save([this](Archive& a) { archive(a); });
+    return wish == Checkpoints::Wish::save_and_stop;
+  }
+
+  void archive(Archive& a) {
+    a.section("steps of variable size");
+    a(controller_, pace_, time_, size_, h_, first_of_all_, rejections_, smallest_, largest_);
+    recording_.archive(a, options_.objection);
+    if (a.reads()) backup_ = state_;
+  }
+
+  void take_back_first() {
+    state_ = backup_;
+    stepper_.forget(state_);
+    time_ = Time(state_.t);
+    unproven_ = false;
+  }
+
   // Before the method knows its error: a step that changes little, and leaves two of its kind before the next asked
   // time.
   void start() {
@@ -160,10 +193,7 @@ class AdaptiveLoop {
   bool reject(double next, const std::string& reason) {
     ++recording_.report().rejected;
     if (unproven_) {
-      state_ = backup_;
-      stepper_.forget(state_);
-      time_ = Time(state_.t);
-      unproven_ = false;
+      take_back_first();
     } else if (++rejections_ % forget_after == 0) {
       stepper_.forget(state_);
       backup_ = state_;
@@ -254,6 +284,7 @@ class AdaptiveLoop {
       low_ = (sum - t_) - y;
       state.t = t_ = sum;
     }
+    void archive(Archive& a) { a(t_, low_); }
 
    private:
     double t_, low_ = 0;
@@ -266,6 +297,7 @@ class AdaptiveLoop {
   Recording& recording_;
   StepController controller_;
   EventFinder events_;
+  Checkpoints* checkpoints_;
   RunPace pace_;
   Time time_;
   double size_;  // the largest number of the initial state
@@ -294,8 +326,11 @@ RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, Sta
       throw Error("the first and the largest step size must be finite and ≥ 0, but one is {}", h);
   Recording recording(system, stepper, state, options.law, observers);
   AdaptiveLoop loop(system, stepper, state, options, recording);
+  const StopRequest stoppable(options.stop);
   try {
     loop.run();
+  } catch (const Stopped&) {
+    recording.interrupt_inside_step(options.t_end);
   } catch (const Error& error) {
     recording.abandon(error.what());
   }
@@ -311,11 +346,9 @@ RunReport integrate_either(const System& system, Stepper& stepper, AdaptiveStepp
                     .law = options.law,
                     .objection = options.objection,
                     .stop = options.stop,
-                    .events = options.events},
+                    .events = options.events,
+                    .resumption = options.resumption},
                    observers);
 }
 
 }  // namespace seiche
-  const StopRequest stoppable(options.stop);
-  } catch (const Stopped&) {
-    recording.interrupt_inside_step(options.t_end);

@@ -20,6 +20,7 @@ struct AdaptiveOptions {
   std::function<std::string()> objection = {};
   const std::atomic<bool>* stop = nullptr;
   std::span<const Event> events = {};
+  Resumption resumption = {};
 };
 
 // As `integrate`, with steps whose errors fit the tolerance. Times that observers ask for do not shorten steps. Throws

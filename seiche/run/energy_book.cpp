@@ -66,6 +66,18 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
   last_n_ = n;
 }
 
+void EnergyBook::archive(Archive& a) {
+  a(empty_, reopened_, has_increase_, last_n_, records_, size_, rests_, H_at_start_, largest_terms_);
+  a.numbers(rise_);
+  a.numbers(fall_);
+  a.numbers(parting_);
+  a.numbers(last_);
+  a.numbers(energy_);
+  a.numbers(modified_);
+  a.numbers(violation_);
+  a.numbers(drowned_);
+}
+
 // At rest where V = 0 nothing has a size yet: the largest of the first records then stands for the start. Below the
 // squares of what is next to the least number, terms are no more than at rest.
 void EnergyBook::take_size(const EnergyReading& reading) {

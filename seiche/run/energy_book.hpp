@@ -1,6 +1,7 @@
 // The energy books of a run: first and last value, largest increase, and whether the promised law held.
 #pragma once
 
+#include <seiche/core/control/archive.hpp>
 #include <seiche/core/run_report.hpp>
 #include <seiche/core/stepper.hpp>
 
@@ -22,6 +23,7 @@ class EnergyBook {
     size_ = 0;
   }
   void write_to(RunReport& report) const;
+  void archive(Archive& a);  // but for the promise
 
  private:
   void take_size(const EnergyReading& reading);

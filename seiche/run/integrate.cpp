@@ -23,20 +23,18 @@ class FixedLoop {
         options_(options),
         grid_(grid),
         recording_(recording),
-        events_(options.events) {}
+        events_(options.events),
+        checkpoints_(options.events.empty() ? options.resumption.checkpoints : nullptr) {}
 
   void run() {
-    if (!recording_.record(grid_.steps == 0)) return;
-    const EventFinder::Found at_start = events_.begin(system_, state_);
-    if (at_start.empty())
-      events_.start(state_);
-    else if (!happen(at_start))
+    if (options_.resumption.from != nullptr)
+      archive(*options_.resumption.from);
+    else if (!begin())
       return;
-    std::int64_t k = 1;
-    while (k <= grid_.steps) {
-      if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return recording_.interrupt(grid_.end);
-      if (!advance(k)) return;
-      k = restarted_ ? 1 : k + 1;
+    while (k_ <= grid_.steps) {
+      if (pauses()) return recording_.interrupt(grid_.end);
+      if (!advance(k_)) return;
+      k_ = restarted_ ? 1 : k_ + 1;
     }
   }
 
@@ -47,6 +45,31 @@ class FixedLoop {
   }
 
  private:
+  bool begin() {
+    if (!recording_.record(grid_.steps == 0)) return false;
+    const EventFinder::Found at_start = events_.begin(system_, state_);
+    if (!at_start.empty()) return happen(at_start);
+    events_.start(state_);
+    return true;
+  }
+
+  // Is the run to stop here? It is saved before that, and whenever somebody wants it.
+  bool pauses() {
+    const bool stops = options_.stop && options_.stop->load(std::memory_order_relaxed);
+    if (checkpoints_ == nullptr) return stops;
+    const Checkpoints::Wish wish = stops ? Checkpoints::Wish::save_and_stop : checkpoints_->wish(state_.n);
+    if (wish != Checkpoints::Wish::none && recording_.is_sound())
+      checkpoints_->save([this](Archive& a) { archive(a); });
+    return wish == Checkpoints::Wish::save_and_stop;
+  }
+
+  void archive(Archive& a) {
+    a.section("steps of one size");
+    a(grid_.start, k_);
+    recording_.archive(a, options_.objection);
+    if (a.reads()) grid_ = TimeGrid(grid_.start, grid_.h, grid_.end);
+  }
+
   // Step k of the grid and what happens in it; false: the run is over.
   bool advance(std::int64_t k) {
     restarted_ = false;
@@ -115,6 +138,8 @@ class FixedLoop {
   TimeGrid grid_;
   Recording& recording_;
   EventFinder events_;
+  Checkpoints* checkpoints_;
+  std::int64_t k_ = 1;    // the next step of the grid
   State left_, between_;  // where there are events
   bool restarted_ = false, met_event_ = false;
 };
@@ -126,8 +151,11 @@ RunReport integrate(const System& system, Stepper& stepper, State& state, const 
   const TimeGrid grid(state.t, options.h, options.t_end);
   Recording recording(system, stepper, state, options.law, observers);
   FixedLoop loop(system, stepper, state, options, grid, recording);
+  const StopRequest stoppable(options.stop);
   try {
     loop.run();
+  } catch (const Stopped&) {
+    recording.interrupt_inside_step(options.t_end);
   } catch (const Error& error) {  // a propagator that does not exist, a disk that is full
     recording.abandon(error.what());
   }
@@ -135,6 +163,3 @@ RunReport integrate(const System& system, Stepper& stepper, State& state, const 
 }
 
 }  // namespace seiche
-  const StopRequest stoppable(options.stop);
-  } catch (const Stopped&) {
-    recording.interrupt_inside_step(options.t_end);

@@ -3,6 +3,7 @@
 
 #include <seiche/core/observer.hpp>
 #include <seiche/core/system.hpp>
+#include <seiche/run/checkpoints.hpp>
 
 #include <atomic>
 #include <functional>
@@ -30,9 +31,10 @@ struct IntegrateOptions {
   // Located by shorter steps from the left end of the step they lie in; behind one, steps of length h go on from its
   // time.
   std::span<const Event> events = {};
+  Resumption resumption = {};
 };
 
-// Steps from state.t to t_end; state must have been begun. t = t₀ + n h; the last step is shortened to land on t_end.
+// Steps from state.t to t_end, or from where options.resumption leaves off; state must have been begun. t = t₀ + n h; the last step is shortened to land on t_end.
 // A failed step ends the run with what was computed before it; an energy above the promised law (beyond round-off,
 // judged at every step that some observer records) sets law = violated. Never throws for numerical reasons.
 RunReport integrate(const System& system, Stepper& stepper, State& state, const IntegrateOptions& options,

@@ -137,17 +137,46 @@ RunReport Recording::finish(const std::function<std::string()>& objection, const
   report_.t = state_.t;
   book_.write_to(report_);
   hear_objection(objection);
-  const Potential::Counts after = system_.potential->counts();
-  report_.potential_counts = {after.gradients - counts_before_.gradients, after.values - counts_before_.values};
+  report_.potential_counts = counts();
   complete_message(remark);
-  report_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  report_.wall_seconds = seconds();
   finish_observers();
   return report_;
 }
 
+Potential::Counts Recording::counts() const {
+  const Potential::Counts now = system_.potential->counts();
+  return {counts_earlier_.gradients + now.gradients - counts_before_.gradients,
+          counts_earlier_.values + now.values - counts_before_.values};
+}
+
+double Recording::seconds() const {
+  return seconds_earlier_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void Recording::archive(Archive& a, const std::function<std::string()>& objection) {
+  Potential::Counts counts_so_far = counts();
+  double seconds_so_far = seconds();
+  std::string met = objection ? objection() : "";
+  if (met.empty()) met = earlier_objection_;
+  a(state_, first_n_, book_);
+  a.numbers(ledger_);
+  a(report_.scalar_iterations, report_.fallbacks, report_.unresolved, report_.replaced, report_.widened, report_.halved,
+    report_.rejected, report_.events, met, seconds_so_far);
+  a.numbers(counts_so_far);
+  if (!a.reads()) return;
+  good_ = state_;
+  earlier_objection_ = met;
+  counts_earlier_ = counts_so_far;
+  seconds_earlier_ = seconds_so_far;
+  counts_before_ = system_.potential->counts();
+  begin_ = std::chrono::steady_clock::now();
+}
+
 void Recording::hear_objection(const std::function<std::string()>& objection) {
   if (!objection || (report_.law == LawVerdict::not_promised && !report_.drift)) return;
-  const std::string reason = objection();
+  std::string reason = objection();
+  if (reason.empty()) reason = earlier_objection_;
   if (reason.empty()) return;
   report_.drift.reset();  // H may well have risen
   if (report_.law == LawVerdict::not_promised) return;

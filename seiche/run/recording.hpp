@@ -2,6 +2,7 @@
 // report.
 #pragma once
 
+#include <seiche/core/control/archive.hpp>
 #include <seiche/core/observer.hpp>
 #include <seiche/core/system.hpp>
 #include <seiche/run/energy_book.hpp>
@@ -40,12 +41,17 @@ class Recording {
   void fail(std::string message);
   void fail_step(const std::string& reason);
   void interrupt(double t_end);
-
   void interrupt_inside_step(double t_end);  // which has left the state in between: back to the last record
+
   // Everything that is left to do when the loop has ended, by success or not. `objection`: why the promise is withdrawn
   // after all, or null; `remark`: what a successful run says about its steps.
   RunReport finish(const std::function<std::string()>& objection, const std::string& remark);
   void abandon(const std::string& reason);  // an Error of a propagator, a full disk
+
+  bool is_sound() const { return system_.space->is_finite(state_.z); }
+  // The state, and what a run has counted and judged so far. `objection` as for `finish`: what has been met stays met in a run that
+  // goes on from here.
+  void archive(Archive& a, const std::function<std::string()>& objection);
 
  private:
   void fail_not_finite(const char* what);
@@ -53,6 +59,8 @@ class Recording {
   void hear_objection(const std::function<std::string()>& objection);
   void complete_message(const std::string& remark);
   void finish_observers();
+  Potential::Counts counts() const;
+  double seconds() const;
 
   const System& system_;
   const Stepper& stepper_;
@@ -64,6 +72,9 @@ class Recording {
   RunReport report_;
   bool abandoned_ = false;
   std::int64_t first_n_;
+  std::string earlier_objection_;     // of the run that this one goes on from
+  Potential::Counts counts_earlier_;  // likewise
+  double seconds_earlier_ = 0;
   Potential::Counts counts_before_;
   std::chrono::steady_clock::time_point begin_;
 };

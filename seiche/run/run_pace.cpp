@@ -43,6 +43,8 @@ std::string RunPace::objection(double t, double h, FunctionRef<double()> size) {
   return static_cast<double>(attempts_) < least_attempts ? "" : judge(h);
 }
 
+void RunPace::archive(Archive& a) { a(attempts_, next_, marks_, usual_size_); }
+
 double RunPace::way(std::size_t ago, std::size_t doublings) const {
   const std::size_t last = marks_.size() - 1 - ago;
   return marks_[last].t - marks_[last - doublings].t;

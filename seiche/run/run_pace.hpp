@@ -1,6 +1,7 @@
 // Will a run with variable steps come to its end?
 #pragma once
 
+#include <seiche/core/control/archive.hpp>
 #include <seiche/core/function_ref.hpp>
 #include <seiche/core/vector.hpp>
 
@@ -23,10 +24,12 @@ class RunPace {
   // After every attempt, accepted or not, with the length of the last step and a way to ask for |z|, which is rarely
   // taken: why the run will not come to its end; "" else.
   std::string objection(double t, double h, FunctionRef<double()> size);
+  void archive(Archive& a);
 
  private:
   struct Mark {
     double t, size;
+    void archive(Archive& a) { a(t, size); }
   };
   std::string judge(double h) const;
   double way(std::size_t ago, std::size_t doublings) const;  // in t, up to so many marks ago

@@ -1,6 +1,8 @@
 // Which step size comes next.
 #pragma once
 
+#include <seiche/core/control/archive.hpp>
+
 namespace seiche {
 
 // Error per unit step, so that the errors of a run add up to about the tolerance, whatever the number of steps; a PI
@@ -28,6 +30,7 @@ class StepController {
   double next(double h) const;
   double allowed() const { return allowed_; }  // error per unit of time of an accepted step, after `accepts`
   void reset();                                // as new
+  void archive(Archive& a) { a(allowed_, scaled_, previous_, settled_, accepted_, starts_); }
 
  private:
   double order_, tolerance_, allowed_;

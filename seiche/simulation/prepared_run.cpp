@@ -42,7 +42,8 @@ LawPromise PreparedRun::promise() const {
 }
 
 RunReport PreparedRun::integrate(Stepper& stepper, AdaptiveStepper* adaptive, const std::atomic<bool>& stop,
-                                 std::span<Observer* const> observers, std::span<const Event> events) {
+                                 std::span<Observer* const> observers, std::span<const Event> events,
+                                 const Resumption& resumption) {
   const auto objection = [this] { return negative_rate(simulation_->problem()); };
   return integrate_either(simulation_->system(), stepper, adaptive, simulation_->state(),
                           {.tolerance = plan_.tolerance.value_or(0.0),
@@ -52,7 +53,8 @@ RunReport PreparedRun::integrate(Stepper& stepper, AdaptiveStepper* adaptive, co
                            .law = promise(),
                            .objection = objection,
                            .stop = &stop,
-                           .events = events},
+                           .events = events,
+                           .resumption = resumption},
                           observers);
 }
 

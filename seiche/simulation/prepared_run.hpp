@@ -38,9 +38,11 @@ class PreparedRun {
 
   // To t_end, by the steppers of the simulation or by such that wrap them.
   RunReport integrate(Stepper& stepper, AdaptiveStepper* adaptive, const std::atomic<bool>& stop,
-                      std::span<Observer* const> observers, std::span<const Event> events = {});
-  RunReport integrate(const std::atomic<bool>& stop, std::span<Observer* const> observers) {
-    return integrate(simulation_->stepper(), adaptive_, stop, observers);
+                      std::span<Observer* const> observers, std::span<const Event> events = {},
+                      const Resumption& resumption = {});
+  RunReport integrate(const std::atomic<bool>& stop, std::span<Observer* const> observers,
+                      const Resumption& resumption = {}) {
+    return integrate(simulation_->stepper(), adaptive_, stop, observers, {}, resumption);
   }
   // As it is after a run, which has met what no sample showed.
   Certificate certificate_after(const RunReport& report) const;

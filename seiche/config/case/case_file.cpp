@@ -28,6 +28,7 @@ class Sections {
     read_method_section(r_);
     read_backend();
     read_output();
+    read_checkpoint();
     if (r_.problem != nullptr) read_ensemble();
   }
 
@@ -130,6 +131,21 @@ class Sections {
       } else if (spec_.h > 0) {
         spec_.snapshot_every = steps_between_snapshots(key, value, spec_.h);
       }
+    });
+  }
+
+  void read_checkpoint() {
+    r_.on("checkpoint", "every_seconds", [&](const std::string& key, const CaseValue& value) {
+      spec_.checkpoint.every_seconds = read_number(key, value);
+      if (spec_.checkpoint.every_seconds < 0) throw Error("{} = {} must be ≥ 0", key, value.shown());
+    });
+    r_.on("checkpoint", "every_steps", [&](const std::string& key, const CaseValue& value) {
+      spec_.checkpoint.every_steps = read_whole(key, value, 0);
+    });
+    r_.on("checkpoint", "keep", [&](const std::string& key, const CaseValue& value) {
+      spec_.checkpoint.keep = read_whole(key, value, 1);
+      if (spec_.checkpoint.keep > 2)
+        throw Error("{} = {} must be 1 or 2: the newest checkpoint, and the one before it", key, value.shown());
     });
   }
 

@@ -23,7 +23,9 @@ MeantKey meant_here(const std::string& word, const ProblemEntry* problem) {
 
 }  // namespace
 
-std::vector<std::string> case_sections() { return {"problem", "method", "backend", "time", "output", "ensemble"}; }
+std::vector<std::string> case_sections() {
+  return {"problem", "method", "backend", "time", "output", "checkpoint", "ensemble"};
+}
 
 std::vector<std::string> case_keys(const std::string& section, const ProblemEntry* problem) {
   if (section == "method") {
@@ -35,6 +37,7 @@ std::vector<std::string> case_keys(const std::string& section, const ProblemEntr
   if (section == "time") return {"end"};
   if (section == "output")
     return {"directory", "energy_every", "ledger", "report", "snapshot_every", "snapshot_interval"};
+  if (section == "checkpoint") return {"every_seconds", "every_steps", "keep"};
   if (section == "ensemble") return ensemble_keys(problem);
   std::vector<std::string> keys = {"name", "initial", "friction", "force"};
   if (problem != nullptr && problem->name == custom_name)
@@ -59,10 +62,10 @@ std::string key_outside_sections(const std::string& key, const ProblemEntry* pro
 Error unknown_key(const std::string& section, const std::string& key, const ProblemEntry* problem) {
   const std::string where = section == "problem" && problem != nullptr ? fmt::format("[problem] {}", problem->name)
                                                                        : fmt::format("[{}]", section);
+  const std::string kind = "key in " + where;
   const std::vector<std::string> keys = case_keys(section, problem);
   const MeantKey meant = meant_here(key, problem);
   if (meant.key.empty()) return unknown_name(kind, key, keys);
-  const std::string kind = "key in " + where;
   if (meant.section != section)
     return Error(
         {.sentence = fmt::format("unknown {} '{}'; did you mean '{}' in [{}]?", kind, key, meant.key, meant.section),

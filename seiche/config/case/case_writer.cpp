@@ -106,6 +106,10 @@ std::string example_sections(const ProblemEntry& entry) {
   text += line("# snapshot_interval", "0.5", "time between snapshots; 0: by steps; with a tolerance");
   text +=
       "#   by default 1024 in all up to 16 unknowns, else 512, fewer of very large states, unless snapshot_every is given\n";
+  text += "\n[checkpoint]\n";
+  text += line("every_seconds", "600", "from which `seiche resume` goes on; 0: when a signal asks for one");
+  text += line("every_steps", "0", "steps; 0: by the clock alone");
+  text += line("keep", "2", "files: 2, the newest and the one before it, or 1");
   return text;
 }
 
@@ -146,6 +150,9 @@ std::string write_case(const RunSpec& spec) {
   if (spec.ledger) text += "ledger = \"on\"\n";
   if (!spec.report) text += "report = \"off\"\n";
   if (spec.snapshot_interval > 0) text += fmt::format("snapshot_interval = {}\n", toml_real(spec.snapshot_interval));
+  if (const CheckpointSpec& when = spec.checkpoint; when != CheckpointSpec{})
+    text += fmt::format("\n[checkpoint]\nevery_seconds = {}\nevery_steps = {}\nkeep = {}\n",
+                        toml_real(when.every_seconds), when.every_steps, when.keep);
   if (spec.ensemble) text += write_ensemble(*spec.ensemble);
   return text;
 }

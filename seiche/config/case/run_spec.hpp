@@ -33,6 +33,14 @@ struct FormulaData {
 };
 using InitialData = std::variant<PresetData, FileData, FormulaData>;
 
+// When a run keeps a checkpoint, beside those that signals ask for.
+struct CheckpointSpec {
+  double every_seconds = 600;    // 0: never by the clock
+  std::int64_t every_steps = 0;  // 0: never by steps
+  std::int64_t keep = 2;         // files: the newest, and the one before it
+  bool operator==(const CheckpointSpec&) const = default;
+};
+
 struct RunSpec {
   std::string source;                  // how errors call the case: its file name
   std::vector<std::string> overrides;  // and what --set gave beside it, "section.key=value"
@@ -61,8 +69,9 @@ struct RunSpec {
   std::int64_t snapshot_every = 64;  // steps; 0: the first and the last state only
   bool ledger = false;               // columns in energy.csv: where the change of H comes from
   bool report = true;                // report.html
-  double snapshot_interval = 0.0;    // time; 0: by steps. With a tolerance only
-  bool snapshots_given = false;      // one of the two at least
+  CheckpointSpec checkpoint;
+  double snapshot_interval = 0.0;  // time; 0: by steps. With a tolerance only
+  bool snapshots_given = false;    // one of the two at least
 
   std::optional<EnsembleSpec> ensemble;  // none: one run
 

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -33,6 +34,19 @@ std::uintmax_t end_of_lines(int file) {
   }
 }
 
+// The checksum of the bytes up to `end`, from that of those up to mark.length; false where there are not as many.
+bool extend(FileMark& mark, std::uint64_t end, int file) {
+  std::array<char, buffer> piece{};
+  while (mark.length < end) {
+    const std::size_t wanted = std::min<std::uint64_t>(piece.size(), end - mark.length);
+    const ::ssize_t size = ::pread(file, piece.data(), wanted, static_cast<::off_t>(mark.length));
+    if (size <= 0) return false;
+    mark.checksum = checksum({piece.data(), static_cast<std::size_t>(size)}, mark.checksum);
+    mark.length += static_cast<std::uint64_t>(size);
+  }
+  return true;
+}
+
 }  // namespace
 
 PartialPath::PartialPath(Folder folder, std::string name)
@@ -55,6 +69,27 @@ int PartialPath::open() {
   return file_;
 }
 
+std::string name_left_behind(const Folder& folder, const std::string& name) {
+  for (const std::string& left : {name + ".partial", name})
+    if (FileIdentity(folder.descriptor(), left) != FileIdentity()) return left;
+  throw Error("{} is not there", (folder.path() / name).string());
+}
+
+int PartialPath::reopen() {
+  folder_.require_lock();
+  const std::string left = name_left_behind(folder_, name_);
+  kept_ = true;
+  if (left == name_ && ::renameat(folder_.descriptor(), name_.c_str(), folder_.descriptor(), temporary_.c_str()) != 0)
+    throw cannot_write(path(), errno);
+  file_ = ::openat(folder_.descriptor(), temporary_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+  if (file_ < 0) throw cannot_write(path(), errno);
+  return file_;
+}
+
+void PartialPath::sync() {
+  if (::fdatasync(file_) != 0) throw cannot_write(path(), errno);
+}
+
 void PartialPath::commit() {
   folder_.require_lock();
   int failure = 0;
@@ -75,6 +110,37 @@ void PartialPath::commit() {
 
 AtomicFile::AtomicFile(const Folder& folder, const std::string& name) : path_(folder, name), file_(path_.open()) {}
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), file_(path_.open()) {}
+
+AtomicFile::AtomicFile(const Folder& folder, const std::string& name, const FileMark& mark)
+    : path_(folder, name), file_(path_.reopen()), marked_(mark), keeps_lines_(true) {
+  if (::ftruncate(file_, static_cast<::off_t>(mark.length)) != 0 ||
+      ::lseek(file_, static_cast<::off_t>(mark.length), SEEK_SET) < 0)
+    throw cannot_write(path_.path(), errno);
+}
+
+std::string complaint_about(const Folder& folder, const std::string& name, const FileMark& mark) {
+  const std::string left = name_left_behind(folder, name);
+  const int file = ::openat(folder.descriptor(), left.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  if (file < 0) return fmt::format("cannot read {}: {}", (folder.path() / left).string(), std::strerror(errno));
+  FileMark found;
+  const bool is_long_enough = extend(found, mark.length, file);
+  ::close(file);
+  if (!is_long_enough)
+    return fmt::format("{} has {} bytes, and had {} at the checkpoint", left, found.length, mark.length);
+  return found.checksum == mark.checksum ? "" : fmt::format("{} is not what it was at the checkpoint", left);
+}
+
+void AtomicFile::sync() {
+  flush();
+  path_.sync();
+}
+
+FileMark AtomicFile::mark() {
+  sync();
+  const ::off_t end = ::lseek(file_, 0, SEEK_CUR);
+  if (end < 0 || !extend(marked_, static_cast<std::uint64_t>(end), file_)) throw cannot_write(path_.path(), errno);
+  return marked_;
+}
 
 AtomicFile::~AtomicFile() {
   try {
@@ -139,6 +205,12 @@ void write_file(const Folder& folder, const std::string& name, std::string_view 
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
   write_file(Folder(path.parent_path()), path.filename().string(), text);
+}
+
+void rename_file(const Folder& folder, const std::string& from, const std::string& to) {
+  folder.require_lock();
+  if (::renameat(folder.descriptor(), from.c_str(), folder.descriptor(), to.c_str()) != 0 && errno != ENOENT)
+    throw cannot_write(folder.path() / to, errno);
 }
 
 void remove_file(const Folder& folder, const std::string& name) noexcept {

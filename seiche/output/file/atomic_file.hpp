@@ -1,6 +1,7 @@
 // A file that appears whole or not at all: written under a temporary name beside the final one, renamed on commit.
 #pragma once
 
+#include <seiche/output/file/checksum.hpp>
 #include <seiche/output/file/folder.hpp>
 
 #include <cstdint>
@@ -26,6 +27,10 @@ class PartialPath {
   // The temporary file, new and empty, to be read and written; whatever had its name is gone, and links are not
   // followed. Open as long as the object lives. Throws Error with the path and the reason.
   int open();
+  // What an earlier run has left under the temporary name, or else under the final one, which it then no longer has; to
+  // be written on. Throws Error where there is neither.
+  int reopen();
+  void sync();  // what has been written to it is on the disk
   void keep() {
     kept_ = true;
   }  // from now on the temporary stays also without commit: it holds what cannot be had again
@@ -39,17 +44,33 @@ class PartialPath {
   bool kept_ = false;  // or committed
 };
 
+// The name under which an earlier run has left it: NAME.partial, or else NAME. Throws Error where there is neither.
+std::string name_left_behind(const Folder& folder, const std::string& name);
+
+// How far a file had been written when a checkpoint was made, and the CRC-32 of its bytes up to there.
+struct FileMark {
+  std::uint64_t length = 0;
+  std::uint32_t checksum = checksum_of_nothing;
+};
+
+// Why the file that an earlier run has left does not begin with what the mark is of; "" where it does.
+std::string complaint_about(const Folder& folder, const std::string& name, const FileMark& mark);
+
 // Every failure throws Error with the path and the reason of the operating system.
 class AtomicFile {
  public:
   AtomicFile(const Folder& folder, const std::string& name);  // without commit, an earlier file stays as it was
   explicit AtomicFile(const std::filesystem::path& path);
+  // Goes on behind the mark in the file that an earlier run has left, and cuts off what is there.
+  AtomicFile(const Folder& folder, const std::string& name, const FileMark& mark);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void write(std::string_view text);  // buffered; memory does not grow with the file
   void flush();
+  void sync();      // what has been written is on the disk then
+  FileMark mark();  // likewise, and its mark
   void commit();
   // For tables that grow row by row. From now on the rows stay, as NAME.partial without commit.
   void keep_lines();
@@ -61,6 +82,7 @@ class AtomicFile {
   PartialPath path_;
   int file_;
   std::string waiting_;
+  FileMark marked_;
   int failure_ = 0;  // its number
   bool keeps_lines_ = false;
 };
@@ -68,6 +90,8 @@ class AtomicFile {
 void write_file(const Folder& folder, const std::string& name, std::string_view text);
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+// Fine if there is none.
+void rename_file(const Folder& folder, const std::string& from, const std::string& to);
 // Fine if there is none; not where the lock of the folder is no longer ours.
 void remove_file(const Folder& folder, const std::string& name) noexcept;
 

@@ -1,0 +1,60 @@
+#include <seiche/core/control/archive.hpp>
+
+#include <set>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+Error damaged() { return Error("the checkpoint is damaged, or was written by another version"); }
+
+// Texts that were read stay for good; there are as few as places in the program that write them.
+std::string_view kept(std::string text) {
+  static std::set<std::string> texts;
+  return *texts.insert(std::move(text)).first;
+}
+
+}  // namespace
+
+void Archive::raw(void* data, std::size_t size) {
+  if (!reads_) {
+    bytes_.append(static_cast<const char*>(data), size);
+    return;
+  }
+  if (size > bytes_.size() - at_) throw damaged();
+  std::memcpy(data, bytes_.data() + at_, size);
+  at_ += size;
+}
+
+std::size_t Archive::count(std::size_t size) {
+  auto written = static_cast<std::uint64_t>(size);
+  (*this)(written);
+  if (reads_ && written > bytes_.size() - at_) throw damaged();
+  return static_cast<std::size_t>(written);
+}
+
+void Archive::operator()(Vector& vector) {
+  const std::size_t size = count(static_cast<std::size_t>(vector.size()));
+  if (reads_ && size > (bytes_.size() - at_) / sizeof(double)) throw damaged();
+  vector.resize(static_cast<Index>(size));
+  if (size > 0) raw(vector.data(), size * sizeof(double));
+}
+
+void Archive::operator()(std::string& text) {
+  text.resize(count(text.size()));
+  if (!text.empty()) raw(text.data(), text.size());
+}
+
+void Archive::literal(std::string_view& text) {
+  std::string copy(text);
+  (*this)(copy);
+  if (reads_) text = kept(std::move(copy));
+}
+
+void Archive::section(std::string_view name) {
+  std::string word(name);
+  (*this)(word);
+  if (word != name) throw damaged();
+}
+
+}  // namespace seiche

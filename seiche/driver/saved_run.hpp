@@ -1,0 +1,49 @@
+// What a checkpoint of a case holds, and the two files in which a run keeps it.
+#pragma once
+
+#include <seiche/core/control/archive.hpp>
+#include <seiche/output/energy_trace.hpp>
+#include <seiche/output/file/folder.hpp>
+#include <seiche/output/solution_file.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// The newest, and the one before it, which serves where the newest is damaged.
+inline constexpr const char* checkpoint_name = "checkpoint.seiche";
+inline constexpr const char* earlier_checkpoint_name = "checkpoint_prev.seiche";
+
+struct SavedRun {
+  std::vector<std::string> versions;  // what computed it, "compiler GNU 12.2.0": others may round another way
+  std::string case_text;              // as case.toml
+  std::vector<std::string> notes;     // what was said before the first step
+  std::vector<double> resumed_at;     // times at which it had gone on from a checkpoint itself
+  double t = 0.0;
+  std::int64_t steps = 0;
+  EnergyTrace::Mark energies;
+  SolutionFile::Mark solution;
+  void archive(Archive& a);
+};
+
+struct Checkpoint {
+  std::string name;  // of the file
+  SavedRun run;
+  Archive rest;  // what the time loop has written, to be read by it
+};
+
+// The file: a line that says what it is, the length and the CRC-32 of what follows, and that.
+std::string checkpoint_bytes(const Archive& archive);
+// Throws Error where it cannot be read, is damaged, or is of another format.
+Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+// The newest checkpoint of a folder that is whole, and with whose beginning the files of the folder agree. `notes` gets
+// a sentence for each that is not. Throws Error, with these, where there is none.
+Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& notes);
+
+bool has_checkpoint(const std::filesystem::path& directory);
+
+}  // namespace seiche

@@ -1,0 +1,38 @@
+// When a run shows everything that evolves in it to somebody who keeps it, so that it can go on from there.
+#pragma once
+
+#include <seiche/core/control/archive.hpp>
+#include <seiche/core/function_ref.hpp>
+
+#include <cstdint>
+
+namespace seiche {
+
+// Asked between two steps. A run that reads what was saved goes on from there to the same bits.
+class Checkpoints {
+ public:
+  enum class Wish { none, save, save_and_stop };
+
+  virtual ~Checkpoints() = default;
+  // After n steps; costs a comparison as long as nobody could want one. Keepers that follow a clock, or wait for a
+  // signal, look at it a hundred times a second at most.
+  Wish wish(std::int64_t n) { return n < next_look_ ? Wish::none : look(n); }
+  // run(archive) writes the run, behind whatever is in the archive.
+  virtual void save(FunctionRef<void(Archive&)> run) = 0;
+
+ protected:
+  virtual Wish look(std::int64_t n) = 0;
+  void look_again_at(std::int64_t n) { next_look_ = n; }
+
+ private:
+  std::int64_t next_look_ = 0;
+};
+
+// Of a run: who keeps checkpoints of it, and where it goes on from. Both may be null. A run with events keeps none,
+// since what an event has done cannot be read anywhere.
+struct Resumption {
+  Checkpoints* checkpoints = nullptr;
+  Archive* from = nullptr;  // read up to where the run begins
+};
+
+}  // namespace seiche

@@ -1,0 +1,129 @@
+// seiche resume, and what signals leave for it.
+#include <test/support/background.hpp>
+#include <test/support/program.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::Background;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CheckpointCli : public test::Cli {
+ protected:
+  // A run of some seconds, and the files of one that nobody stops.
+  void SetUp() override {
+    write_case("", "h = \"1/512\"");
+    ASSERT_EQ(seiche("run case.toml --quiet --out whole --set " + keys()).exit, 0);
+  }
+  static std::string keys() { return "time.end=800 output.energy_every=64 output.snapshot_every=512"; }
+  std::vector<std::string> arguments(const std::string& more = "time.end=800") const {
+    return {"run",
+            "case.toml",
+            "--quiet",
+            "--out",
+            "out",
+            "--set",
+            more,
+            "output.energy_every=64",
+            "output.snapshot_every=512"};
+  }
+  bool has(const std::string& name) const { return fs::exists(directory / "out" / name); }
+  fs::file_time_type written_at(const std::string& name) const {  // the least where it is not there
+    std::error_code none;
+    return fs::last_write_time(directory / "out" / name, none);
+  }
+  bool computes() const { return has("energy.csv.partial") && fs::file_size(directory / "out/energy.csv.partial") > 0; }
+  void expect_whole() const {
+    for (const char* name : {"energy.csv", "final.txt", "solution.xdmf"})
+      EXPECT_EQ(text(fs::path("out") / name), text(fs::path("whole") / name)) << name;
+    const SolutionReader whole(directory / "whole/solution.h5"), out(directory / "out/solution.h5");
+    ASSERT_EQ(whole.times(), out.times());
+    for (Index k = 0; k < whole.count(); ++k) ASSERT_EQ(state(whole, k), state(out, k)) << k;
+  }
+};
+
+TEST_F(CheckpointCli, IsWhatEverySignalToEndLeaves) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    Background run(directory, arguments());
+    ASSERT_TRUE(Background::wait_until([&] { return computes(); }));
+    ASSERT_EQ(run.end(signal), 130) << signal << text("stderr.txt");
+    EXPECT_EQ(json::parse(text("out/summary.json"))["status"], "interrupted");
+    ASSERT_TRUE(has("checkpoint.seiche")) << signal;
+    const Result resumed = seiche("resume out --quiet");
+    EXPECT_EQ(resumed.exit, 0) << resumed.err;
+    EXPECT_EQ(json::parse(text("out/summary.json"))["status"], "success");
+    expect_whole();
+    fs::remove_all(directory / "out");
+  }
+}
+
+TEST_F(CheckpointCli, IsWhatUsr1AsksForAndTheRunGoesOn) {
+  Background run(directory, arguments("time.end=1e7"));
+  ASSERT_TRUE(Background::wait_until([&] { return computes(); }));
+  run.send(SIGUSR1);
+  EXPECT_TRUE(Background::wait_until([&] { return has("checkpoint.seiche"); }));
+  EXPECT_FALSE(has("final.txt")) << "it goes on";
+  EXPECT_EQ(run.end(SIGTERM), 130);
+}
+
+TEST_F(CheckpointCli, OfARunThatWasKilledLeadsToTheSameFiles) {
+  for (int kills = 0; kills < 40; ++kills) {
+    std::vector<std::string> words = kills == 0 ? arguments() : std::vector<std::string>{"resume", "out", "--quiet"};
+    if (kills == 0) words.emplace_back("checkpoint.every_steps=1000");
+    Background run(directory, words);
+    const auto before = written_at("checkpoint.seiche");
+    const bool goes_on = Background::wait_until(
+        [&] { return has("final.txt") || (has("checkpoint.seiche") && written_at("checkpoint.seiche") != before); });
+    ASSERT_TRUE(goes_on) << text("stderr.txt");
+    if (has("final.txt")) break;
+    EXPECT_EQ(run.end(SIGKILL), -SIGKILL);
+  }
+  if (!has("final.txt")) {
+    ASSERT_EQ(seiche("resume out --quiet").exit, 0) << text("stderr.txt");
+  }
+  Background::wait_until([&] { return has("summary.json"); });
+  expect_whole();
+}
+
+TEST_F(CheckpointCli, IsNotRemovedByAnotherRun) {
+  Background run(directory, arguments());
+  ASSERT_TRUE(Background::wait_until([&] { return computes(); }));
+  ASSERT_EQ(run.end(SIGINT), 130);
+  const Result again = seiche("run case.toml --quiet --out out");
+  EXPECT_EQ(again.exit, 2);
+  EXPECT_THAT(again.err, AllOf(HasSubstr("seiche resume out"), HasSubstr("--restart")));
+  EXPECT_EQ(seiche("resume out --quiet").exit, 0);
+  expect_whole();
+  EXPECT_EQ(seiche("resume out").exit, 2) << "that run has come to its end";
+}
+
+TEST_F(CheckpointCli, EndsARunThatHasUsedItsHours) {
+  const Result stopped = seiche("run case.toml --out out --max-hours 1e-5 --set " + keys());
+  EXPECT_EQ(stopped.exit, 130);
+  EXPECT_THAT(stopped.err, HasSubstr("after 1e-05 hours as asked; `seiche resume out` goes on from there"));
+  const Result farther = seiche("resume out --until 801 --json");
+  EXPECT_EQ(farther.exit, 0) << farther.err;
+  EXPECT_EQ(json::parse(farther.out)["t"], 801);
+}
+
+TEST_F(CheckpointCli, RunsWithoutAReaderOfItsMessages) {
+  EXPECT_EQ(std::system(("cd '" + directory.string() + "' && bash -c \"'" + test::program_path() +
+                         "' run case.toml --out closed 2> >(true)\"")
+                            .c_str()),
+            0);
+  EXPECT_TRUE(fs::exists(directory / "closed/final.txt"));
+}
+
+}  // namespace
+}  // namespace seiche

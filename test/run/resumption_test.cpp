@@ -1,0 +1,166 @@
+// A run goes on from a checkpoint to the same bits, whatever it is.
+#include <test/support/cases.hpp>
+
+#include <seiche/run/adaptive.hpp>
+#include <seiche/simulation/simulation.hpp>
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace seiche::test {
+namespace {
+
+// One checkpoint, after n steps, and on.
+class AfterSteps : public Checkpoints {
+ public:
+  explicit AfterSteps(std::int64_t n) : n_(n) {}
+  void save(FunctionRef<void(Archive&)> run) override {
+    Archive archive;
+    run(archive);
+    bytes = archive.bytes();
+  }
+  std::optional<std::string> bytes;
+
+ private:
+  Wish look(std::int64_t n) override {
+    look_again_at(n + 1);
+    return n >= n_ && !bytes ? Wish::save : Wish::none;
+  }
+  std::int64_t n_;
+};
+
+class Energies : public Observer {
+ public:
+  bool is_due(const State&, bool) const override { return true; }
+  void observe(const State& state, const EnergyReading& energy) override {
+    t.push_back(state.t);
+    rows.insert(rows.end(), {state.t, energy.H, energy.modified, energy.ledger.sum()});
+  }
+  double next_time() const override { return 0.1 * static_cast<double>(1 + t.size()); }
+  void finish(const RunReport&) override {}
+  std::vector<double> t, rows;
+};
+
+struct Kind {
+  std::string method, backend;
+  std::optional<double> tolerance;
+  bool ledger = false;
+};
+
+struct Outcome {
+  Vector z;
+  RunReport report;
+  std::vector<double> rows;
+};
+
+Outcome run(const Problem& problem, const Kind& kind, const Resumption& resumption, const std::string& objection = "") {
+  Simulation simulation(problem, {.method = kind.method,
+                                  .backend = kind.backend,
+                                  .variable_steps = kind.tolerance.has_value(),
+                                  .tolerance = kind.tolerance.value_or(0.0)});
+  if (kind.ledger) simulation.stepper().keep_ledger();
+  Energies energies;
+  Observer* const observers[] = {&energies};
+  AdaptiveStepper* const adaptive = kind.tolerance ? &simulation.adaptive_stepper() : nullptr;
+  Outcome outcome;
+  outcome.report = integrate_either(simulation.system(), simulation.stepper(), adaptive, simulation.state(),
+                                    {.tolerance = kind.tolerance.value_or(0.0),
+                                     .t_end = 0.35,
+                                     .first_h = kind.tolerance ? 0.0 : 1.0 / 64,
+                                     .law = promise_energy_law(simulation, 0.35),
+                                     .objection = [&] { return objection; },
+                                     .resumption = resumption},
+                                    observers);
+  outcome.z = simulation.state().z;
+  outcome.rows = energies.rows;
+  return outcome;
+}
+
+// The rows of a run that goes on are the last ones of the whole run, bit for bit, and so is all else.
+void expect_same_run(const Problem& problem, const Kind& kind, std::int64_t n, const std::string& name) {
+  AfterSteps keeper(n);
+  const Outcome whole = run(problem, kind, {.checkpoints = &keeper});
+  ASSERT_TRUE(keeper.bytes) << name << ": " << whole.report.message;
+  Archive archive(*keeper.bytes);
+  const Outcome rest = run(problem, kind, {.from = &archive});
+  EXPECT_TRUE(archive.is_at_end()) << name;
+  EXPECT_EQ(rest.z, whole.z) << name;
+  ASSERT_LT(rest.rows.size(), whole.rows.size()) << name;
+  const auto behind = whole.rows.end() - static_cast<std::ptrdiff_t>(rest.rows.size());
+  EXPECT_EQ(rest.rows, std::vector<double>(behind, whole.rows.end())) << name;
+  EXPECT_EQ(rest.report.message, whole.report.message) << name;
+  EXPECT_EQ(rest.report.steps, whole.report.steps) << name;
+  EXPECT_EQ(rest.report.energy.initial, whole.report.energy.initial) << name;
+  EXPECT_EQ(rest.report.energy.max_increase, whole.report.energy.max_increase) << name;
+  EXPECT_EQ(rest.report.modified.max_increase, whole.report.modified.max_increase) << name;
+  EXPECT_EQ(rest.report.scalar_iterations, whole.report.scalar_iterations) << name;
+  EXPECT_EQ(rest.report.replaced.count, whole.report.replaced.count) << name;
+  EXPECT_EQ(rest.report.law, whole.report.law) << name;
+  EXPECT_GE(rest.report.potential_counts.gradients, whole.report.potential_counts.gradients) << name;
+}
+
+class ResumptionOf : public testing::TestWithParam<std::string> {};
+
+TEST_P(ResumptionOf, GoesOnToTheSameBitsOnEveryBackend) {
+  std::int64_t n = 0;
+  for (const auto& [name, problem] : all_cases()) {
+    if (!applies(GetParam(), problem)) continue;
+    for (const BackendEntry& backend : backends_for(problem)) {
+      n = (n + 7) % 19;  // after the first steps, in the middle, near the end
+      const Kind kind{.method = GetParam(),
+                      .backend = std::string(backend.name),
+                      .tolerance = {},
+                      .ledger = n % 5 == 0};
+      expect_same_run(problem, kind, n, name + " " + kind.backend + " after step " + std::to_string(n));
+    }
+  }
+}
+
+TEST_P(ResumptionOf, GoesOnToTheSameBitsWithVariableSteps) {
+  std::int64_t n = 0;
+  for (const auto& [name, problem] : all_cases()) {
+    if (!applies(GetParam(), problem)) continue;
+    n = (n + 1) % 3;
+    const Kind kind{.method = GetParam(), .backend = "auto", .tolerance = 1e-3};
+    expect_same_run(problem, kind, n, name + " after step " + std::to_string(n));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMethod, ResumptionOf, testing::ValuesIn(method_names()),
+                         [](const auto& of) { return of.param; });
+
+// The rate is negative before the checkpoint alone: the promise of the run that goes on is withdrawn all the same.
+TEST(Resumption, KeepsWhatARunHasMetBefore) {
+  const Problem problem = klein_gordon_case();
+  const Kind kind{.method = "seisav", .backend = "dense", .tolerance = {}};
+  AfterSteps keeper(3);
+  run(problem, kind, {.checkpoints = &keeper}, "the rate is negative at t = 0.01");
+  Archive archive(*keeper.bytes);
+  const Outcome rest = run(problem, kind, {.from = &archive});
+  EXPECT_EQ(rest.report.law, LawVerdict::not_promised);
+  EXPECT_EQ(rest.report.law_reason, "the rate is negative at t = 0.01");
+}
+
+TEST(Resumption, RefusesBytesThatAreNoCheckpoint) {
+  const Problem problem = klein_gordon_case();
+  const Kind fixed{.method = "seisav", .backend = "dense", .tolerance = {}};
+  AfterSteps keeper(3);
+  run(problem, fixed, {.checkpoints = &keeper});
+  const std::string bytes = *keeper.bytes;
+  for (const std::size_t length : {std::size_t{0}, std::size_t{7}, bytes.size() / 2, bytes.size() - 1}) {
+    Archive archive(bytes.substr(0, length));
+    const Outcome outcome = run(problem, fixed, {.from = &archive});
+    EXPECT_EQ(outcome.report.status, RunReport::Status::failed) << length;
+    EXPECT_NE(outcome.report.message.find("damaged"), std::string::npos) << outcome.report.message;
+  }
+  Archive of_other_steps(bytes);
+  const Outcome outcome =
+      run(problem, {.method = "seisav", .backend = "dense", .tolerance = 1e-3}, {.from = &of_other_steps});
+  EXPECT_EQ(outcome.report.status, RunReport::Status::failed);
+}
+
+}  // namespace
+}  // namespace seiche::test
