@@ -21,13 +21,9 @@ using testing::HasSubstr;
 
 class CheckpointCli : public test::Cli {
  protected:
-  // A run of some seconds, and the files of one that nobody stops.
-  void SetUp() override {
-    write_case("", "h = \"1/512\"");
-    ASSERT_EQ(seiche("run case.toml --quiet --out whole --set " + keys()).exit, 0);
-  }
-  static std::string keys() { return "time.end=800 output.energy_every=64 output.snapshot_every=512"; }
-  std::vector<std::string> arguments(const std::string& more = "time.end=800") const {
+  void SetUp() override { write_case("", "h = \"1/512\""); }
+  static std::string keys() { return "time.end=400 output.energy_every=64 output.snapshot_every=512"; }
+  std::vector<std::string> arguments(const std::string& more = "time.end=400") const {
     return {"run",
             "case.toml",
             "--quiet",
@@ -44,9 +40,13 @@ class CheckpointCli : public test::Cli {
     return fs::last_write_time(directory / "out" / name, none);
   }
   bool computes() const { return has("energy.csv.partial") && fs::file_size(directory / "out/energy.csv.partial") > 0; }
+  // What is there is what a run leaves that nobody stops.
   void expect_whole() const {
+    if (!fs::exists(directory / "whole")) {
+      ASSERT_EQ(seiche("run case.toml --quiet --out whole --set " + keys()).exit, 0);
+    }
     for (const char* name : {"energy.csv", "final.txt", "solution.xdmf"})
-      EXPECT_EQ(text(fs::path("out") / name), text(fs::path("whole") / name)) << name;
+      EXPECT_TRUE(text(fs::path("out") / name) == text(fs::path("whole") / name)) << name;
     const SolutionReader whole(directory / "whole/solution.h5"), out(directory / "out/solution.h5");
     ASSERT_EQ(whole.times(), out.times());
     for (Index k = 0; k < whole.count(); ++k) ASSERT_EQ(state(whole, k), state(out, k)) << k;
@@ -80,19 +80,18 @@ TEST_F(CheckpointCli, IsWhatUsr1AsksForAndTheRunGoesOn) {
 TEST_F(CheckpointCli, OfARunThatWasKilledLeadsToTheSameFiles) {
   for (int kills = 0; kills < 40; ++kills) {
     std::vector<std::string> words = kills == 0 ? arguments() : std::vector<std::string>{"resume", "out", "--quiet"};
-    if (kills == 0) words.emplace_back("checkpoint.every_steps=1000");
+    if (kills == 0) words.emplace_back("checkpoint.every_steps=20000");
     Background run(directory, words);
     const auto before = written_at("checkpoint.seiche");
     const bool goes_on = Background::wait_until(
         [&] { return has("final.txt") || (has("checkpoint.seiche") && written_at("checkpoint.seiche") != before); });
     ASSERT_TRUE(goes_on) << text("stderr.txt");
-    if (has("final.txt")) break;
+    if (has("final.txt")) {
+      EXPECT_EQ(run.end(0), 0) << text("stderr.txt");  // no signal: it has all but ended
+      break;
+    }
     EXPECT_EQ(run.end(SIGKILL), -SIGKILL);
   }
-  if (!has("final.txt")) {
-    ASSERT_EQ(seiche("resume out --quiet").exit, 0) << text("stderr.txt");
-  }
-  Background::wait_until([&] { return has("summary.json"); });
   expect_whole();
 }
 
@@ -112,9 +111,9 @@ TEST_F(CheckpointCli, EndsARunThatHasUsedItsHours) {
   const Result stopped = seiche("run case.toml --out out --max-hours 1e-5 --set " + keys());
   EXPECT_EQ(stopped.exit, 130);
   EXPECT_THAT(stopped.err, HasSubstr("after 1e-05 hours as asked; `seiche resume out` goes on from there"));
-  const Result farther = seiche("resume out --until 801 --json");
+  const Result farther = seiche("resume out --until 401 --json");
   EXPECT_EQ(farther.exit, 0) << farther.err;
-  EXPECT_EQ(json::parse(farther.out)["t"], 801);
+  EXPECT_EQ(json::parse(farther.out)["t"], 401);
 }
 
 TEST_F(CheckpointCli, RunsWithoutAReaderOfItsMessages) {
