@@ -4,10 +4,99 @@
 #include <paper/side_studies.hpp>
 #include <paper/verdicts.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/output/csv_text.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 
 namespace seiche {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string error_table(const ExampleResult& example) {
+  std::string text =
+      "method,h,error,energy_error,max_energy_increase,max_modified_increase,order,steps,scalar_iterations,"
+      "fallbacks,unresolved,cpu_seconds,energy_law_held,failure\n";
+  for (const StudyRow& row : example.rows) {
+    fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{},{},{},{:.6g},{},{}\n",
+                   csv_field(row.method), row.h, row.error, row.energy_error, row.max_energy_increase,
+                   row.max_modified_increase, row.order ? fmt::format("{:.6g}", *row.order) : "", row.steps,
+                   row.scalar_iterations, row.fallbacks, row.unresolved, row.cpu_seconds, row.energy_law_held,
+                   csv_field(row.failure));
+  }
+  return text;
+}
+
+// Long form, since curves need not share their abscissae.
+std::string curve_table(const std::vector<Curve>& curves, const char* x, const char* y) {
+  std::string text = fmt::format("curve,{},{}\n", x, y);
+  for (const Curve& curve : curves) {
+    for (std::size_t i = 0; i < curve.t.size(); ++i) {
+      fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g}\n", csv_field(curve.name), curve.t[i],
+                     curve.value[i]);
+    }
+  }
+  return text;
+}
+
+std::string verdict_table(const PaperResults& results) {
+  std::string text = "example,claim,source,outcome,measured,remark,quick\n";
+  for (const Verdict& v : results.verdicts) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", csv_field(v.example), csv_field(v.claim),
+                   csv_field(v.source), to_string(v.outcome), csv_field(v.measured), csv_field(v.remark),
+                   results.quick);
+  }
+  return text;
+}
+
+Json json_of(const StudyRow& row) {
+  Json json = {{"method", row.method},
+               {"h", row.h},
+               {"error", row.error},
+               {"energy_error", row.energy_error},
+               {"max_energy_increase", row.max_energy_increase},
+               {"max_modified_increase", row.max_modified_increase},
+               {"order", row.order ? Json(*row.order) : Json(nullptr)},
+               {"steps", row.steps},
+               {"scalar_iterations", row.scalar_iterations},
+               {"fallbacks", row.fallbacks},
+               {"unresolved", row.unresolved},
+               {"cpu_seconds", row.cpu_seconds},
+               {"energy_law_held", row.energy_law_held}};
+  if (!row.failure.empty()) json["failure"] = row.failure;
+  return json;
+}
+
+Json json_of(const ExampleResult& example) {
+  Json rows = Json::array();
+  for (const StudyRow& row : example.rows) rows.push_back(json_of(row));
+  return {{"key", example.key},     {"title", example.title},         {"parameters", example.parameters},
+          {"t_end", example.t_end}, {"reference", example.reference}, {"reference_error", example.reference_error},
+          {"rows", std::move(rows)}};
+}
+
+Json json_of(const SideStudy& study) {
+  Json curves = Json::array();
+  for (const Curve& curve : study.curves) {
+    curves.push_back({{"name", curve.name}, {"x", curve.t}, {"y", curve.value}});
+  }
+  return {{"key", study.key},         {"title", study.title},     {"explanation", study.explanation},
+          {"x_label", study.x_label}, {"y_label", study.y_label}, {"curves", std::move(curves)}};
+}
+
+Json json_of(const Verdict& verdict) {
+  return {{"example", verdict.example},   {"claim", verdict.claim},
+          {"source", verdict.source},     {"outcome", to_string(verdict.outcome)},
+          {"measured", verdict.measured}, {"remark", verdict.remark}};
+}
+
+}  // namespace
 
 PaperResults run_paper(const PaperOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
@@ -56,6 +145,33 @@ PaperResults run_paper(const PaperOptions& options) {
   tell(1.0, stopped() ? "stopped" : "done");
   results.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return results;
+}
+
+void write_results(const PaperResults& results, const std::filesystem::path& directory) {
+  const std::filesystem::path data = directory / "data";
+  make_directory(data);
+  for (const ExampleResult& example : results.examples) {
+    write_file(data / (example.key + "_errors.csv"), error_table(example));
+    write_file(data / (example.key + "_energy.csv"), curve_table(example.energy, "t", "H"));
+    write_file(data / (example.key + "_energy_errors.csv"), curve_table(example.energy_errors, "t", "energy_error"));
+  }
+  for (const SideStudy& study : results.side_studies) {
+    write_file(data / (study.key + ".csv"), curve_table(study.curves, "x", "y"));
+  }
+  write_file(directory / "verdicts.csv", verdict_table(results));
+}
+
+std::string paper_json(const PaperResults& results) {
+  Json examples = Json::array(), side_studies = Json::array(), verdicts = Json::array();
+  for (const ExampleResult& example : results.examples) examples.push_back(json_of(example));
+  for (const SideStudy& study : results.side_studies) side_studies.push_back(json_of(study));
+  for (const Verdict& verdict : results.verdicts) verdicts.push_back(json_of(verdict));
+  const Json document = {{"quick", results.quick},
+                         {"seconds", results.seconds},
+                         {"examples", std::move(examples)},
+                         {"side_studies", std::move(side_studies)},
+                         {"verdicts", std::move(verdicts)}};
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace seiche

@@ -1,8 +1,13 @@
+#include <seiche/core/error.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/adaptive/error_estimate.hpp>
 #include <seiche/method/nonlinear_force.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace seiche {
@@ -101,10 +106,99 @@ class Estimated final : public AdaptiveStepper {
   Vector physical_;
 };
 
+class Doubled final : public AdaptiveStepper {
+ public:
+  // A step that may fail instead of being taken another way; one of `stepper`.
+  using Attempt = std::function<StepReport(State&, double h)>;
+  using Blur = std::function<double()>;  // how far round-off in H may have moved what it gave
+
+  Doubled(const System& system, std::unique_ptr<Stepper> stepper, Attempt attempt, Blur blur, int order)
+      : system_(system),
+        stepper_(std::move(stepper)),
+        attempt_(std::move(attempt)),
+        blur_(std::move(blur)),
+        order_(order) {
+    difference_.setZero(system.space->size());
+    physical_.setZero(system.space->physical_size());
+  }
+
+  void begin(State& s) override { stepper_->begin(s); }
+  StepReport step(State& s, double h) override { return stepper_->step(s, h); }
+  EnergyReading energy(const State& s) const override { return stepper_->energy(s); }
+  bool has_modified_energy() const override { return stepper_->has_modified_energy(); }
+  void keep_ledger() override { stepper_->keep_ledger(); }
+  void expect(double error_rate) override { stepper_->expect(error_rate); }
+  int order() const override { return order_; }
+
+  StepReport attempt(State& s, double h) override {
+    before_ = whole_ = s;
+    h_ = h;
+    StepReport report = attempt_(whole_, h);
+    if (!report.solved()) return report;
+    moved_ = blur_();
+    const StepReport first = attempt_(s, h / 2);
+    moved_ += blur_();
+    middle_ = s;
+    const StepReport second = first.solved() ? attempt_(s, h / 2) : StepReport{};
+    moved_ += blur_();
+    report.ledger = {};
+    report += first;
+    report += second;
+    s.n = before_.n + 1;
+    if (!report.solved()) s = before_;
+    return report;
+  }
+
+  std::optional<double> error(const State& s) override {
+    difference_ = whole_.z - s.z;
+    system_.space->to_physical(difference_, physical_);
+    if (!system_.space->is_finite(physical_)) return std::numeric_limits<double>::infinity();
+    return std::max(0.0, system_.space->max_norm(physical_) - moved_) / (std::exp2(order_) - 1);
+  }
+
+  void undo(State& s) override { s = before_; }
+
+  void interpolate(const State& s, double t, Vector& z) override {
+    const State& left = t <= middle_.t ? before_ : middle_;
+    between_ = left;
+    if (t == left.t || stepper_->step(between_, t - left.t).solved())
+      z = between_.z;
+    else  // between two states that are good
+      z = before_.z + ((t - before_.t) / h_) * (s.z - before_.z);
+  }
+
+  void forget(State&) override {}
+  void restart(State& s) override { begin(s); }
+
+ private:
+  const System& system_;
+  std::unique_ptr<Stepper> stepper_;
+  Attempt attempt_;
+  Blur blur_;
+  int order_;
+  State before_, middle_, whole_, between_;
+  double h_ = 0, moved_ = 0;
+  Vector difference_, physical_;
+};
+
 }  // namespace
 
 std::unique_ptr<AdaptiveStepper> with_error_estimate(const System& system, std::unique_ptr<Stepper> stepper) {
   return std::make_unique<Estimated>(system, std::move(stepper));
+}
+
+std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<ProjectedStepper> stepper,
+                                                    int order) {
+  ProjectedStepper& projected = *stepper;
+  return std::make_unique<Doubled>(
+      system, std::move(stepper), [&projected](State& s, double h) { return projected.attempt(s, h); },
+      [&projected] { return projected.blur(); }, order);
+}
+
+std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<Stepper> stepper, int order) {
+  Stepper& plain = *stepper;
+  return std::make_unique<Doubled>(
+      system, std::move(stepper), [&plain](State& s, double h) { return plain.step(s, h); }, [] { return 0.0; }, order);
 }
 
 }  // namespace seiche
