@@ -1,6 +1,7 @@
-#include <seiche/figure/picture_choice.hpp>
+#include <seiche/figure/bars_picture.hpp>
 #include <seiche/figure/plot/axis.hpp>
 #include <seiche/figure/plot/symbols.hpp>
+#include <seiche/figure/run_curves.hpp>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,8 @@
 #include <seiche/figure/child_program.hpp>
 #include <seiche/figure/film.hpp>
 #include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/picture_choice.hpp>
+#include <seiche/figure/plot/curves.hpp>
+#include <seiche/figure/run_maps.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 
 #include <fmt/format.h>

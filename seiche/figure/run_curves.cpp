@@ -1,10 +1,10 @@
 #include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/picture_choice.hpp>
 #include <seiche/figure/plot/coincide.hpp>
 #include <seiche/figure/plot/corners.hpp>
 #include <seiche/figure/plot/curves.hpp>
 #include <seiche/figure/plot/style.hpp>
 #include <seiche/figure/plot/symbols.hpp>
+#include <seiche/figure/run_curves.hpp>
 
 #include <fmt/format.h>
 
@@ -249,25 +249,6 @@ CurvePicture profiles(const RunFiles& run, const SolutionReader& solution, Index
 }
 
 }  // namespace
-
-std::vector<Index> spread(Index count, Index most) {
-  std::vector<Index> chosen;
-  const Index n = std::min(count, most);
-  for (Index i = 0; i < n; ++i) chosen.push_back(n > 1 ? i * (count - 1) / (n - 1) : 0);
-  return chosen;
-}
-
-std::string run_name(const RunFiles& run) {
-  if (run.problem != "custom") return run.problem;
-  const std::filesystem::path folder = std::filesystem::absolute(run.directory / "").lexically_normal().parent_path();
-  return folder.filename().empty() ? run.problem : folder.filename().string();
-}
-
-std::string shortfall(const RunFiles& run) {
-  std::string text = run.status == "success" ? "" : fmt::format("{} at t = {:.6g}", run.status, run.t);
-  if (run.law == "violated") text += text.empty() ? "the energy law is violated" : ", the energy law is violated";
-  return text;
-}
 
 std::string title_of(const RunFiles& run, const std::string& what) {
   const std::string steps = run.spec.tolerance ? fmt::format("tolerance {:g}", *run.spec.tolerance)

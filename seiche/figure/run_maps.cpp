@@ -1,6 +1,7 @@
-#include <seiche/figure/picture_choice.hpp>
 #include <seiche/figure/plot/curves.hpp>
 #include <seiche/figure/plot/symbols.hpp>
+#include <seiche/figure/run_curves.hpp>
+#include <seiche/figure/run_maps.hpp>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,8 @@
+#include <seiche/figure/bars_picture.hpp>
 #include <seiche/figure/drawing_folder.hpp>
 #include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/picture_choice.hpp>
+#include <seiche/figure/run_curves.hpp>
+#include <seiche/figure/run_maps.hpp>
 #include <seiche/figure/run_pictures.hpp>
 
 #include <algorithm>

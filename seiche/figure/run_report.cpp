@@ -1,13 +1,14 @@
 #include <seiche/core/error.hpp>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/picture_choice.hpp>
 #include <seiche/figure/plot/curves.hpp>
 #include <seiche/figure/plot/style.hpp>
 #include <seiche/figure/plot/symbols.hpp>
 #include <seiche/figure/report_style.hpp>
+#include <seiche/figure/run_curves.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/run_folder.hpp>
+#include <seiche/study/run_files.hpp>
 
 #include <fmt/format.h>
 

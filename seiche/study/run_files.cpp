@@ -3,6 +3,7 @@
 #include <seiche/problem/problems.hpp>
 #include <seiche/study/run_files.hpp>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -90,6 +91,18 @@ RunFiles read_run(const std::filesystem::path& directory) {
     if (version.is_string()) run.versions[name] = version;
   read_certificate(member(summary, "certificate"), run);
   return run;
+}
+
+std::string run_name(const RunFiles& run) {
+  if (run.problem != "custom") return run.problem;
+  const std::filesystem::path folder = std::filesystem::absolute(run.directory / "").lexically_normal().parent_path();
+  return folder.filename().empty() ? run.problem : folder.filename().string();
+}
+
+std::string shortfall(const RunFiles& run) {
+  std::string text = run.status == "success" ? "" : fmt::format("{} at t = {:.6g}", run.status, run.t);
+  if (run.law == "violated") text += text.empty() ? "the energy law is violated" : ", the energy law is violated";
+  return text;
 }
 
 }  // namespace seiche

@@ -44,4 +44,11 @@ struct RunFiles {
 // Throws Error where `directory` is none of a single finished run, saying what is missing.
 RunFiles read_run(const std::filesystem::path& directory);
 
+// What titles call the run: its problem, or its folder where the problem was written down and has no name of its own.
+std::string run_name(const RunFiles& run);
+
+// Below every title of a run that is not what was asked for: "failed at t = 3.2", "the energy law is violated"; else
+// "".
+std::string shortfall(const RunFiles& run);
+
 }  // namespace seiche

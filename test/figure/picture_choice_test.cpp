@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 #include <seiche/config/case/run_spec.hpp>
-#include <seiche/figure/picture_choice.hpp>
+#include <seiche/figure/bars_picture.hpp>
 #include <seiche/figure/plot/symbols.hpp>
+#include <seiche/figure/run_curves.hpp>
+#include <seiche/figure/run_maps.hpp>
 #include <seiche/problem/truss.hpp>
 
 #include <algorithm>

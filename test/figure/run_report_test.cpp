@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/picture_choice.hpp>
 #include <seiche/figure/run_report.hpp>
+#include <seiche/study/run_files.hpp>
 
 #include <unistd.h>
 
