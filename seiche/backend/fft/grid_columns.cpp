@@ -1,11 +1,10 @@
 #include <seiche/backend/fft/fftw_plan.hpp>
-#include <seiche/backend/fft/grid_lines.hpp>
+#include <seiche/backend/fft/grid_columns.hpp>
 #include <seiche/backend/fft/line_kinds.hpp>
 
 #include <fftw3.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace seiche {
@@ -120,13 +119,6 @@ class RealColumns final : public ColumnTransform {
 };
 
 }  // namespace
-
-double slot_scale(const GridAxis& axis) {
-  const auto n = static_cast<double>(axis.intervals);
-  return axis.boundary == Boundary::periodic ? std::sqrt(2 / n) : 1 / std::sqrt(2 * n);
-}
-
-double value_scale(const GridAxis& axis) { return 1 / std::sqrt(2 * static_cast<double>(axis.intervals)); }
 
 std::unique_ptr<ColumnTransform> fourier_columns(const Lines& lines, bool measure) {
   return std::make_unique<FourierColumns>(lines, measure);

@@ -1,6 +1,7 @@
 #include <seiche/backend/fft/fftw_plan.hpp>
-#include <seiche/backend/fft/grid_lines.hpp>
+#include <seiche/backend/fft/grid_rows.hpp>
 #include <seiche/backend/fft/line_kinds.hpp>
+#include <seiche/backend/fft/sine_rows.hpp>
 
 #include <fftw3.h>
 

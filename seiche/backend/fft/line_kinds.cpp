@@ -2,6 +2,8 @@
 
 #include <fftw3.h>
 
+#include <cmath>
+
 namespace seiche {
 
 LineKinds kinds_of(Boundary boundary) {
@@ -18,5 +20,12 @@ std::vector<Index> modes_alone(const GridAxis& axis) {
   if (axis.boundary == Boundary::periodic && axis.intervals % 2 == 0) return {0, axis.intervals / 2};
   return {0};
 }
+
+double slot_scale(const GridAxis& axis) {
+  const auto n = static_cast<double>(axis.intervals);
+  return axis.boundary == Boundary::periodic ? std::sqrt(2 / n) : 1 / std::sqrt(2 * n);
+}
+
+double value_scale(const GridAxis& axis) { return 1 / std::sqrt(2 * static_cast<double>(axis.intervals)); }
 
 }  // namespace seiche

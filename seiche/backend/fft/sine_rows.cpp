@@ -1,5 +1,5 @@
 #include <seiche/backend/fft/fftw_plan.hpp>
-#include <seiche/backend/fft/grid_lines.hpp>
+#include <seiche/backend/fft/sine_rows.hpp>
 #include <seiche/core/simd/multiversion.hpp>
 
 #include <fftw3.h>
