@@ -1,4 +1,5 @@
 #include <paper/verdicts.hpp>
+#include <paper/verdicts_overall.hpp>
 #include <seiche/core/error.hpp>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <paper/verdicts.hpp>
+#include <paper/verdicts_overall.hpp>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,4 @@
-// What a graph of operations tells beside its values: mean slopes, sizes of terms, and Taylor coefficients of
-// polynomials.
-#include <seiche/formula/expression_graph.hpp>
+#include <seiche/formula/expression_slopes.hpp>
 
 #include <algorithm>
 #include <cmath>

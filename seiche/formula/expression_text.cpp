@@ -1,7 +1,5 @@
-// Expressions as a reader would write them, and in one order: computer algebra keeps its terms in another one every
-// run.
 #include <seiche/formula/algebra_functions.hpp>
-#include <seiche/formula/formula_expression.hpp>
+#include <seiche/formula/expression_text.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

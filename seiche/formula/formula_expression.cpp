@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/formula/algebra_functions.hpp>
 #include <seiche/formula/expansion.hpp>
+#include <seiche/formula/expression_text.hpp>
 #include <seiche/formula/formula_expression.hpp>
 #include <seiche/formula/formula_parser.hpp>
 

@@ -1,5 +1,5 @@
 #include <seiche/core/numerics/gauss_rule.hpp>
-#include <seiche/formula/expression_graph.hpp>
+#include <seiche/formula/expression_slopes.hpp>
 #include <seiche/potential/formula_potential.hpp>
 #include <seiche/potential/loops.hpp>
 

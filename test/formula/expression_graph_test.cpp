@@ -1,5 +1,5 @@
 // Formulas as a graph: values, and differences without cancellation.
-#include <seiche/formula/expression_graph.hpp>
+#include <seiche/formula/expression_slopes.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // What the paper claims, judged by rows of numbers.
 #include <paper/paper.hpp>
 #include <paper/verdicts.hpp>
+#include <paper/verdicts_overall.hpp>
 #include <seiche/study/converge.hpp>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #include <seiche/config/custom/custom_case.hpp>
+#include <seiche/config/custom/custom_names.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/formula/formula_text.hpp>
 

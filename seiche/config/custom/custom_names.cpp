@@ -1,4 +1,4 @@
-#include <seiche/config/custom/custom_problem.hpp>
+#include <seiche/config/custom/custom_names.hpp>
 #include <seiche/core/error.hpp>
 
 #include <algorithm>

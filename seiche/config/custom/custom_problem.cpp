@@ -1,3 +1,4 @@
+#include <seiche/config/custom/custom_names.hpp>
 #include <seiche/config/custom/custom_problem.hpp>
 #include <seiche/config/custom/energy_split.hpp>
 #include <seiche/config/custom/field_potential.hpp>

@@ -30,9 +30,6 @@ struct CustomProblem {
   std::map<std::string, std::string> initial = {};  // a formula in x, y, z and j for every field; empty: zero
 };
 
-// The fields, where none are given too. Throws Error for names that formulas could not tell apart.
-std::vector<std::string> field_names(const CustomProblem& custom);
-
 // Its first note says the split into ½zᵀMz and V. Throws Error with the place in the formula where one cannot be read,
 // where the tables do not fit the fields, where no M ⪰ 0 can be found, or where V has no finite force at the initial
 // state.

@@ -1,6 +1,7 @@
 #include <seiche/config/custom/operator_formula.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/formula/expansion.hpp>
+#include <seiche/formula/expression_text.hpp>
 #include <seiche/formula/formula_expression.hpp>
 
 #include <algorithm>

@@ -1,7 +1,6 @@
-// Does an energy fall when its fields shrink together?
+#include <seiche/config/custom/outward_growth.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 #include <seiche/formula/algebra_functions.hpp>
-#include <seiche/formula/formula_expression.hpp>
 
 #include <algorithm>
 #include <cmath>
