@@ -1,9 +1,225 @@
 #include <seiche/backend/grid/beyond_linear.hpp>
-#include <seiche/backend/grid/friction_damping.hpp>
-#include <seiche/backend/grid/grid_force.hpp>
-#include <seiche/backend/grid/grid_structure.hpp>
+#include <seiche/backend/grid/grid_space.hpp>
+#include <seiche/backend/grid/segment.hpp>
+#include <seiche/core/damping.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/external_force.hpp>
+#include <seiche/core/momenta.hpp>
+#include <seiche/core/structure.hpp>
+
+#include <algorithm>
+#include <vector>
 
 namespace seiche {
+namespace {
+
+// ---- R: friction
+
+Momenta required_momenta(const Problem& problem) {
+  const std::optional<Momenta> found = momenta(problem);
+  if (!found)
+    throw Error(
+        "the friction {} acts on velocities, and {} has none: z = (q, p) with q̇ = wp, S = [[0, I], [−I, 0]] and w times "
+        "the identity in M is what it needs",
+        problem.friction->text(), problem.name);
+  return *found;
+}
+
+// Linear damping together with friction. The flow of R stands between two halves of that of D: symmetric, of order two,
+// and each factor keeps the law.
+class FrictionDamping final : public Damping {
+ public:
+  // `problem` has friction. Throws Error where it has no momenta for it.
+  FrictionDamping(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
+                  std::unique_ptr<Damping> linear);
+
+  bool is_zero() const override { return false; }
+  bool is_linear() const override { return false; }
+  bool touches_potential() const override { return touches_potential_; }
+  void flow(double t, double h, Vector& z) const override;
+  void apply(double t, const Vector& z, Vector& out) const override;
+  bool is_constant() const override { return false; }
+  void add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
+                            Vector& out) const override {
+    linear_->add_quadrature_error(t, h, c, w, z, out);
+  }
+  void apply_rest(double t, const Vector& z, Vector& out) const override;
+  void apply_D0(const Vector& z, Vector& out) const override { linear_->apply_D0(z, out); }
+  std::int64_t corrections() const override { return friction_->corrections(); }
+
+ private:
+  void read_points(const Vector& z) const;                          // q_ and v_
+  void add_friction(double t, const Vector& z, Vector& out) const;  // out += R(t, z)
+
+  FrictionPointer friction_;
+  Momenta momenta_;
+  std::shared_ptr<const FieldTransform> transform_;
+  std::unique_ptr<Damping> linear_;
+  bool touches_potential_;
+  mutable Vector q_, v_, r_;  // at the points
+  mutable Vector slots_;      // of one field
+};
+
+FrictionDamping::FrictionDamping(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
+                                 std::unique_ptr<Damping> linear)
+    : friction_(problem.friction),
+      momenta_(required_momenta(problem)),
+      transform_(std::move(transform)),
+      linear_(std::move(linear)),
+      touches_potential_(problem.damping_moves_potential()),
+      slots_(transform_->slots()) {
+  for (Vector* v : {&q_, &v_, &r_}) v->setZero(momenta_.count * transform_->unknowns());
+}
+
+void FrictionDamping::read_points(const Vector& z) const {
+  const Index slots = transform_->slots(), points = transform_->unknowns();
+  for (Index f = 0; f < momenta_.count; ++f) {
+    transform_->inverse(segment(z, (momenta_.first + f) * slots, slots), segment(v_, f * points, points));
+    if (friction_->uses_coordinates())
+      transform_->inverse(segment(z, f * slots, slots), segment(q_, f * points, points));
+  }
+  v_ *= momenta_.inverse_mass;
+}
+
+void FrictionDamping::flow(double t, double h, Vector& z) const {
+  const Index slots = transform_->slots(), points = transform_->unknowns();
+  if (!linear_->is_zero()) linear_->flow(t, h / 2, z);
+  read_points(z);
+  friction_->flow(t, h, momenta_.inverse_mass, all(q_), all(v_));
+  v_ /= momenta_.inverse_mass;
+  for (Index f = 0; f < momenta_.count; ++f)
+    transform_->forward(segment(v_, f * points, points), segment(z, (momenta_.first + f) * slots, slots));
+  if (!linear_->is_zero()) linear_->flow(t + h / 2, h / 2, z);
+}
+
+void FrictionDamping::add_friction(double t, const Vector& z, Vector& out) const {
+  const Index slots = transform_->slots(), points = transform_->unknowns();
+  read_points(z);
+  friction_->force(t, all(q_), all(v_), all(r_));
+  for (Index f = 0; f < momenta_.count; ++f) {
+    transform_->forward(segment(r_, f * points, points), all(slots_));
+    out.segment((momenta_.first + f) * slots, slots) += slots_;
+  }
+}
+
+void FrictionDamping::apply(double t, const Vector& z, Vector& out) const {
+  linear_->apply(t, z, out);
+  add_friction(t, z, out);
+}
+
+void FrictionDamping::apply_rest(double t, const Vector& z, Vector& out) const {
+  linear_->apply_rest(t, z, out);
+  add_friction(t, z, out);
+}
+
+// ---- f: external forces
+
+class GridForce final : public ExternalForce {
+ public:
+  GridForce(const Problem& problem, std::shared_ptr<const FieldTransform> transform);
+  void add(double t, double factor, Vector& out) const override;
+  void impulse(double t, double h, Vector& z) const override;
+  bool touches_potential() const override { return touches_potential_; }
+
+ private:
+  void add_slots(std::size_t field, double factor, Vector& out) const;  // of what stands in points_
+
+  std::vector<FieldRatePointer> forces_;
+  std::shared_ptr<const FieldTransform> transform_;
+  bool touches_potential_ = false;
+  mutable Vector points_, slots_;  // of one field
+};
+
+GridForce::GridForce(const Problem& problem, std::shared_ptr<const FieldTransform> transform)
+    : forces_(problem.forces),
+      transform_(std::move(transform)),
+      points_(transform_->unknowns()),
+      slots_(transform_->slots()) {
+  for (std::size_t f = 0; f < forces_.size(); ++f)
+    if (forces_[f] && problem.potential_depends_on(static_cast<Index>(f))) touches_potential_ = true;
+}
+
+void GridForce::add_slots(std::size_t field, double factor, Vector& out) const {
+  transform_->forward(all(points_), all(slots_));
+  out.segment(static_cast<Index>(field) * slots_.size(), slots_.size()) += factor * slots_;
+}
+
+void GridForce::add(double t, double factor, Vector& out) const {
+  for (std::size_t f = 0; f < forces_.size(); ++f) {
+    if (!forces_[f]) continue;
+    forces_[f]->values(t, all(points_));
+    add_slots(f, factor, out);
+  }
+}
+
+void GridForce::impulse(double t, double h, Vector& z) const {
+  for (std::size_t f = 0; f < forces_.size(); ++f) {
+    if (!forces_[f]) continue;
+    forces_[f]->integrals(t, h, all(points_));
+    add_slots(f, 1, z);
+  }
+}
+
+// ---- S(z) − S: the part of a structure matrix that changes with the state
+
+class GridStructure final : public Structure {
+ public:
+  // `derivative`: of the coordinates of one field; null where problem.derivative is zero.
+  GridStructure(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
+                std::unique_ptr<LinearMap> derivative);
+  void apply(const Vector& z, const Vector& w, Vector& out) const override;
+  bool without_means(const Vector& z, Vector& d) const override;
+
+ private:
+  void differentiate(std::span<const double> u, std::span<double> out) const;
+
+  StructurePointer structure_;
+  std::shared_ptr<const FieldTransform> transform_;
+  GridSpace space_;
+  std::unique_ptr<LinearMap> derivative_;
+  mutable Vector z_, w_, out_;               // at the points, all fields
+  mutable Vector slots_, derivative_slots_;  // of one field
+};
+
+GridStructure::GridStructure(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
+                             std::unique_ptr<LinearMap> derivative)
+    : structure_(problem.structure),
+      transform_(std::move(transform)),
+      space_(problem.field_count(), transform_),
+      derivative_(std::move(derivative)),
+      slots_(transform_->slots()),
+      derivative_slots_(transform_->slots()) {
+  for (Vector* v : {&z_, &w_, &out_}) v->setZero(problem.size());
+}
+
+void GridStructure::differentiate(std::span<const double> u, std::span<double> out) const {
+  if (!derivative_) {
+    std::fill(out.begin(), out.end(), 0.0);
+    return;
+  }
+  transform_->forward(u, all(slots_));
+  derivative_->apply(slots_, derivative_slots_);
+  transform_->inverse(all(derivative_slots_), out);
+}
+
+void GridStructure::apply(const Vector& z, const Vector& w, Vector& out) const {
+  space_.to_physical(z, z_);
+  space_.to_physical(w, w_);
+  structure_->apply(
+      all(z_), all(w_), [this](std::span<const double> u, std::span<double> du) { differentiate(u, du); }, all(out_));
+  space_.from_physical(out_, out);
+}
+
+bool GridStructure::without_means(const Vector& z, Vector& d) const {
+  if (!structure_->keeps_means()) return false;
+  const Index n = transform_->unknowns();
+  space_.to_physical(z, z_);
+  for (Index f = 0; f * n < z_.size(); ++f) z_.segment(f * n, n).array() -= z_.segment(f * n, n).mean();
+  space_.from_physical(z_, d);
+  return true;
+}
+
+}  // namespace
 
 void add_beyond_linear(System& system, const Problem& problem, const std::shared_ptr<const FieldTransform>& transform,
                        FunctionRef<std::unique_ptr<LinearMap>()> make_derivative) {
