@@ -2,7 +2,6 @@
 #include <seiche/config/case/case_keys.hpp>
 #include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/case/ensemble_case.hpp>
-#include <seiche/config/case/snapshot_steps.hpp>
 #include <seiche/core/error.hpp>
 
 #include <fmt/format.h>
@@ -14,6 +13,18 @@
 
 namespace seiche {
 namespace {
+
+// How many steps of h > 0 the interval > 0 between snapshots takes. Throws Error, with the nearest number of steps,
+// where it is no multiple of h: steps of one size come to no other times than theirs.
+std::int64_t steps_between_snapshots(const std::string& key, const CaseValue& interval, double h) {
+  constexpr double round_off = 1e-9;
+  const double time = read_number(key, interval);
+  const double every = std::max(1.0, std::round(time / h));
+  if (std::abs(time - every * h) > round_off * time)
+    throw Error("{} = {} is no multiple of h = {}: write snapshot_every = {}, for one every {}, or another h", key,
+                interval.shown(), h, every, every * h);
+  return static_cast<std::int64_t>(every);
+}
 
 // The sections in turn; those beside [problem] and [method] are read here.
 class Sections {

@@ -1,15 +1,58 @@
 #include <seiche/config/case/case_keys.hpp>
 #include <seiche/config/case/ensemble_case.hpp>
-#include <seiche/config/case/key_synonyms.hpp>
-#include <seiche/config/case/method_option_keys.hpp>
+#include <seiche/config/case/method_section.hpp>
 #include <seiche/config/custom/custom_case.hpp>
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+#include <vector>
 
 namespace seiche {
 namespace {
+
+// A key by its meaning.
+struct MeantKey {
+  std::string section, key;  // both "" for a word that means none
+};
+
+// What other programs call the keys of a case file.
+struct Synonyms {
+  const char* section;
+  const char* key;
+  std::vector<std::string> words;  // lower case, without "_"
+};
+
+const std::vector<Synonyms>& synonyms() {
+  static const std::vector<Synonyms> all = {
+      {"method", "name", {"method", "solver", "integrator", "scheme"}},
+      {"method", "h", {"dt", "h0", "dt0", "deltat", "step", "stepsize", "timestep", "timestepsize", "firststep"}},
+      {"method",
+       "tolerance",
+       {"tol", "rtol", "atol", "reltol", "abstol", "relativetolerance", "absolutetolerance", "accuracy", "precision"}},
+      {"method", "h_max", {"hmax", "maxh", "dtmax", "maxdt", "maxstep", "maxstepsize", "maximumstep"}},
+      {"time", "end", {"t", "tend", "tmax", "tfinal", "finaltime", "endtime", "tstop", "duration"}},
+      {"output", "directory", {"dir", "folder", "out", "outdir"}},
+      {"output", "snapshot_interval", {"saveat", "dtout", "dtsave", "saveinterval"}},
+      {"output", "snapshot_every", {"saveevery", "nsave", "nout"}},
+      {"problem", "initial", {"z0", "y0", "u0", "ic", "initialcondition", "initialconditions", "initialstate"}},
+      {"problem", "boundary", {"bc", "bcs", "boundaryconditions", "boundarycondition"}},
+      {"problem", "points", {"n", "nx", "gridpoints", "resolution"}},
+      {"problem", "length", {"l", "lx", "domain"}},
+  };
+  return all;
+}
+
+// { "method", "h" } for "dt", { "method", "tolerance" } for "rtol".
+MeantKey meant_key(std::string_view word) {
+  std::string plain;
+  for (const char c : word)
+    if (c != '_' && c != '-') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const Synonyms& key : synonyms())
+    if (std::find(key.words.begin(), key.words.end(), plain) != key.words.end()) return {key.section, key.key};
+  return {};
+}
 
 bool has(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();

@@ -1,4 +1,4 @@
-// The options of methods as keys of [method].
+// [method] of a case file, which read_method_section reads (case_reading.hpp): the options of methods as its keys.
 #pragma once
 
 #include <seiche/config/case/case_value.hpp>
