@@ -3,7 +3,6 @@
 #include <test/support/error_of.hpp>
 
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/law/law.hpp>

@@ -2,7 +2,7 @@
 #include <test/support/cases.hpp>
 #include <test/support/worst.hpp>
 
-#include <seiche/damping/field_rates.hpp>
+#include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/problem/chain.hpp>

@@ -1,6 +1,5 @@
 // External forces: the driven oscillator, the work they do, and what is refused.
 #include <seiche/core/error.hpp>
-#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/problem/oscillator.hpp>

@@ -5,7 +5,6 @@
 
 #include <seiche/core/error.hpp>
 #include <seiche/core/numerics/eigenpairs.hpp>
-#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>

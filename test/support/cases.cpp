@@ -2,7 +2,6 @@
 
 #include <seiche/config/custom/custom_problem.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>

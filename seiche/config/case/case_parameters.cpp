@@ -3,7 +3,6 @@
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/config/data/matrix_market.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 

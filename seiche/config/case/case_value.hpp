@@ -2,7 +2,7 @@
 // sentence that names the key, the value and what is allowed; the place is put before it by the caller.
 #pragma once
 
-#include <seiche/core/text/toml_real.hpp>
+#include <seiche/core/text/number_text.hpp>
 
 #include <cstddef>
 #include <string>

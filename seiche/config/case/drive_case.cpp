@@ -4,9 +4,9 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/core/text/axis_names.hpp>
-#include <seiche/damping/field_rates.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
+#include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
 #include <fmt/ranges.h>

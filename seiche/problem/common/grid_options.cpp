@@ -1,7 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/grid/truncated_potential.hpp>
 #include <seiche/core/physical_memory.hpp>
-#include <seiche/core/text/toml_real.hpp>
+#include <seiche/core/text/number_text.hpp>
 #include <seiche/problem/common/grid_options.hpp>
 
 #include <algorithm>

@@ -2,10 +2,12 @@
 // that it sets. A row without a default takes that of the options.
 #pragma once
 
-#include <seiche/core/text/toml_real.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/text/number_text.hpp>
 #include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <initializer_list>
 #include <memory>
@@ -16,7 +18,11 @@
 namespace seiche {
 
 // Throws Error with the nearest name.
-std::size_t place_among(const std::vector<std::string>& names, const std::string& name);
+inline std::size_t place_among(const std::vector<std::string>& names, const std::string& name) {
+  const auto place = std::find(names.begin(), names.end(), name);
+  if (place == names.end()) throw unknown_name("choice", name, names);
+  return static_cast<std::size_t>(place - names.begin());
+}
 
 template <class Options>
 class ProblemRows {
