@@ -54,6 +54,13 @@ struct PaperResults {
   double seconds = 0.0;
 };
 
-std::string to_string(Outcome outcome);  // "holds", "does not hold", "depends"
+inline std::string to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::holds: return "holds";
+    case Outcome::does_not_hold: return "does not hold";
+    case Outcome::depends: return "depends";
+  }
+  return "unknown";
+}
 
 }  // namespace seiche

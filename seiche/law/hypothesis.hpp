@@ -1,6 +1,7 @@
 // What is known about one hypothesis, how, and who stands against it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,9 @@ struct Hypothesis {
   std::string witness = {};                     // the vector, mode, point or time that shows it
 };
 
-std::string to_string(Grade grade);  // "by structure", "verified with margin", "sampled", "violated"
+inline std::string to_string(Grade grade) {
+  constexpr std::array names = {"by structure", "verified with margin", "sampled", "violated"};
+  return names[static_cast<std::size_t>(grade)];
+}
 
 }  // namespace seiche

@@ -2,7 +2,6 @@
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/law/ecld.hpp>
 #include <seiche/law/law.hpp>
-#include <seiche/law/law_matrices.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +61,46 @@ LawPromise promise_of_stencils(const Problem& problem, double t_end, const Opera
   const bool feeds = (findings.MD_constant && !findings.MD_constant->holds()) ||
                      (damping.rate && findings.MD_rate && !findings.MD_rate->holds());
   if (feeds) return {false, "sym(MD) is not positive semidefinite: the damping feeds some mode"};
+  return promise_given_semidefinite_MD(problem);
+}
+
+bool in_rate_field(const Problem& problem, Index row) {
+  return problem.damping.rate_fields[static_cast<std::size_t>(row / problem.grid.unknowns())];
+}
+
+// M diagonal in the rows of the fields that γ(x, t) damps: then sym(MD) ⪰ 0 whatever γ ≥ 0.
+bool metric_is_diagonal_where_damped(const Problem& problem) {
+  bool diagonal = true;
+  for_entries(problem.matrices->M, [&](Index i, Index j, double value) {
+    diagonal = diagonal && (i == j || value == 0 || !in_rate_field(problem, i));
+  });
+  return diagonal;
+}
+
+// What stands against sym(MD) ⪰ 0 for the rates of a problem stated by matrices, or "".
+std::string complaint_about_rates(const Problem& problem, double t_end) {
+  const LinearDamping& damping = problem.damping;
+  if (std::string text = complaint_about_rate(damping.rate.get(), t_end); !text.empty()) return text;
+  if (std::string text = complaint_about_rate(damping.field_rate.get(), t_end); !text.empty()) return text;
+  if (damping.field_rate && !metric_is_diagonal_where_damped(problem))
+    return fmt::format("the rate {} changes from point to point and M is not diagonal where it damps",
+                       damping.field_rate->text());
+  return "";
+}
+
+// M ⪰ 0, sym(S) ⪯ 0 and sym(MD) ⪰ 0 by factorisation.
+LawPromise promise_of_matrices(const Problem& problem, double t_end, const OperatorFindings& findings) {
+  const LinearDamping& damping = problem.damping;
+  if (const auto& x = findings.M.negative_direction)
+    return {false, fmt::format("M is not positive semidefinite (zᵀMz = {:.3g} for a z of norm 1)", x->value)};
+  if (const auto& x = findings.minus_S.negative_direction)
+    return {false, fmt::format("sym(S) is not negative semidefinite (zᵀSz = {:.3g} for a z of norm 1)", -x->value)};
+  if (!problem.has_damping()) return {true, "sym(S) ⪯ 0 and no damping flow"};
+
+  if (std::string text = complaint_about_rates(problem, t_end); !text.empty()) return {false, text};
+  const bool feeds = (findings.MD_constant && !findings.MD_constant->holds()) ||
+                     (damping.rate && findings.MD_rate && !findings.MD_rate->holds());
+  if (feeds) return {false, "sym(MD) is not positive semidefinite: the damping feeds some direction"};
   return promise_given_semidefinite_MD(problem);
 }
 
@@ -154,8 +193,8 @@ LawPromise promise_energy_law(const Problem& problem, double t_end) {
 LawPromise promise_energy_law(const Problem& problem, double t_end, const OperatorFindings& findings) {
   if (const std::string complaint = complaints_beyond_linear(problem, t_end); !complaint.empty())
     return {false, complaint};
-  LawPromise promise = problem.matrices ? promise_energy_law_of_matrices(problem, t_end, findings)
-                                        : promise_of_stencils(problem, t_end, findings);
+  LawPromise promise =
+      problem.matrices ? promise_of_matrices(problem, t_end, findings) : promise_of_stencils(problem, t_end, findings);
   promise.never_grows = promise.promised;
   promise.never_changes = findings.S_is_skew && !is_damped(problem);
   return promise;

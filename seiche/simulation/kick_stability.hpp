@@ -1,4 +1,4 @@
-// Do the parts of a method that are explicit suit the step size?
+// Does a step size suit the method: its explicit parts, its splitting, and the work of its exponentials?
 #pragma once
 
 #include <seiche/simulation/simulation.hpp>
@@ -20,7 +20,11 @@ std::string beyond_rate(const Simulation& simulation, double h, double t_end);
 // solution at the start, nothing is left of that after h.
 std::string beyond_splitting(const Simulation& simulation, double h);
 
-// All of these and what exponentials of the sparse backend cost: what there is to say of this h before a run.
+// The same where exponentials of the sparse backend take time in proportion to h times the fastest rate, and that is
+// large.
+std::string work_of_exponentials(const Simulation& simulation, const SparseOptions& options, double h, double t_end);
+
+// All of these: what there is to say of this h before a run.
 std::vector<std::string> notes_on_step_size(const Simulation& simulation, const SparseOptions& options, double h,
                                             double t_end);
 

@@ -2,7 +2,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/problem/sparse.hpp>
-#include <seiche/simulation/sparse_work.hpp>
+#include <seiche/simulation/kick_stability.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,17 @@
 // Newton's method for G(y) = 0 with GMRES on difference quotients of G: the fallback of implicit closures.
 #pragma once
 
+#include <seiche/core/function_ref.hpp>
 #include <seiche/core/space.hpp>
 
 #include <functional>
 
 namespace seiche {
+
+// x with |b − Ax| ≤ tolerance·|b|, or the best in the Krylov space of `most` products, from x = 0 (Saad, Schultz, SIAM
+// J. Sci. Stat. Comput. 7, 1986). Allocates. `apply`: out = Aw.
+Vector gmres(const Space& space, FunctionRef<void(const Vector& w, Vector& out)> apply, const Vector& b, int most,
+             double tolerance);
 
 struct NewtonKrylovReport {
   bool converged = false;

@@ -1,4 +1,4 @@
-#include <seiche/method/closure/gmres.hpp>
+#include <seiche/method/closure/newton_krylov.hpp>
 #include <test/support/plain_space.hpp>
 
 #include <gtest/gtest.h>
