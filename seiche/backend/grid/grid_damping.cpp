@@ -92,7 +92,7 @@ void GridDamping::apply_rest(double t, const Vector& z, Vector& out) const {
   add_rates((rate_ ? rate_->value(t) : 0.0) - rate_of_D0_, field_rate_ ? &field_rate_->values(t) : nullptr, z, out);
 }
 
-double GridDamping::blind_part(double t, double h) const {
+double GridDamping::integral_error_at_ends(double t, double h) const {
   const EndExtrapolation& ends = end_extrapolation();
   double begin = rate_->value(t), end = rate_->value(t + h);
   for (std::size_t i = 0; i < EndExtrapolation::count; ++i) {
@@ -108,7 +108,7 @@ void GridDamping::add_quadrature_error(double t, double h, std::span<const doubl
   if (is_constant()) return;
   double missed = rate_ ? rate_->integral(t, h) : 0.0;
   for (std::size_t i = 0; rate_ && i < c.size(); ++i) missed -= h * w[i] * rate_->value(t + c[i] * h);
-  if (rate_) missed += std::copysign(h * blind_part(t, h), missed);
+  if (rate_) missed += std::copysign(h * integral_error_at_ends(t, h), missed);
   const bool varies = field_rate_ && !field_rate_->is_constant();
   if (varies) {
     missed_ = field_rate_->integrals(t, h);

@@ -39,7 +39,7 @@ class GridDamping final : public Damping {
   bool field_factors(double t, double h, std::span<double> factors) const override;
 
  private:
-  double blind_part(double t, double h) const;  // of γ(t), in units of h
+  double integral_error_at_ends(double t, double h) const;  // of ∫γ, where γ jumps there; in units of h
   void apply_constant(const Vector& z, Vector& out) const;
   void constant_flow(double h, Vector& z) const;
   void rates_flow(double t, double h, Vector& z) const;
