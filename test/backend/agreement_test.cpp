@@ -39,7 +39,7 @@ TEST(Agreement, EveryProblemRunsOnTheBackendsThatItShould) {
 
 class AgreementOf : public testing::TestWithParam<std::string> {};
 
-TEST_P(AgreementOf, EveryBackendWithTheReferenceOverTenTimeUnits) {
+TEST_P(AgreementOf, EveryBackendAgreesWithTheReferenceOverTenTimeUnits) {
   const std::string& method = GetParam();
   for (const auto& [name, problem] : all_cases()) {
     if (!applies(method, problem)) continue;

@@ -62,7 +62,7 @@ TEST_F(Cli, ARunAcrossAPoleOfTheRateIsRefused) {
   EXPECT_EQ(seiche("run case.toml --out out --set time.end=0.5 method.h=0.05").exit, 0);
 }
 
-TEST_F(Cli, WhatIsNoFileOfNumbersAndWhatDrownsTheEnergyIsRefused) {
+TEST_F(Cli, ValuesThatCannotBeMeantAreRefused) {
   write_case();
   EXPECT_THAT(refused("run case.toml --out out --set 'problem.initial={file=\"/dev/zero\"}'"), HasSubstr("/dev/zero"));
   EXPECT_THAT(refused("run case.toml --out out --set method.C=1e300"), HasSubstr("round-off"));

@@ -180,7 +180,7 @@ TEST_F(Survival, WhatIsRecoveredOfAKilledRunPassesTheAudit) {
   EXPECT_THAT(text("stderr.txt"), HasSubstr("holds no run"));
 }
 
-TEST_F(Survival, OfAnEnsembleThatWasKilledTheStatisticsAreKept) {
+TEST_F(Survival, AKilledEnsembleKeepsItsStatistics) {
   write_case();
   std::vector<std::string> words = endless();
   words.insert(words.end(), {"ensemble.members=3", "ensemble.perturb_initial=0.01"});

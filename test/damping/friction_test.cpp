@@ -139,7 +139,7 @@ TEST(Friction, AFlowOfOnesOwnThatRaisesTheEnergyIsScaledBackAndCounted) {
   EXPECT_GE(fallbacks, 100);
 }
 
-TEST(Friction, MethodsKeepTheirOrdersUnderIt) {
+TEST(Friction, MethodsKeepTheirOrdersUnderFriction) {
   struct Expected {
     const char* method;
     double order, tolerance;
@@ -197,7 +197,7 @@ TEST(Friction, VanDerPolsOscillatorFindsItsLimitCycle) {
 }
 
 // Between the coordinates that are tried before a run it feeds, and the run meets that.
-TEST(Friction, WhatTheRunMeetsIsKnownAfterIt) {
+TEST(Friction, FrictionThatARunSeesFeedingEnergyIsKnownAfterIt) {
   Problem problem = oscillator({.alpha = 0});
   problem.initial << -1.0, 0.0;
   problem.friction = formula_friction(formula("v*(1 - 2*exp(-((u+0.37)/0.005)^2))"), problem.grid);
@@ -211,14 +211,14 @@ TEST(Friction, WhatTheRunMeetsIsKnownAfterIt) {
   }
 }
 
-TEST(Friction, ThatIsNoNumberSomewherePromisesNothing) {
+TEST(Friction, FrictionThatIsNaNSomewherePromisesNoLaw) {
   for (const char* r : {"sqrt(-1-v^2)", "v+0*sqrt(-1-v^2)", "v*sqrt(1-v^2)"}) {
     const FrictionPointer friction = formula_friction(formula(r), one_point);
     EXPECT_NE(friction->feeds_at(1).find(", where R = nan"), std::string::npos) << r << ": " << friction->feeds_at(1);
   }
 }
 
-TEST(Friction, ThatFeedsAtTimesIsFoundWhateverThePeriod) {
+TEST(Friction, FrictionThatFeedsEnergyAtTimesIsFoundWhateverThePeriod) {
   const FrictionFormula c{.formula = compile_formula("0.2 + cos(3.141592653589793*t)", {"v", "u", "t", "x", "y", "z"}),
                           .uses_u = false,
                           .uses_place = false};
@@ -245,7 +245,7 @@ TEST(Friction, DryFrictionKeepsTheLawOfEveryMethodAndIsRefusedATolerance) {
     EXPECT_THROW(Simulation(problem, {.method = method, .variable_steps = true, .tolerance = 1e-5}), Error) << method;
 }
 
-TEST(Friction, ThatSaturatesReachesItsToleranceBySplitting) {
+TEST(Friction, MethodsMeetTheToleranceUnderFrictionThatSaturates) {
   Problem problem = klein_gordon_case(0.0, 1.0);
   problem.friction = saturating_friction(0.1, 0.05);
   const Reference reference = make_reference(problem, std::vector{0.0, 2.0});
@@ -259,7 +259,7 @@ TEST(Friction, ThatSaturatesReachesItsToleranceBySplitting) {
   }
 }
 
-TEST(Friction, ThatIsNoNumberFailsTheStepAndLeavesTheState) {
+TEST(Friction, FrictionThatIsNaNFailsTheStepAndLeavesTheState) {
   Problem problem = duffing_case();
   problem.friction = formula_friction(formula("0.3*v^1.5"), problem.grid);  // NaN where v < 0
   for (const char* method : {"egc6", "etdrk4", "seimp", "strang_exact", "seisav"}) {
@@ -288,7 +288,7 @@ TEST(Friction, WhatFeedsEnergyIsPromisedNoLawAndTheWitnessIsNamed) {
 }
 
 // Between two places that are looked at, and between decades.
-TEST(Friction, ThatFeedsInANarrowBandIsFound) {
+TEST(Friction, FrictionThatFeedsEnergyInANarrowBandIsFound) {
   for (const char* r : {"v*(v-2)*(v-3)", "v*((v-1.25)^2-0.05)", "v*((v-0.25)^2-0.002)", "v*((v+0.85)^2-0.02)",
                         "v*((v-0.85)^2-0.015)"}) {
     Problem p = oscillator();
@@ -303,7 +303,7 @@ TEST(Friction, ThatFeedsInANarrowBandIsFound) {
 }
 
 // Reversed van der Pol: c = 1 − u² feeds where |u| > 1, as one of the members does.
-TEST(Friction, ThatFeedsOneMemberOfAnEnsembleLeavesTheOthersTheirPromise) {
+TEST(Friction, FrictionThatFeedsOneMemberOfAnEnsembleLeavesTheOthersTheirPromise) {
   Problem p = oscillator({.omega_squared = 4.0, .alpha = 0.0});
   p.friction = position_friction(formula("1 - u^2"), p.grid);
   const auto shared = std::make_shared<const Problem>(p);
@@ -332,7 +332,7 @@ TEST(Friction, ThatFeedsOneMemberOfAnEnsembleLeavesTheOthersTheirPromise) {
 }
 
 // 10v³ at v = 3 within h = 0.1: the step is taken in parts, and that must not be missed.
-TEST(Friction, ThatAStepDoesNotResolveIsSaid) {
+TEST(Friction, FrictionThatAStepDoesNotResolveIsSaid) {
   Problem p = oscillator({.alpha = 0.0, .gamma = constant_rate(0.0)});
   p.friction = cubic_friction(10);
   p.initial = Vector{{1, 3}};

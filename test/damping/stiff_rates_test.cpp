@@ -240,7 +240,7 @@ TEST(StiffRates, MixedStiffnessIsRoundedByTheSquareOfTheFastestRate) {
 
 // S is not skew, and what it takes to zero (cᵀS = 0, S(1, −1, 2)ᵀ = 0) is not the same on its two sides: c stays, and a
 // and b turn about ±½.
-TEST(StiffRates, WhatAnSThatFeedsKeepsStays) {
+TEST(StiffRates, InvariantsStayWhereSFeedsEnergy) {
   Problem problem = sparse_problem({.fields = 1,
                                     .matrices = {.S = sparse(Matrix{{0, 1000, 500}, {-1000, 0, 500}, {0, 0, 0}}),
                                                  .M = identity_matrix(3),

@@ -345,7 +345,7 @@ TEST(Ensemble, StopsBetweenRecordsThatLieFarApartAndRecordsWhere) {
               HasSubstr("stopped before"));
 }
 
-TEST(Ensemble, EndsWithWhatARecordCouldNotDo) {
+TEST(Ensemble, EndsWithTheErrorOfARecordThatFails) {
   const std::vector<EnsembleMember> members = scaled_members(klein_gordon_case(), 3);
   int records = 0;
   const EnsembleResult result =

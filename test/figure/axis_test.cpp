@@ -31,20 +31,20 @@ TEST(Axis, PowersOfTenOfVeryLargeAndSmallNumbersStandInTheLabel) {
   EXPECT_THAT(linear_ticks(-2e5, 2e5).ticks, HasSubstr("'−1' -100000"));
 }
 
-TEST(Axis, WhatAllNumbersShareStandsInTheLabel) {
+TEST(Axis, ThePartThatAllNumbersShareStandsInTheLabel) {
   EXPECT_EQ(with_unit("'u'", linear_ticks(999.99, 1000.01)), "('(' . 'u' . ' − 1000) / 10^{−2}')");
   EXPECT_EQ(with_unit("'u'", linear_ticks(-1000.02, -1000.0)), "('(' . 'u' . ' + 1000) / 10^{−2}')");
   EXPECT_EQ(linear_ticks(299792.1, 299795.3).offset, " − 299794");
   EXPECT_EQ(linear_ticks(1e12, 1e12 + 1).offset, " − 10^{12}");
 }
 
-TEST(Axis, ThatShowsNothingButRoundOffHasAnExtent) {
+TEST(Axis, AnAxisOfNothingButRoundOffHasAnExtent) {
   const std::array values = {0.5, std::nextafter(0.5, 1.0), std::nextafter(0.5, 0.0)};
   const Axis axis = fitted_axis(false, values);
   EXPECT_GT(axis.high - axis.low, 1);
 }
 
-TEST(Axis, FromZeroEndsAtARoundNumberNearby) {
+TEST(Axis, AnAxisFromZeroEndsAtARoundNumberNearby) {
   EXPECT_EQ(axis_from_zero(19.84).high, 20);
   EXPECT_EQ(axis_from_zero(49.9).high, 50);
   EXPECT_EQ(axis_from_zero(50).high, 50);

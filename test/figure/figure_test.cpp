@@ -380,7 +380,7 @@ TEST(MethodStyle, EveryMethodThatHasAStyleLooksLikeNoOther) {
   EXPECT_EQ(method_of_curve("seisavage"), "");
 }
 
-TEST(Html, TextNumbersAndBytes) {
+TEST(Html, TextIsEscapedNumbersAreSetAndBytesAreEncoded) {
   EXPECT_EQ(html_escaped("<a href=\"x\">&'"), "&lt;a href=&quot;x&quot;&gt;&amp;&#39;");
   EXPECT_EQ(html_number(1.42e-5), "1.42·10<sup>−5</sup>");
   EXPECT_EQ(html_number(-3e7), "−3.00·10<sup>7</sup>");

@@ -229,7 +229,7 @@ TEST(Formula, EachMistakeHasItsOwnSentence) {
   EXPECT_EQ(complaint("2*u^2.0 - max(v, 0)"), "") << "the check can tell";
 }
 
-TEST(FormulaTower, OfPowersHasFourFloorsAtMost) {
+TEST(FormulaTower, PowersOfPowersAreNestedAtMostFourDeep) {
   EXPECT_NO_THROW(parse_formula("x^x^x^x^x", {"x"}));
   EXPECT_THROW(parse_formula("x^x^x^x^x^x", {"x"}), Error);
   EXPECT_THROW(parse_formula("2^(1 + x^(x^(x^(x^x))))", {"x"}), Error);

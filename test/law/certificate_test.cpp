@@ -102,7 +102,7 @@ TEST(Certificate, PromisesTheLawExactlyWhereTheRunDoes) {
   }
 }
 
-TEST(Certificate, IsNotFinishedWhereItIsToStop) {
+TEST(Certificate, StopsWhenAsked) {
   const std::atomic<bool> stop = true;
   EXPECT_EQ(error_of([&] { certify(gkdv_case(), {.t_end = 1, .stop = &stop}); }), "interrupted");
 }

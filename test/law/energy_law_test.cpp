@@ -110,7 +110,7 @@ TEST(EnergyLaw, WithoutDampingEveryMethodKeepsItsEnergyToTwelveDigits) {
 
 // Amplitudes at which every step is gross: the projection has far to go, along lines that are not rays where S has
 // Casimirs.
-TEST(EnergyLaw, OfProjectionHoldsAtLargeAmplitudes) {
+TEST(EnergyLaw, HoldsForProjectedMethodsAtLargeAmplitudes) {
   Problem both = klein_gordon_case(0.001, 1.0);  // damping of u and v: Q is no quadratic form, and V is of u alone
   both.damping.rate_fields = {true, true};
   const std::vector<std::pair<NamedProblem, std::vector<double>>> list = {{{"gKdV", gkdv_case(0.0, -0.5)},
@@ -153,7 +153,7 @@ TEST(EnergyLaw, KnowsWhereHNeverGrowsAndWhereItNeverChanges) {
   EXPECT_TRUE(!given_up.promised && given_up.never_grows && given_up.never_changes);
 }
 
-TEST(EnergyLaw, EverythingThatStandsAgainstItIsNamed) {
+TEST(EnergyLaw, NamesEverythingThatStandsAgainstIt) {
   Problem p = klein_gordon_case(-0.1, 1.0);
   p.forces = {nullptr, formula_space_rate(compile_formula("0.3*cos(t)", {"t", "x"}), 1, false)->on(p.grid)};
   EXPECT_THAT(promise_energy_law(p, 10).reason,
@@ -178,7 +178,7 @@ TEST(EnergyLaw, IsNotPromisedForFocusingGkdvWhereTheExactEnergyRises) {
   EXPECT_TRUE(promise_energy_law(gkdv_case(0.5, -1.0), 10).promised);
 }
 
-TEST(EnergyLaw, WithARateThatChangesFromPointToPointIsPromisedWhereMIsTheIdentityOnTheDampedField) {
+TEST(EnergyLaw, IsPromisedForARateInSpaceWhereMIsTheIdentityOnTheDampedField) {
   const auto rate = [](const std::string& text) {
     return formula_space_rate(compile_formula(text, {"t", "x"}), 1, false);
   };
@@ -202,7 +202,7 @@ TEST(EnergyLaw, WithARateThatChangesFromPointToPointIsPromisedWhereMIsTheIdentit
   EXPECT_GT(run(level, "seisav", "modal", 1.0 / 64, 0.1).worst_increase, 1e6);
 }
 
-TEST(EnergyLaw, OfTheModifiedEnergySurvivesAShiftTooSmallForTheMargin) {
+TEST(EnergyLaw, HoldsForTheModifiedEnergyWhereTheShiftLeavesNoMargin) {
   const Problem p = klein_gordon_case(0.1, -1.0);
   MethodOptions tight{.C = 0.1116};  // V(z₀) + C = 3e-5
   const LawRun result = run(p, "seisav", "modal", 1.0 / 64, 50, tight);

@@ -45,7 +45,7 @@ TEST(Allocation, NoStepOfAnyMethodAllocates) {
   }
 }
 
-TEST(Allocation, NorDoesOneByKicksAlone) {
+TEST(Allocation, NoStepByKicksAloneAllocates) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the address sanitizer owns malloc";
 #endif
@@ -61,7 +61,7 @@ TEST(Allocation, NorDoesOneByKicksAlone) {
   }
 }
 
-TEST(Allocation, TheCounterCounts) {
+TEST(Allocation, TheCounterSeesAnAllocation) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the address sanitizer owns malloc";
 #endif

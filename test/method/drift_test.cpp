@@ -12,7 +12,7 @@ namespace {
 
 // The equation of each step is solved to a few ε, with an error whose sign stays: 6e-12 in 10⁶ steps, were it not made
 // up for.
-TEST(DriftSlow, OfMultipliersIsNoneInAMillionStepsOfAFreePendulum) {
+TEST(DriftSlow, MultiplierMethodsDoNotDriftInAMillionStepsOfAFreePendulum) {
   const Problem pendulum = custom_problem({.H = "p^2/2 - cos(q)", .initial = {{"q", "1"}, {"p", "0.5"}}});
   for (const char* method : {"seilm", "seidm"}) {
     const Solution s = solve(pendulum, {.method = method, .h = 0.1, .t_end = 1e5, .record_every = 1000});

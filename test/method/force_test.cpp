@@ -105,7 +105,7 @@ TEST(Force, AForceThatIsNoNumberEndsTheRunWithASentence) {
   }
 }
 
-TEST(Force, OnPositionsKeepsTheOrderToo) {
+TEST(Force, AForceOnPositionsKeepsTheOrderToo) {
   Problem p = oscillator({.gamma = constant_rate(0.1)});
   p.forces = {uniform_space_rate(formula_rate(compile_formula("cos(1.7*t)", {"t"})))->on(p.grid), nullptr};
   const Reference reference = make_reference(p, std::vector{0.0, 4.0});

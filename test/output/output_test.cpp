@@ -113,7 +113,7 @@ TEST_F(Output, AFullDiskIsAnErrorAndNotSilence) {
   EXPECT_TRUE(fs::is_empty(directory));
 }
 
-TEST_F(Output, OfATableTheLinesThatHadRoomStay) {
+TEST_F(Output, ATableOnAFullDiskKeepsTheLinesThatHadRoom) {
   const SmallDisk disk(8);
   AtomicFile file(directory / "x");
   file.write("one\ntwo\nthree\n");

@@ -138,7 +138,7 @@ TEST(Adaptive, TheToleranceOfOneStepMethodsOfHighOrderIsTheError) {
   }
 }
 
-TEST(Adaptive, ElsewhereTheErrorIsWithinTwentyTolerances) {
+TEST(Adaptive, UndampedAndUnstableSolutionsStayWithinTwentyTolerances) {
   Problem well = oscillator({.omega_squared = -1.0, .gamma = nullptr});
   well.initial[0] = 0.3;
   const std::vector<NamedProblem> problems = {{"double well", well},
@@ -152,7 +152,7 @@ TEST(Adaptive, ElsewhereTheErrorIsWithinTwentyTolerances) {
   }
 }
 
-TEST(Adaptive, AskedTimesChangeNoStep) {
+TEST(Adaptive, TimesThatAreAskedForChangeNoStep) {
   const Problem p = klein_gordon_case();
   const Reference reference = make_reference(p, every_unit(10));
   for (const std::string method : {"egc6", "seisav"}) {

@@ -417,7 +417,7 @@ TEST(EnergyBook, SaysThatHAndItsModifiedEnergyHaveParted) {
   EXPECT_EQ(report.drift->text(), "H is 5 where its modified energy is 99.8, at t = 2");
 }
 
-TEST(EnergyBook, SaysWhereHWentThatNoSolutionGoes) {
+TEST(EnergyBook, SaysWhereHRoseThoughNoSolutionLetsItRise) {
   const LawPromise damped{true, "damped", true, false}, kept{true, "kept", true, true}, driven{false, "driven"};
   const RunReport risen = booked(damped, {1, 3, 300, 0.9}, true);
   EXPECT_EQ(risen.law, LawVerdict::holds);

@@ -125,7 +125,7 @@ TEST(RunThatEnds, ARunWhoseStepsHaveCollapsedEndsAfterMillionsOfThem) {
   EXPECT_LE(50 * large.ended_at(), attempts);
 }
 
-TEST(RunThatEnds, ARunThatNoMachineEndsIsEnded) {
+TEST(RunThatEnds, ARunTooLongForAnyMachineIsEnded) {
   std::string why;
   EXPECT_GT((Pace{.t_end = 1e15, .h = [](double) { return 1.0; }}.ended_at(&why)), 0);
   EXPECT_THAT(why, HasSubstr("would not end"));
@@ -167,7 +167,7 @@ TEST(RunThatEnds, LongRunsLayersPulsesAndNearCollisionsGoOn) {
 }
 
 // A pulse of a force that ends inside the first step of a method with history.
-TEST(RunThatEnds, WhatTheFirstStepDoesNotSeeIsAskedForByEveryWayIn) {
+TEST(RunThatEnds, EveryEntryPointFollowsAPulseInsideTheFirstStep) {
   const Problem p =
       make_problem(parse_case("[problem]\nname = \"oscillator\"\nomega_squared = 1.0\nalpha = 1.0\n"
                               "force = \"50*exp(-((t - 0.004)/0.0005)^2)\"",

@@ -27,7 +27,7 @@ std::string words_on_work(std::string_view method, double h, const SparseOptions
   return work_of_exponentials(simulation, options, h, 10);
 }
 
-TEST(SparseWork, OfLongStepsIsSaidBeforeTheRun) {
+TEST(SparseWork, TheWorkOfLongStepsIsSaidBeforeTheRun) {
   EXPECT_EQ(words_on_work("egc4", 1e-5), "");
   EXPECT_NE(words_on_work("egc4", 0.1).find("1e+05 Krylov substeps each"), std::string::npos)
       << words_on_work("egc4", 0.1);

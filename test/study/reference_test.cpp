@@ -33,7 +33,7 @@ TEST(Reference, FollowsTheDampedOscillatorExactly) {
   EXPECT_LT(reference.error, 1e-13);
 }
 
-TEST(Reference, ThatWouldNeverEndIsRefused) {
+TEST(Reference, AReferenceThatWouldNeverEndIsRefused) {
   Problem problem = test::duffing_case(1e9);
   for (const ReferenceKind kind : {ReferenceKind::fehlberg78, ReferenceKind::seavf}) {
     const std::string message = test::error_of([&] { make_reference(problem, {0.0, 5e8, 1e9}, {.kind = kind}); });
@@ -88,7 +88,7 @@ TEST(Reference, OfSpectralDerivativesIsRefusedWhereItsFullMatricesWouldNotFit) {
   EXPECT_THROW(make_reference(problem, {0.0, 0.01}), Error);
 }
 
-TEST(Reference, ThatOfThePaperAgreesWithTheIndependentOne) {
+TEST(Reference, ThePapersReferenceAgreesWithTheIndependentOne) {
   const std::vector<double> times = sample_times(std::vector<double>{1.0 / 64}, 1.0 / 16);
   const Reference paper = make_reference(gkdv_case(0.5, 0.001, 0.4), times, {.kind = ReferenceKind::seavf});
   EXPECT_GT(paper.error, 0);

@@ -314,7 +314,7 @@ TEST(Spectrum, WhereNothingIsLinearASentenceStandsForATableOfZeros) {
   EXPECT_THAT(table(0.1), testing::AllOf(HasSubstr("phase error"), testing::Not(HasSubstr("all its rates"))));
 }
 
-TEST(Spectrum, IsNotFinishedWhereItIsToStop) {
+TEST(Spectrum, StopsWhenAsked) {
   const std::atomic<bool> stop = true;
   EXPECT_EQ(error_of([&] { spectrum(damped_oscillator(1.0, 0.1), {.method = "seisav"}, 0.1, &stop); }), "interrupted");
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(Worst, IsNotANumberWhereAnyOfThemIsNone) {
+TEST(Worst, TheWorstOfSeveralNumbersIsNaNWhereAnyIsNaN) {
   EXPECT_TRUE(std::isnan(worse(1, nan)));
   EXPECT_TRUE(std::isnan(worse(nan, 1)));
   EXPECT_EQ(worse(1, 2), 2);

@@ -90,7 +90,7 @@ TEST(EqualRows, GiveUpWhereEveryRowIsOfItsOwnKind) {
   EXPECT_FALSE(EqualRows::of(Stencil::laplacian(narrow).sparse_matrix(narrow)));
 }
 
-TEST(EqualRows, ShowANumberThatIsNone) {
+TEST(EqualRows, PassOnANumberThatIsNaN) {
   SparseMatrix A(20, 20);  // all zero: what M is where it is singular
   const std::optional<EqualRows> rows = EqualRows::of(A);
   Vector x = Vector::Ones(20);
@@ -119,7 +119,7 @@ Vector split_by_products(const System& system, std::span<const Kicks::KickAndDri
   return z;
 }
 
-TEST(Kicks, AreThoseOfTheMatricesOneByOne) {
+TEST(Kicks, EqualThoseByProductsWithTheMatrices) {
   std::vector<NamedProblem> problems = {
       {"sine-Gordon", sine_gordon({.grid = {.points = {1000}, .length = {20.0}}})},
       {"springs", beta_fpu({.points = 700, .gamma = constant_rate(0.1)})},
@@ -155,7 +155,7 @@ TEST(Kicks, AreThoseOfTheMatricesOneByOne) {
   }
 }
 
-TEST(Kicks, ARunByThemIsTheRunByProductsOfTheModalBackend) {
+TEST(Kicks, GiveTheRunThatProductsOfTheModalBackendGive) {
   int compared = 0;
   for (const std::string method : {"crkn4", "crkn6"}) {
     for (const auto& [name, problem] : grid_cases()) {
@@ -226,7 +226,7 @@ TEST(Kicks, AreBoundedUpToTheStabilityThatIsSaidAndNotAboveIt) {
   }
 }
 
-TEST(Kicks, BeyondTheirStabilityAreSaidBeforeTheRunAndFailAfterIt) {
+TEST(Kicks, BeyondTheirStabilityAreSaidBeforeTheRunWhichFails) {
   const Problem p = klein_gordon(
       {.grid = {.points = {64}, .length = {4.0}}, .kappa = 1.0, .alpha = 1.0, .gamma = constant_rate(0.1)});
   SimulationOptions options{.method = "crkn4"};
@@ -262,7 +262,7 @@ TEST(Kicks, AreWhatExplicitMethodsRunOnByThemselves) {
   EXPECT_EQ(Simulation(chain({.points = 40, .mass = 2.0}), options).backend().name, "modal");  // p is no velocity
 }
 
-TEST(Rates, ThatStepsOfAMethodDoNotResolveAreSaidBeforeTheRun) {
+TEST(Rates, RatesThatStepsDoNotResolveAreSaidBeforeTheRun) {
   const Problem p = oscillator({.gamma = formula_rate(compile_formula("1000*sin(3*t)^2", {"t"}))});
   EXPECT_THAT(beyond_rate(Simulation(p, {.method = "egc8"}), 1.0 / 512, 10),
               testing::AllOf(testing::HasSubstr("1000*sin(3*t)^2 reaches 1e+03"), testing::HasSubstr("h ≤ 0.001")));
@@ -271,7 +271,7 @@ TEST(Rates, ThatStepsOfAMethodDoNotResolveAreSaidBeforeTheRun) {
   EXPECT_EQ(beyond_rate(Simulation(oscillator(), {.method = "egc8"}), 1, 10), "");
 }
 
-TEST(Rates, OfADampingThatIsSplitFromForcesItBalancesAreSaidBeforeTheRun) {
+TEST(Rates, RatesOfASplitDampingThatBalancesForcesAreSaidBeforeTheRun) {
   const Problem stiff = oscillator({.gamma = constant_rate(1000)});
   EXPECT_THAT(beyond_splitting(Simulation(stiff, {.method = "seisav"}), 0.1),
               testing::AllOf(testing::HasSubstr("wrong by the factor hγ/2: it is 50"),

@@ -70,7 +70,7 @@ TEST(SparsePhiSlow, ManySubstepsAgreeWithFullMatrices) {
   }
 }
 
-TEST(SparsePhi, NothingStaysNothingAndWhatIsNoNumberStaysNone) {
+TEST(SparsePhi, ZeroStaysZeroAndNaNStaysNaN) {
   const Problem problem = klein_gordon_case();
   const System system = find_backend("sparse").system(problem, {});
   const auto phi = system.make_phi();
@@ -86,7 +86,7 @@ TEST(SparsePhi, NothingStaysNothingAndWhatIsNoNumberStaysNone) {
   }
 }
 
-TEST(SparsePhi, BalancingMakesAFrequencyOfAStiffness) {
+TEST(SparsePhi, BalancingTakesTheNormFromAStiffnessToItsFrequency) {
   const Problem problem = variable_wave({.grid = {.points = {64}, .length = {1.0}, .boundary = {Boundary::dirichlet}}});
   const Matrix L = Matrix(problem.matrices->S * problem.matrices->M);
   const Vector d = balancing_scales(SparseMatrix(L.sparseView()));

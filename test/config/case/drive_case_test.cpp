@@ -57,7 +57,7 @@ TEST(DriveCase, ForcesGoToTheVelocityOrToTheFieldsThatAreNamed) {
   EXPECT_NE(make_problem(spec_with("force = 0.2", "gkdv")).forces.at(0), nullptr);  // the only field
 }
 
-TEST(DriveCase, WhatCannotBeIsRefusedInASentence) {
+TEST(DriveCase, FrictionAndForcesThatCannotBeAreRefusedInASentence) {
   EXPECT_THAT(refusal("friction = 0.3"), HasSubstr("problem.friction = 0.3 must be a table"));
   EXPECT_THAT(refusal("friction = { coefficient = 0.3 }"), HasSubstr("has no kind"));
   EXPECT_THAT(refusal("friction = { kind = \"cubik\", coefficient = 0.3 }"), HasSubstr("did you mean 'cubic'?"));

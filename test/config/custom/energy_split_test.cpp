@@ -31,7 +31,7 @@ TEST(EnergySplit, QuadraticTermsBecomeTheMetricAndTheRestThePotential) {
   EXPECT_THAT(p.notes.front(), AllOf(HasSubstr("½zᵀMz = "), HasSubstr("V = 0.25*q^4 + 7")));
 }
 
-TEST(EnergySplit, ANegativeSquareGoesToThePotentialSoThatMIsNoneTheLess) {
+TEST(EnergySplit, ANegativeSquareGoesToThePotentialSoThatMStaysSemidefinite) {
   const Problem p = make_problem(read("H = \"p^2/2 - q^2/2 + q^4/4\"\ninitial = { q = 1, p = 0 }"));
   EXPECT_EQ(p.M.matrix(p.grid), (Eigen::MatrixXd(2, 2) << 0, 0, 0, 1).finished());
   EXPECT_DOUBLE_EQ(p.potential->value(std::vector<double>{1.0}), -0.25);

@@ -102,7 +102,7 @@ TEST(WaveNumber, AFunctionHasItsLimitOnTheConstantWhateverTheLength) {
 }
 
 // ±κ of the highest wave number are one mode: what is odd in it vanishes there.
-TEST(WaveNumber, OfTheHighestOneTheMeanOverBothSignsIsTaken) {
+TEST(WaveNumber, TheHighestWaveNumberTakesTheMeanOverBothSigns) {
   const Grid line = grids()[0];
   EXPECT_EQ(entry("d_x*k^2", line).symbol(Modes(line)[4]), 0.0);
   EXPECT_NE(entry("k^2", line).symbol(Modes(line)[4]), 0.0);

@@ -48,7 +48,7 @@ TEST(SweepControl, StopsWhereWhatIsLeftIsSmallBesideTheError) {
   EXPECT_EQ(sweeps({3, true, true}, 0.0, 0.0).sweeps, 2) << "nothing changes any more";
 }
 
-TEST(SweepControl, SavesAndHopesForNothingWhereSweepsDoNotConverge) {
+TEST(SweepControl, TakesNoFurtherSweepsWhereSweepsDoNotConverge) {
   for (const double rate : {0.5, 1.0, 3.0, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_EQ(sweeps({4, true, true}, rate, 1e9).sweeps, 4) << rate;
     EXPECT_EQ(sweeps({2, true, true}, rate, 1e9).sweeps, 2) << rate;
