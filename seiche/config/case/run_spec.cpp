@@ -1,5 +1,4 @@
 #include <seiche/config/case/run_spec.hpp>
-#include <seiche/config/data/finite_force.hpp>
 #include <seiche/config/data/initial_file.hpp>
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/core/error.hpp>

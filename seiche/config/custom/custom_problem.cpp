@@ -3,7 +3,6 @@
 #include <seiche/config/custom/energy_split.hpp>
 #include <seiche/config/custom/field_potential.hpp>
 #include <seiche/config/custom/metric_terms.hpp>
-#include <seiche/config/data/finite_force.hpp>
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
