@@ -6,7 +6,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/ensemble/ensemble.hpp>
-#include <seiche/ensemble/folded_transform.hpp>
 #include <seiche/ensemble/panel_block.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/sparse.hpp>
@@ -20,70 +19,12 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <numeric>
 
 namespace seiche::test {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
 using testing::HasSubstr;
-
-Matrix fourier(Index n) {
-  Matrix T(n, n);
-  Index row = 0;
-  for (Index k = 0; 2 * k <= n; ++k) {
-    const bool alone = k == 0 || 2 * k == n;
-    for (const bool sine : {false, true}) {
-      if (sine && alone) continue;
-      for (Index j = 0; j < n; ++j) {
-        const double phase = 2 * std::numbers::pi * static_cast<double>(k * (j + 1) % n) / static_cast<double>(n);
-        T(row, j) =
-            std::sqrt((alone ? 1.0 : 2.0) / static_cast<double>(n)) * (sine ? std::sin(phase) : std::cos(phase));
-      }
-      ++row;
-    }
-  }
-  return T;
-}
-
-Matrix sines(Index n) {
-  Matrix T(n, n);
-  for (Index k = 0; k < n; ++k)
-    for (Index j = 0; j < n; ++j)
-      T(k, j) = std::sqrt(2.0 / static_cast<double>(n + 1)) *
-                std::sin(std::numbers::pi * static_cast<double>((k + 1) * (j + 1)) / static_cast<double>(n + 1));
-  return T;
-}
-
-void expect_transform(const Matrix& T, const std::string& name) {
-  const FoldedTransform folded(T);
-  const Index n = T.rows();
-  Panel values(n), coordinates(n), back(n);
-  Matrix given(n, panel_members);
-  for (Index j = 0; j < n; ++j)
-    for (Index l = 0; l < panel_members; ++l)
-      given(j, l) = values(j, l) = std::sin(static_cast<double>(j * panel_members + l));
-  folded.forward(values.row(0), coordinates.row(0));
-  folded.inverse(coordinates.row(0), back.row(0));
-  const Matrix expected = T * given;
-  for (Index j = 0; j < n; ++j) {
-    for (Index l = 0; l < panel_members; ++l) {
-      EXPECT_NEAR(coordinates(j, l), expected(j, l), 1e-13) << name << " " << n;
-      EXPECT_NEAR(back(j, l), given(j, l), 1e-13) << name << " " << n;
-    }
-  }
-}
-
-TEST(FoldedTransform, IsTheMatrixItWasMadeFrom) {
-  for (const Index n : {1, 2, 3, 5, 8, 15, 20, 32}) {
-    expect_transform(fourier(n), "Fourier");
-    expect_transform(sines(n), "sines");
-    expect_transform(Matrix::Identity(n, n), "identity");
-    expect_transform(Eigen::HouseholderQR<Matrix>(sines(n) + 0.1 * Matrix::Ones(n, n)).householderQ(), "no mirror");
-  }
-}
 
 std::vector<EnsembleMember> scaled_members(const Problem& problem, std::size_t count) {
   const auto shared = std::make_shared<const Problem>(problem);
@@ -161,7 +102,7 @@ TEST(Ensemble, TheSavAndAvfFamiliesStepSideBySide) {
   for (const Problem& problem : {klein_gordon_case(), fpu_dissipative_case(), gkdv_case(), duffing_case()}) {
     for (const MethodEntry& method : methods()) {
       if (!applies(method.name, problem)) continue;
-      const bool written = method.kind.closure == "sav" || method.kind.closure == "avf";
+      const bool written = method.kind.members != MembersTogether::none;
       EXPECT_EQ(side_by_side(problem, std::string(method.name)), written) << problem.name << " " << method.name;
     }
   }
@@ -401,22 +342,6 @@ TEST(Ensemble, RecordsTheEnergiesOfItsMembersAndJudgesTheirLaws) {
   EXPECT_NEAR(records[2].H.mean, mean, 1e-13);
   EXPECT_NEAR(records[2].H.minimum, *std::min_element(last.begin(), last.end()), 1e-13);
   EXPECT_NEAR(records[2].H.maximum, *std::max_element(last.begin(), last.end()), 1e-13);
-}
-
-TEST(Statistics, AreTheTextbookOnes) {
-  std::vector<double> values = {4, 1, 3, 2, 10};
-  const Statistics s = statistics(values);
-  EXPECT_DOUBLE_EQ(s.mean, 4);
-  EXPECT_DOUBLE_EQ(s.standard_deviation, std::sqrt(12.5));
-  EXPECT_DOUBLE_EQ(s.minimum, 1);
-  EXPECT_DOUBLE_EQ(s.median, 3);
-  EXPECT_DOUBLE_EQ(s.maximum, 10);
-  EXPECT_DOUBLE_EQ(s.low, 1.2);
-  EXPECT_DOUBLE_EQ(s.high, 8.8);
-  std::vector<double> one = {7};
-  EXPECT_DOUBLE_EQ(statistics(one).standard_deviation, 0);
-  EXPECT_DOUBLE_EQ(statistics(one).high, 7);
-  EXPECT_TRUE(std::isnan(statistics({}).mean));
 }
 
 }  // namespace

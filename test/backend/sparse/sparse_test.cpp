@@ -1,16 +1,11 @@
-// Sparse matrices: the backend, the problems that need it, and the files that they come from.
-#include <test/support/cases.hpp>
+// Sparse matrices: the backend, and the problems that need it.
 #include <test/support/error_of.hpp>
 #include <test/support/matrices.hpp>
-#include <test/support/paths.hpp>
-#include <test/support/temporary_directory.hpp>
 #include <test/support/worst.hpp>
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/sparse/pade_poles.hpp>
 #include <seiche/backend/sparse/resolvent.hpp>
-#include <seiche/config/case/case_file.hpp>
-#include <seiche/config/data/matrix_market.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/law/law.hpp>
@@ -24,7 +19,6 @@
 #include <Eigen/SparseLU>
 
 #include <cmath>
-#include <fstream>
 
 namespace seiche::test {
 namespace {
@@ -267,50 +261,6 @@ TEST(Sparse, MatricesThatBreakAHypothesisAreRefusedWithAWitness) {
   EXPECT_EQ(refused({.M = good}), "");
 }
 
-TEST(Sparse, DefinitenessAgreesWithEigenvalues) {
-  std::srand(7);
-  int indefinite = 0;
-  for (int k = 0; k < 60; ++k) {
-    const Matrix B = Matrix::Random(8, k % 2 == 0 ? 8 : 5);
-    const Matrix A = B * B.transpose() - (k % 3 == 0 ? 0.0 : 0.1 * (k % 7)) * Matrix::Identity(8, 8);
-    const double smallest = Eigen::SelfAdjointEigenSolver<Matrix>(A).eigenvalues().minCoeff();
-    const auto direction = negative_direction(A.sparseView());
-    EXPECT_EQ(direction.has_value(), smallest < -1e-12) << smallest;
-    indefinite += direction ? 1 : 0;
-    if (direction) {
-      EXPECT_GE(direction->value, smallest - 1e-12);
-    }
-  }
-  EXPECT_GT(indefinite, 10);
-  EXPECT_LT(indefinite, 50);
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {  // sparse: the order of elimination is not that of the unknowns
-    SparseMatrix A = small_world(30, 1, 12, seed);
-    for (Index i = 0; i < A.rows(); ++i) A.coeffRef(i, i) = 1.5 + 0.1 * static_cast<double>(seed);
-    const double smallest = Eigen::SelfAdjointEigenSolver<Matrix>(Matrix(A)).eigenvalues().minCoeff();
-    const auto direction = negative_direction(A);
-    EXPECT_EQ(direction.has_value(), smallest < 0) << smallest;
-    if (direction) {
-      EXPECT_GE(direction->value, smallest);
-    }
-  }
-}
-
-// Whose pivots are all round-off, or whose elimination leaves a direction that hardly falls.
-TEST(Sparse, TheWitnessOfAnIndefiniteMatrixIsNoRoundOff) {
-  SparseMatrix swap(2, 2);
-  swap.insert(0, 1) = swap.insert(1, 0) = 1;
-  const auto direction = negative_direction(swap);
-  ASSERT_TRUE(direction);
-  EXPECT_NEAR(direction->value, -1, 1e-6);
-  SparseMatrix four(4, 4);
-  four.insert(0, 0) = four.insert(1, 1) = 1;
-  four.insert(2, 3) = four.insert(3, 2) = 0.5;
-  const auto other = negative_direction(four);
-  ASSERT_TRUE(other);
-  EXPECT_NEAR(other->value, -0.5, 1e-6);
-  EXPECT_GE(other->largest, 2);
-}
-
 TEST(Sparse, TheMemoryOfFactorsIsKnownWithoutStructureToo) {
   // neither a wave nor symmetric: S couples every position with the next
   const SparseMatrix M = layered_wave(60).matrices->M;
@@ -331,14 +281,6 @@ TEST(Sparse, TheMemoryOfFactorsIsKnownWithoutStructureToo) {
   EXPECT_LE(expected, found * 4);
 }
 
-TEST(Sparse, StencilsWithMoreEntriesThanAMatrixCanCountAreRefused) {
-  const Grid grid{
-      .axes = {{600, 1.0, Boundary::periodic}, {600, 1.0, Boundary::periodic}, {600, 1.0, Boundary::periodic}}};
-  const Stencil laplacian = Stencil::laplacian(grid, Discretisation::fd4);
-  const std::string message = error_of([&] { laplacian.sparse_matrix(grid); });
-  EXPECT_NE(message.find("fewer points"), std::string::npos) << message;
-}
-
 TEST(Sparse, MergedDampingSolvesTheSameEquation) {
   Problem p = truss({.panels = 3, .mass = 2.5, .gamma = constant_rate(0.3)});
   const Problem merged = with_damping_merged(p);
@@ -351,74 +293,6 @@ TEST(Sparse, MergedDampingSolvesTheSameEquation) {
   b.right_hand_side(0, z, y);
   EXPECT_LE(distance(x, y), 1e-12 * largest(x));
   EXPECT_FALSE(merged.has_damping());
-}
-
-class MatrixMarket : public InTemporaryDirectory {
- protected:
-  std::filesystem::path write(const std::string& text) const {
-    std::filesystem::path file = directory / "a.mtx";
-    std::ofstream(file) << text;
-    return file;
-  }
-  std::string refusal(const std::string& text) const {
-    return error_of([&] { read_matrix_market(write(text)); });
-  }
-};
-
-TEST_F(MatrixMarket, EveryKindIsRead) {
-  Matrix expected(2, 2);
-  expected << 1, -2.5, 0, 3;
-  EXPECT_EQ(Matrix(read_matrix_market(write(
-                "%%MatrixMarket matrix coordinate real general\n% by hand\n\n2 2 3\n1 1 1\n1 2 -2.5\n2 2 +3e0\n"))),
-            expected);
-  EXPECT_EQ(Matrix(read_matrix_market(write("%%MatrixMarket matrix array real general\n2 2\n1\n0\n-2.5\n3\n"))),
-            expected);
-  expected << 0, -4, 4, 0;
-  EXPECT_EQ(Matrix(
-                read_matrix_market(write("%%MatrixMarket matrix coordinate integer skew-symmetric\n2 2 1\n2 1 4\n"))),
-            expected);
-  expected << 1, 1, 1, 0;
-  EXPECT_EQ(Matrix(read_matrix_market(write("%%MatrixMarket matrix coordinate pattern symmetric\n2 2 2\n1 1\n2 1\n"))),
-            expected);
-  expected << 1, 2, 2, 3;
-  EXPECT_EQ(Matrix(read_matrix_market(write("%%MatrixMarket MATRIX array Real Symmetric\n2 2\n1\n2\n3\n"))), expected);
-}
-
-TEST_F(MatrixMarket, AMistakeIsNamedWithItsLine) {
-  const std::string head = "%%MatrixMarket matrix coordinate real symmetric\n";
-  EXPECT_NE(refusal("1 2 3\n").find(":1: a Matrix Market file begins"), std::string::npos);
-  EXPECT_NE(
-      refusal("%%MatrixMarket matrix coordinate complex general\n").find("'complex' must be one of real, integer"),
-      std::string::npos);
-  EXPECT_NE(refusal(head + "2 2 1\n1 2 1\n").find(":3: of a symmetric matrix the file holds the lower triangle"),
-            std::string::npos);
-  EXPECT_NE(refusal(head + "2 2 1\n3 1 1\n").find("no entry (3, 1)"), std::string::npos);
-  EXPECT_NE(refusal(head + "2 2 1\n2 1 x\n").find("'x' is not a number"), std::string::npos);
-  EXPECT_NE(refusal(head + "2 2 1\n2 1 nan\n").find("not finite"), std::string::npos);
-  EXPECT_NE(refusal(head + "2 2 2\n2 1 1\n").find("ends after 1 of 2"), std::string::npos);
-  EXPECT_NE(refusal(head + "2 2 1\n2 1 1\n1 1 1\n").find(":4: more entries"), std::string::npos);
-  EXPECT_NE(refusal(head + "2 3 1\n2 1 1\n").find("square"), std::string::npos);
-  EXPECT_NE(refusal(head + "2 2 1000000000\n2 1 1\n").find("do not fit"), std::string::npos);
-  const std::string huge = refusal("%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 1 1\n");
-  EXPECT_NE(huge.find("a.mtx:2: a matrix of 2000000000 × 2000000000 needs at least"), std::string::npos) << huge;
-  EXPECT_NE(error_of([] { read_matrix_market("no_such.mtx"); }).find("no_such.mtx"), std::string::npos);
-}
-
-TEST(Sparse, CaseFilesNameMatricesBesideThemselves) {
-  const std::filesystem::path cases = std::filesystem::path(test::source_directory()) / "cases";
-  for (const std::string name : {"wave", "truss", "network", "sparse"}) {
-    const RunSpec spec = read_case(cases / (name + ".toml"));
-    Simulation simulation(make_problem(spec), simulation_options(spec));
-    const double start = simulation.energy().modified;
-    for (int n = 0; n < 5; ++n) ASSERT_TRUE(simulation.step(spec.h).solved()) << name;
-    EXPECT_LT(simulation.energy().modified, start) << name;
-    const RunSpec again = parse_case(write_case(spec), "again.toml");  // file names are absolute there
-    EXPECT_EQ(write_case(again), write_case(spec)) << name;
-  }
-  EXPECT_NE(error_of([] {
-              parse_case("[problem]\nname = \"network\"\ngraph = \"absent.mtx\"\n", "c.toml");
-            }).find("problem.graph file absent.mtx does not exist"),
-            std::string::npos);
 }
 
 }  // namespace
