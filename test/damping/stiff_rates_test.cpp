@@ -67,7 +67,7 @@ struct Outcome {
 };
 
 Outcome run(const MethodEntry& method, const Problem& problem, std::string_view backend, double h, int steps) {
-  const Problem of_method = method.kind.composition == "whole" ? with_damping_merged(problem) : problem;
+  const Problem of_method = method.kind.merges_damping ? with_damping_merged(problem) : problem;
   const System system = find_backend(backend).system(of_method, {});
   MethodOptions options;
   if (method.projects() && problem.has_damping())
@@ -96,7 +96,7 @@ Outcome run(const MethodEntry& method, const Problem& problem, std::string_view 
 bool is_exact_for_linear_equations(const MethodEntry& method, bool damped) {
   if (method.propagator == PropagatorKind::cayley && !method.projects()) return false;
   if (method.kind.composition == "chin") return false;
-  return !damped || method.projects() || method.kind.composition == "whole";
+  return !damped || method.projects() || method.kind.merges_damping;
 }
 
 TEST(StiffRates, DecoupledSlowMotionKeepsItsDigitsBesideAnyRateByEveryMethod) {
