@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <seiche/core/text/shortened.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -31,6 +32,8 @@ void print_data(std::string_view text) {
 }
 
 void print_note(std::string_view text) { print_lines(fmt::format("seiche: {}\n", text)); }
+
+void print_failure(std::string_view text) { print_note(one_line(text)); }
 
 void print_notes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) print_note(note);

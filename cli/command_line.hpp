@@ -27,8 +27,9 @@ void add_plot(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
 
-void print_data(std::string_view text);  // to stdout; throws std::runtime_error where it cannot be written
-void print_note(std::string_view text);  // one line to stderr, after "seiche: "
+void print_data(std::string_view text);     // to stdout; throws std::runtime_error where it cannot be written
+void print_note(std::string_view text);     // one line to stderr, after "seiche: "
+void print_failure(std::string_view text);  // why nothing, or not all, was done: the same, in at most 400 bytes
 void print_notes(const std::vector<std::string>& notes);  // each on a line of its own
 void print_lines(std::string_view text);                  // to stderr as it is; never throws
 

@@ -121,7 +121,7 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
   try {
     study = converge(problem, methods, step_sizes, options);
   } catch (const Error& error) {
-    print_note(error.what());
+    print_failure(error.what());
     return stop ? interrupted : computation_failed;
   }
   print_data(arguments.json ? converge_json(study) : converge_table(study));

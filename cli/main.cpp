@@ -3,6 +3,7 @@
 #include "versions.hpp"
 
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 
 #include <algorithm>
 #include <exception>
@@ -30,7 +31,7 @@ Error unexpected(const CLI::App& app) {
   const std::vector<CLI::App*> called = app.get_subcommands();
   const CLI::App& command = called.empty() ? app : *called.front();
   const std::string extra = app.remaining(true).front();
-  if (!extra.starts_with("-")) return Error("unexpected argument '{}'", extra);
+  if (!extra.starts_with("-")) return Error("unexpected argument '{}'", shortened(extra));
   return unknown_name("option", extra.substr(0, extra.find('=')), option_names(command));
 }
 
@@ -68,7 +69,7 @@ ExitCode run_program(const std::vector<std::string>& arguments) {
   } catch (const CLI::ExtrasError&) {
     throw unexpected(app);
   } catch (const CLI::ParseError& error) {
-    throw Error("{} (seiche --help lists commands and options)", error.what());
+    throw Error("{} (seiche --help lists commands and options)", shortened(error.what(), 300));
   }
   return action();
 }
@@ -82,13 +83,13 @@ int main(int count, char** values) {
   try {
     return run_program({values + std::min(count, 1), values + count});
   } catch (const seiche::Error& error) {
-    print_note(error.what());
+    print_failure(error.what());
     return wrong_usage;
   } catch (const std::bad_alloc&) {
     print_note("there is not enough memory for this");
     return computation_failed;
   } catch (const std::exception& error) {
-    print_note(error.what());
+    print_failure(error.what());
     return computation_failed;
   }
 }

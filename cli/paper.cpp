@@ -108,7 +108,7 @@ ExitCode paper(const PaperArguments& arguments) {
     return no_figures_because.empty() ? success : computation_failed;
   } catch (const Error& error) {
     progress.wipe();
-    print_note(error.what());
+    print_failure(error.what());
     return stop ? interrupted : computation_failed;
   }
 }

@@ -24,7 +24,7 @@ ExitCode recover_run(const std::string& directory) {
     if (found.saved.empty() && found.lost.empty())
       print_note(fmt::format("{} holds no unfinished files: there is nothing to recover", directory));
   } catch (const std::exception& error) {
-    print_note(error.what());
+    print_failure(error.what());
     return unfinished_files(directory).empty() ? wrong_usage : computation_failed;
   }
   return unfinished_files(directory).empty() ? success : computation_failed;

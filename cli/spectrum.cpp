@@ -49,7 +49,7 @@ ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
     write_file(directory / "spectrum.csv", spectrum_csv(result));
     draw_spectrum(result, directory);
   } catch (const Error& error) {  // what was computed is said, and no mistake of the user's
-    print_note(error.what());
+    print_failure(error.what());
     return computation_failed;
   }
   return success;

@@ -28,7 +28,7 @@ def toml(value: Any) -> str:
         return "{ " + ", ".join(f"{json.dumps(str(k))} = {toml(v)}" for k, v in value.items()) + " }"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(toml(v) for v in value) + "]"
-    raise TypeError(f"a case cannot hold {value!r}: write a number, a text, a list or a dictionary of them")
+    raise TypeError(f"a case cannot hold {value!r:.60}: write a number, a text, a list or a dictionary of them")
 
 
 def section(name: str, values: Mapping[str, Any]) -> str:

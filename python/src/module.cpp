@@ -3,6 +3,7 @@
 #include "bind.hpp"
 
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/version.hpp>
 
 namespace seiche::python {
@@ -20,7 +21,7 @@ py::dict parts_of(const Error& error) {
   const ErrorParts& parts = error.parts();
   py::dict named;
   named["place"] = parts.place;
-  named["sentence"] = parts.sentence;
+  named["sentence"] = one_line(parts.sentence);
   named["key"] = parts.key;
   named["kind"] = parts.kind;
   named["name"] = parts.name;
@@ -37,7 +38,7 @@ PYBIND11_MODULE(_core, module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const seiche::Error& error) {
-      py::object refusal = py::reinterpret_borrow<py::object>(PyExc_ValueError)(error.what());
+      py::object refusal = py::reinterpret_borrow<py::object>(PyExc_ValueError)(seiche::one_line(error.what()));
       refusal.attr("parts") = seiche::python::parts_of(error);
       PyErr_SetObject(PyExc_ValueError, refusal.ptr());
     }

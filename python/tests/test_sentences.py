@@ -156,3 +156,13 @@ def test_keys_of_a_case_file_are_called_as_they_are_written_there(tmp_path):
 def test_complex_numbers_are_refused_from_functions_too():
     with pytest.raises(ValueError, match="^V returned a complex number; it must return a real one"):
         seiche.Problem(M=np.eye(2), V=lambda u: np.sum(u**2) / 2 + np.complex128(1e3j), gradient=lambda u: u, z0=[1, 0])
+
+
+def test_a_sentence_stays_short_whatever_was_given(tmp_path):
+    for make in (
+        lambda: duffing(H="p^2/2 + " + "x" * 3000),
+        lambda: seiche.solve(duffing(), 1.0, method="x" * 100_000),
+    ):
+        with pytest.raises(ValueError) as refusal:
+            make()
+        assert len(str(refusal.value).encode()) <= 400 and "\n" not in str(refusal.value)

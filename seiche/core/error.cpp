@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 
 #include <fmt/ranges.h>
 
@@ -69,6 +70,8 @@ Error Error::under(std::string_view key) const {
 
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names) {
   std::string best;
+  constexpr std::size_t longest = 1000;  // nobody wrote more by mistake, and the effort is that of all pairs of letters
+  if (wanted.size() > longest) return best;
   std::size_t best_distance = farthest_help(wanted);
   for (const std::string& name : names) {
     if (wanted.size() <= 2 && !same_letters(wanted, name)) continue;
@@ -84,11 +87,12 @@ std::string nearest_name(std::string_view wanted, const std::vector<std::string>
 Error unknown_name(std::string_view what, std::string_view wanted, const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(wanted, names);
   const std::string hint = nearest.empty() ? "." : fmt::format("; did you mean '{}'?", nearest);
-  return Error({.sentence = fmt::format("unknown {} '{}'{} Allowed: {}", what, wanted, hint, fmt::join(names, ", ")),
-                .kind = std::string(what),
-                .name = std::string(wanted),
-                .nearest = nearest,
-                .allowed = names});
+  return Error(
+      {.sentence = fmt::format("unknown {} '{}'{} Allowed: {}", what, shortened(wanted), hint, fmt::join(names, ", ")),
+       .kind = std::string(what),
+       .name = shortened(wanted),
+       .nearest = nearest,
+       .allowed = names});
 }
 
 }  // namespace seiche

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/formula/formula_expression.hpp>
 
@@ -62,12 +63,14 @@ FormulaProgram derivative_program(const CompiledFormula& formula, std::size_t va
   try {
     append_program(to_expression(formula.program(), symbols).diff(symbols[variable]), symbols, program);
   } catch (const Error& error) {
-    throw Error("the formula '{}' cannot be differentiated: {}", formula.text(), error.what());
+    throw Error("the formula '{}' cannot be differentiated: {}", shortened(formula.text()),
+                shortened(error.what(), 200));
   } catch (const std::exception& error) {  // poles, overflow: GiNaC's own types
-    throw Error("the formula '{}' cannot be differentiated: {}", formula.text(), error.what());
+    throw Error("the formula '{}' cannot be differentiated: {}", shortened(formula.text()),
+                shortened(error.what(), 200));
   }
   if (stack_needed(program) > formula_stack_size)
-    throw Error("the derivative of '{}' is too deeply nested", formula.text());
+    throw Error("the derivative of '{}' is too deeply nested", shortened(formula.text()));
   return program;
 }
 

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/algebra_functions.hpp>
 #include <seiche/formula/expansion.hpp>
 #include <seiche/formula/expression_text.hpp>
@@ -35,7 +36,7 @@ Expression exact_number(double value) {
 }
 
 Error not_real(const Expression& expression) {
-  return Error("'{}' is not a real function that can be evaluated", text_of(expression));
+  return Error("'{}' is not a real function that can be evaluated", shortened(text_of(expression)));
 }
 
 // Exact arithmetic takes powers of all numbers in the base: with exponents that have no end neither has it.
@@ -43,13 +44,14 @@ Expression power(const Expression& base, const Expression& exponent) {
   constexpr int most = 1000;
   const bool is_number = GiNaC::is_a<GiNaC::numeric>(exponent);
   if (is_number && !GiNaC::is_a<GiNaC::symbol>(base) && GiNaC::abs(exponent) > most)
-    throw Error("the power ({})^{} is out of range; of anything but one name, exponents are at most {}", text_of(base),
-                text_of(exponent), most);
+    throw Error("the power ({})^{} is out of range; of anything but one name, exponents are at most {}",
+                shortened(text_of(base)), shortened(text_of(exponent)), most);
   if (is_number && bits_of(base) * std::abs(GiNaC::ex_to<GiNaC::numeric>(exponent).to_double()) > most_bits)
-    throw Error("the power ({})^{} is a number of too many digits", text_of(base), text_of(exponent));
+    throw Error("the power ({})^{} is a number of too many digits", shortened(text_of(base)),
+                shortened(text_of(exponent)));
   if (base.is_zero() && is_number && exponent.info(GiNaC::info_flags::negative))
-    throw Error("0^({}) divides by zero", text_of(exponent));
-  if (base.is_zero() && !is_number) throw Error("0^({}) has no derivative", text_of(exponent));
+    throw Error("0^({}) divides by zero", shortened(text_of(exponent)));
+  if (base.is_zero() && !is_number) throw Error("0^({}) has no derivative", shortened(text_of(exponent)));
   if (exponent.is_zero()) return 1;     // 0⁰ too, as where formulas are evaluated
   return GiNaC::power(base, exponent);  // not pow, which loses memory where it throws
 }

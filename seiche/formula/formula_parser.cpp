@@ -1,3 +1,4 @@
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_parser.hpp>
 #include <seiche/formula/formula_text.hpp>
 
@@ -192,15 +193,18 @@ class Parser {
     if (!next.starts_value()) return;
     const FormulaToken& last = tokens_[at_ - 1];
     if (last.kind == FormulaToken::Kind::number && next.kind == FormulaToken::Kind::number)
-      throw error(fmt::format("two numbers stand side by side: '{}' and '{}'", last.text, next.text));
+      throw error(
+          fmt::format("two numbers stand side by side: '{}' and '{}'", shortened(last.text), shortened(next.text)));
     if (last.kind == FormulaToken::Kind::number && is_unit(next.text) && !is_known(next.text))
       throw error(
           fmt::format("units such as {} are none of the language: numbers are in those of the equation", next.text));
     const bool called = last.kind == FormulaToken::Kind::name && next.is('(');
-    if (!called) throw error(fmt::format("a multiplication sign is missing: write {}*{}", last.text, next.text));
+    if (!called)
+      throw error(
+          fmt::format("a multiplication sign is missing: write {}*{}", shortened(last.text), shortened(next.text)));
     const std::string hint = is_index(tokens_[at_ + 1]) ? hint_on_neighbours(last.text, variables_) : "";
-    throw error(hint.empty() ? fmt::format("{0} is not a function; for a product write {0}*(…)", last.text)
-                             : fmt::format("{} has no index: {}", last.text, hint));
+    throw error(hint.empty() ? fmt::format("{0} is not a function; for a product write {0}*(…)", shortened(last.text))
+                             : fmt::format("{} has no index: {}", shortened(last.text), hint));
   }
 
   // As j in u(j+1); a name that means something else makes a product of it.
@@ -226,10 +230,11 @@ class Parser {
     names.emplace_back("pi");
     for (const FormulaFunction& function : formula_functions())
       if (may_vary(function)) names.emplace_back(function.name);
-    const std::string said = advice_ ? advice_(name.text, !nearest_name(name.text, names).empty()) : "";
+    const std::string said = advice_ ? advice_(shortened(name.text), !nearest_name(name.text, names).empty()) : "";
     if (said.empty()) return formula_error(text_, name.position, unknown_name("name", name.text, names).what());
     return formula_error(text_, name.position,
-                         fmt::format("unknown name '{}': {}. Allowed: {}", name.text, said, fmt::join(names, ", ")));
+                         fmt::format("unknown name '{}': {}. Allowed: {}", shortened(name.text), said,
+                                     fmt::join(names, ", ")));
   }
 
   bool may_vary(const FormulaFunction& function) const {

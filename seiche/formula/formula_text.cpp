@@ -1,3 +1,4 @@
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_text.hpp>
 
 #include <algorithm>
@@ -68,30 +69,28 @@ FormulaToken number_token(std::string_view text, std::size_t begin, std::size_t 
   double value = 0.0;
   const auto [rest, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (status == std::errc::result_out_of_range || !std::isfinite(value))
-    throw formula_error(text, begin, fmt::format("{} is too large or too small for a double", digits));
+    throw formula_error(text, begin, fmt::format("{} is too large or too small for a double", shortened(digits)));
   if (status != std::errc() || rest != digits.data() + digits.size())
-    throw formula_error(text, begin, fmt::format("'{}' is not a number", digits));
+    throw formula_error(text, begin, fmt::format("'{}' is not a number", shortened(digits)));
   return {.kind = TokenKind::number, .text = digits, .position = begin, .value = value};
 }
 
 }  // namespace
 
 Error formula_error(std::string_view text, std::size_t position, std::string_view sentence) {
-  constexpr std::size_t reach = 40;  // bytes shown on either side
+  constexpr std::size_t reach = 24;  // bytes shown on either side
   std::size_t begin = position > reach ? position - reach : 0;
   while (begin > 0 && continues_character(text[begin])) --begin;
   std::size_t end = std::min(text.size(), position + reach);
   while (end < text.size() && continues_character(text[end])) ++end;
 
-  std::string shown(text.substr(begin, end - begin));
-  std::replace_if(shown.begin(), shown.end(), is_space, ' ');
-  const std::string_view before = begin > 0 ? "…" : "";
-  const std::size_t indent = characters(text.substr(begin, position - begin)) + (begin > 0 ? 1 : 0);
-  return Error("formula, column {}: {}\n  {}{}{}\n  {}^", characters(text.substr(0, position)) + 1, sentence, before,
-               shown, end < text.size() ? "…" : "", std::string(indent, ' '));
+  return Error("formula, column {}: {} (in \"{}{}{}\")", characters(text.substr(0, position)) + 1, sentence,
+               begin > 0 ? "…" : "", shortened(text.substr(begin, end - begin), 2 * reach + 8),
+               end < text.size() ? "…" : "");
 }
 
-std::string hint_on_neighbours(std::string_view name, const std::vector<std::string>& names) {
+std::string hint_on_neighbours(std::string_view whole_name, const std::vector<std::string>& names) {
+  const std::string name = shortened(whole_name);  // one that is longer is none of theirs
   const auto known = [&](const std::string& other) {
     return std::find(names.begin(), names.end(), other) != names.end();
   };
@@ -127,7 +126,7 @@ std::vector<FormulaToken> tokenise_formula(std::string_view text, const std::vec
       const bool shows = static_cast<unsigned char>(c) >= 0x20U && c != 0x7F;
       if (c == '[' && !tokens.empty() && tokens.back().kind == TokenKind::name)
         if (const std::string hint = hint_on_neighbours(tokens.back().text, names); !hint.empty())
-          throw formula_error(text, at, fmt::format("{} has no index: {}", tokens.back().text, hint));
+          throw formula_error(text, at, fmt::format("{} has no index: {}", shortened(tokens.back().text), hint));
       const std::string sign =
           shows ? fmt::format("'{}'", character) : fmt::format("with code {}", static_cast<int>(c));
       throw formula_error(text, at, fmt::format("the character {} has no meaning here{}", sign, advice(character)));

@@ -24,7 +24,7 @@ struct FormulaToken {
   bool starts_value() const { return kind == Kind::number || kind == Kind::name || is('('); }
 };
 
-// "formula, column 2: a multiplication sign is missing: write 2*u", then the text and a caret below the place.
+// "formula, column 2: a multiplication sign is missing: write 2*u (in "1 + 2u")", with what stands around the place.
 Error formula_error(std::string_view text, std::size_t position, std::string_view sentence);
 
 // Of u[j+1] and u(j+1): which of `names` stands for the difference to the next point, or for a derivative; "" where

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace seiche {
 namespace {
@@ -40,8 +42,21 @@ TEST_F(Cli, WrongCaseFilesAreRefusedWithTheValueAndWhatIsAllowed) {
 
 TEST_F(Cli, ForgottenQuotesAreShownInTheLineWithAHint) {
   write_case("", "h = 1/64");
-  const std::string message = refused("run case.toml --out out");
-  EXPECT_THAT(message, AllOf(HasSubstr("case.toml:"), HasSubstr("h = 1/64\n"), HasSubstr("^"), HasSubstr("in quotes")));
+  EXPECT_THAT(refused("run case.toml --out out"),
+              AllOf(HasSubstr("case.toml:"), HasSubstr("in `h = 1/64`"), HasSubstr("stand in quotes: \"1/64\"\n")));
+  for (const auto& [line, meant] :
+       std::vector<std::pair<std::string, std::string>>{{"gamma = 0.1 + 0.05*sin(t)  # damped", "0.1 + 0.05*sin(t)"},
+                                                        {"initial = gaussian", "gaussian"},
+                                                        {"gamma = max(0, sin(t))", "max(0, sin(t))"},
+                                                        {"initial = { u = 2*x, v = 0 }", "2*x"}}) {
+    write_case(line);
+    EXPECT_THAT(refused("run case.toml --out out"), HasSubstr("stand in quotes: \"" + meant + "\"\n")) << line;
+  }
+  for (const std::string line :
+       {"gamma = [1, 2", "gamma = 0.1 0.2", "initial = \"zero", "points = 9", "alpha = 1.2.3"}) {
+    write_case(line);
+    EXPECT_THAT(refused("run case.toml --out out"), Not(HasSubstr("in quotes"))) << line;
+  }
 }
 
 TEST_F(Cli, AStepSizeThatWouldFillTheDiskIsRefused) {

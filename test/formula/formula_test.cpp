@@ -168,9 +168,7 @@ TEST(Formula, WhatIsNotRealComesBackAsNaNOrInfinity) {
 
 TEST(Formula, ComplaintsPointIntoTheText) {
   EXPECT_EQ(complaint("0.5*u + 2u"),
-            "formula, column 10: a multiplication sign is missing: write 2*u\n"
-            "  0.5*u + 2u\n"
-            "           ^");
+            "formula, column 10: a multiplication sign is missing: write 2*u (in \"0.5*u + 2u\")");
   EXPECT_THAT(complaint("ü + u"), HasSubstr("column 1:"));
   EXPECT_THAT(complaint("u·ü"), HasSubstr("column 2: the character '·' has no meaning here; write *"));
   const std::string far = complaint(std::string(200, ' ') + "2u" + std::string(200, ' '));

@@ -2,6 +2,7 @@
 #include <seiche/config/case/ensemble_case.hpp>
 #include <seiche/config/case/method_section.hpp>
 #include <seiche/config/custom/custom_case.hpp>
+#include <seiche/core/text/shortened.hpp>
 
 #include <fmt/ranges.h>
 
@@ -95,11 +96,11 @@ std::string key_outside_sections(const std::string& key, const ProblemEntry* pro
   if (has(sections, key)) return fmt::format("{0} must be a section, [{0}]", key);
   for (const std::string& section : sections)
     if (key != "name" && has(case_keys(section, problem), key))
-      return fmt::format("the key '{}' stands outside every section; it belongs into [{}]", key, section);
+      return fmt::format("the key '{}' stands outside every section; it belongs into [{}]", shortened(key), section);
   if (const MeantKey meant = meant_here(key, problem); !meant.key.empty())
-    return fmt::format("the key '{}' stands outside every section; did you mean '{}' in [{}]?", key, meant.key,
-                       meant.section);
-  return fmt::format("the key '{}' stands outside every section ({})", key, fmt::join(sections, ", "));
+    return fmt::format("the key '{}' stands outside every section; did you mean '{}' in [{}]?", shortened(key),
+                       meant.key, meant.section);
+  return fmt::format("the key '{}' stands outside every section ({})", shortened(key), fmt::join(sections, ", "));
 }
 
 Error unknown_key(const std::string& section, const std::string& key, const ProblemEntry* problem) {
@@ -110,13 +111,13 @@ Error unknown_key(const std::string& section, const std::string& key, const Prob
   const MeantKey meant = meant_here(key, problem);
   if (meant.key.empty()) return unknown_name(kind, key, keys);
   if (meant.section != section)
-    return Error(
-        {.sentence = fmt::format("unknown {} '{}'; did you mean '{}' in [{}]?", kind, key, meant.key, meant.section),
-         .kind = kind,
-         .name = key,
-         .nearest = meant.section + "." + meant.key});
-  return Error({.sentence = fmt::format("unknown {} '{}'; did you mean '{}'? Allowed: {}", kind, key, meant.key,
-                                        fmt::join(keys, ", ")),
+    return Error({.sentence = fmt::format("unknown {} '{}'; did you mean '{}' in [{}]?", kind, shortened(key),
+                                          meant.key, meant.section),
+                  .kind = kind,
+                  .name = key,
+                  .nearest = meant.section + "." + meant.key});
+  return Error({.sentence = fmt::format("unknown {} '{}'; did you mean '{}'? Allowed: {}", kind, shortened(key),
+                                        meant.key, fmt::join(keys, ", ")),
                 .kind = kind,
                 .name = key,
                 .nearest = meant.key,

@@ -3,6 +3,8 @@
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/config/data/matrix_market.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
@@ -60,10 +62,14 @@ ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, dou
 std::filesystem::path find_file(std::string_view what, const std::string& name, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   for (const fs::path& candidate : {folder / name, fs::path(name)}) {  // folder / absolute is the absolute one
-    if (fs::is_directory(candidate)) throw Error("the {} file {} is a folder", what, candidate.string());
-    if (fs::exists(candidate)) return fs::absolute(candidate).lexically_normal();
+    const InputFile found = look_at(candidate);
+    if (found.kind == InputKind::missing) continue;
+    const std::string complaint = complaint_about_file(candidate);
+    if (!complaint.empty()) throw Error("the {} file {} {}", what, shortened_path(candidate.string()), complaint);
+    return fs::absolute(candidate).lexically_normal();
   }
-  throw Error("the {} file {} does not exist, neither beside the case file nor in the current folder", what, name);
+  throw Error("the {} file {} does not exist, neither beside the case file nor in the current folder", what,
+              shortened_path(name));
 }
 
 FormulaData read_formulas(std::string_view key, const CaseValue& value, const ProblemEntry& problem) {

@@ -1,6 +1,8 @@
 #include <seiche/config/case/case_table.hpp>
+#include <seiche/config/data/syntax_complaint.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/number_text.hpp>
+#include <seiche/core/text/shortened.hpp>
 
 #include <toml++/toml.h>
 
@@ -13,14 +15,17 @@ namespace {
 
 using Kind = CaseValue::Kind;
 
+constexpr std::size_t longest_place = 80;  // in a sentence, of what stands before it
+
 // Where values stand: in a file, or after --set.
 struct Source {
   std::string name;
   bool is_override = false;
   std::size_t override_number = 0;
 
-  std::string place(const toml::source_region& region) const {
-    return is_override ? name : fmt::format("{}:{}:{}", name, region.begin.line, region.begin.column);
+  std::string place(const toml::source_region& region) const { return place(region.begin.line, region.begin.column); }
+  std::string place(std::size_t line, std::size_t column) const {
+    return is_override ? name : fmt::format("{}:{}:{}", name, line, column);
   }
   std::size_t order(const toml::source_region& region) const {  // overrides come after the file
     if (is_override) return std::numeric_limits<std::size_t>::max() / 2 + override_number;
@@ -99,8 +104,9 @@ CaseTable convert(const toml::table& root, const Source& source) {
 }
 
 CaseValue override_value(const std::string& text, const Source& source) {
+  const std::string line = "value = " + text;
   try {
-    const toml::table parsed = toml::parse("value = " + text);
+    const toml::table parsed = toml::parse(line);
     if (parsed.size() == 1) {  // more: the text holds lines of its own
       CaseValue value = convert(*parsed.get("value"), source);
       value.given = text;
@@ -128,8 +134,10 @@ void put_into(CaseValue& into, const std::string& so_far, std::string_view path,
   if (into.kind != Kind::table) {
     const std::string whole = value.kind == Kind::text ? toml_string(value.text) : value.shown();
     const bool is_inner = std::count(so_far.begin(), so_far.end(), '.') > 1;
-    throw Error("{} = {} is no table, so that nothing can be put into it{}", so_far, into.shown(),
-                is_inner ? "" : fmt::format("; a whole one is written as {}={{ {} = {} }}", so_far, path, whole))
+    throw Error("{} = {} is no table, so that nothing can be put into it{}", shortened(so_far), into.shown(),
+                is_inner ? ""
+                         : fmt::format("; a whole one is written as {}={{ {} = {} }}", shortened(so_far),
+                                       shortened(path), shortened(whole)))
         .at(value.place);
   }
   into.place = value.place;
@@ -151,9 +159,12 @@ void apply_override(CaseTable& table, const std::string& given, std::size_t numb
   const std::string path = trimmed(std::string_view(given).substr(0, equals));
   const std::size_t dot = path.find('.');
   if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == path.size())
-    throw Error("write it as section.key=value, for example --set method.h=1/64").at("--set " + given);
+    throw Error("write it as section.key=value, for example --set method.h=1/64")
+        .at("--set " + shortened(given, longest_place));
 
-  const Source source{.name = "--set " + given, .is_override = true, .override_number = number};
+  const Source source{.name = "--set " + shortened(given, longest_place),
+                      .is_override = true,
+                      .override_number = number};
   const std::string name = path.substr(0, dot);
   const std::size_t inner_dot = path.find('.', dot + 1);  // of a key inside a table: problem.D.v
   CaseEntry entry{.key = path.substr(dot + 1, inner_dot == std::string::npos ? inner_dot : inner_dot - dot - 1),
@@ -176,17 +187,6 @@ void apply_override(CaseTable& table, const std::string& given, std::size_t numb
   section->entries.push_back(std::move(entry));
 }
 
-// The offending line with a caret below it, and what is behind most mistakes of this kind.
-std::string pointer_into(std::string_view text, toml::source_position at) {
-  for (toml::source_index line = 1; line < at.line && !text.empty(); ++line)
-    text.remove_prefix(std::min(text.size(), text.find('\n') + 1));
-  const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
-  constexpr std::size_t longest = 160;
-  if (line.empty() || line.size() > longest || at.column < 1) return "";
-  return fmt::format("\n  {}\n  {}^\nnames, fractions and formulas stand in quotes, for example h = \"1/256\"", line,
-                     std::string(at.column - 1, ' '));
-}
-
 }  // namespace
 
 const CaseSection* CaseTable::section(std::string_view name) const {
@@ -205,12 +205,12 @@ const CaseValue* CaseTable::value(std::string_view section_name, std::string_vie
 
 CaseTable read_case_table(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
   CaseTable table;
-  const Source file{.name = std::string(name)};
+  const Source file{.name = shortened_path(name, longest_place)};
   try {
     table = convert(toml::parse(text), file);
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
-    throw Error("{}{}", error.description(), pointer_into(text, at)).at(file.place(error.source()));
+    throw Error("{}", syntax_complaint(text, error.description(), at.line, at.column)).at(file.place(error.source()));
   }
   for (std::size_t i = 0; i < overrides.size(); ++i) apply_override(table, overrides[i], i);
   return table;

@@ -1,5 +1,6 @@
 #include <seiche/config/case/case_value.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
 #include <algorithm>
@@ -18,14 +19,7 @@ std::size_t digits_at(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-std::string CaseValue::shown() const {
-  constexpr std::size_t longest = 60;
-  if (kind != Kind::text) return text;
-  if (text.size() <= longest) return fmt::format("\"{}\"", text);
-  std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not inside a UTF-8 character
-  return fmt::format("\"{}…\"", text.substr(0, end));
-}
+std::string CaseValue::shown() const { return kind == Kind::text ? fmt::format("\"{}\"", shortened(text)) : text; }
 
 double read_number(std::string_view key, const CaseValue& value) {
   if (value.kind == CaseValue::Kind::number) {

@@ -3,6 +3,7 @@
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/number_text.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <algorithm>
@@ -42,7 +43,8 @@ std::string blamed(const RunSpec& spec, std::string_view complaint) {
         key.substr(0, key.find('.', key.find('.') + 1));  // what is inside a table is complained about as the table is
     return complaint.starts_with(key) && complaint.find_first_of(" :.,", key.size()) == key.size();
   });
-  return given == spec.overrides.rend() ? spec.source : "--set " + *given;
+  constexpr std::size_t longest = 80;
+  return given == spec.overrides.rend() ? shortened_path(spec.source, longest) : "--set " + shortened(*given, longest);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <seiche/config/custom/custom_case.hpp>
 #include <seiche/config/custom/custom_names.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_text.hpp>
 
 #include <fmt/ranges.h>
@@ -32,7 +33,7 @@ FormulaConstants read_parameters(const std::string& key, const CaseValue& value)
     throw Error("{} = {} must be a table of numbers, as in {{ kappa = 0.04, alpha = -1.0 }}", key, value.shown());
   FormulaConstants parameters;
   for (const auto& [name, number] : value.entries)
-    parameters[name] = read_number(fmt::format("{}.{}", key, name), number);
+    parameters[name] = read_number(fmt::format("{}.{}", key, shortened(name)), number);
   return parameters;
 }
 
@@ -69,7 +70,7 @@ FormulaTable read_table(const std::string& key, const CaseValue& value, const st
     default:
       if (n != 1)
         throw Error("{} = {} must be a table such as {{ {} = {} }}, or a list of {} rows", key, value.shown(),
-                    fields.back(), toml_string(value.text), n);
+                    fields.back(), shortened(toml_string(value.text)), n);
       return {{read_formula(key, value)}};
   }
 }

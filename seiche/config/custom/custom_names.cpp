@@ -1,5 +1,6 @@
 #include <seiche/config/custom/custom_names.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 
 #include <algorithm>
 
@@ -32,12 +33,13 @@ std::vector<std::string> field_names(const CustomProblem& custom) {
     derived.push_back("d" + name);
   }
   const auto take = [&](const char* key, const char* kind, const std::string& name) {
-    if (!is_name(name)) throw Error("problem.{}: '{}' is no name: letters, digits and _, a letter first", key, name);
+    if (!is_name(name))
+      throw Error("problem.{}: '{}' is no name: letters, digits and _, a letter first", key, shortened(name));
     if (std::find(taken.begin(), taken.end(), name) != taken.end())
-      throw Error("problem.{}: the name {} stands for something else in formulas", key, name);
+      throw Error("problem.{}: the name {} stands for something else in formulas", key, shortened(name));
     if (std::find(derived.begin(), derived.end(), name) != derived.end())
       throw Error("problem.{}: {} is a derivative or difference of a field in formulas: give the {} another name", key,
-                  name, kind);
+                  shortened(name), kind);
     taken.push_back(name);
   };
   for (const auto& [name, value] : custom.parameters) take("parameters", "parameter", name);

@@ -6,6 +6,7 @@
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/law/operator_findings.hpp>
 #include <seiche/potential/sum.hpp>
 #include <seiche/problem/common/second_order.hpp>
@@ -120,7 +121,7 @@ class Builder {
     if (!found)
       throw Error(
           "problem.H = \"{}\": its quadratic part, {}, is not ≥ 0 in any of the ways tried to put products of fields into V, and ½zᵀMz has to be",
-          custom_.H, whole);
+          shortened(custom_.H), shortened(whole));
     p_.notes.push_back(fmt::format("H = ½zᵀMz + V with ½zᵀMz = {} and V = {}", split.quadratic_text, split.rest_text));
     note_left_out(split);
   }
@@ -149,7 +150,7 @@ class Builder {
     try {
       for (const QuadraticTerm& term : split.quadratic) add_term(term);
     } catch (const Error& error) {
-      throw Error("problem.H = \"{}\": {}", custom_.H, error.what());
+      throw Error("problem.H = \"{}\": {}", shortened(custom_.H), error.what());
     }
     set_potential(split);
     return split;
@@ -185,10 +186,10 @@ class Builder {
           };
           if (i == j)
             throw Error("{} = \"{}\" is not symmetric, as odd derivatives are not", tables().entry_key("M", i, i),
-                        text(i, i));
+                        shortened(text(i, i)));
           throw Error(
               "problem.M must be symmetric, but row {0}, column {1} is \"{2}\" and row {1}, column {0} is \"{3}\"{4}",
-              i + 1, j + 1, text(i, j), text(j, i),
+              i + 1, j + 1, shortened(text(i, j)), shortened(text(j, i)),
               p_.M.has_real_symbol() ? "" : "; an odd derivative changes its sign there");
         }
   }

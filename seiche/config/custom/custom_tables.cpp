@@ -5,6 +5,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/name_advice.hpp>
 #include <seiche/core/text/number_text.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/damping/rates.hpp>
 
 #include <fmt/ranges.h>
@@ -58,10 +59,10 @@ LinearDamping CustomTables::damping(const FormulaTable& entries) const {
   for_entries("D", entries, true, [&](Index i, Index j, const OperatorFormula& entry) {
     damping.constant(i, j) = entry.stencil;
     if (entry.rate.empty()) return;
-    if (i != j) throw Error("{} = {}: off the diagonal D is constant", entry_key("D", i, j), entry.rate);
+    if (i != j) throw Error("{} = {}: off the diagonal D is constant", entry_key("D", i, j), shortened(entry.rate));
     if (!rate.empty() && !is_one_rate(rate, entry.rate, constants_))
-      throw Error("problem.D has two rates that change, {} and {}; one is possible, of as many fields as wanted", rate,
-                  entry.rate);
+      throw Error("problem.D has two rates that change, {} and {}; one is possible, of as many fields as wanted",
+                  shortened(rate), shortened(entry.rate));
     if (rate.empty()) rate = entry.rate;
     damping.rate_fields[static_cast<std::size_t>(i)] = true;
   });
@@ -83,7 +84,7 @@ void CustomTables::require_finite_rates(const LinearDamping& damping) const {
   for (std::size_t j = 0; j < gamma.size(); ++j)
     if (!std::isfinite(gamma[j]))
       throw Error("problem.D: the rate {} is {} at t = 0{}",
-                  damping.rate ? damping.rate->text() : damping.field_rate->text(), number_text(gamma[j]),
+                  shortened(damping.rate ? damping.rate->text() : damping.field_rate->text()), number_text(gamma[j]),
                   damping.rate ? "" : place_text(problem_.grid, static_cast<Index>(j)));
 }
 

@@ -2,6 +2,7 @@
 #include <seiche/config/custom/outward_growth.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/axis_names.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/expansion.hpp>
 #include <seiche/formula/expression_text.hpp>
 #include <seiche/formula/formula_compiler.hpp>
@@ -70,9 +71,9 @@ class Splitter {
       return result();
     } catch (const Error& error) {
       const std::string_view said = error.what();
-      throw said.starts_with(key_) ? error : Error("{} = \"{}\": {}", key_, text_, said);
+      throw said.starts_with(key_) ? error : Error("{} = \"{}\": {}", key_, shortened(text_), said);
     } catch (const std::exception& error) {  // poles, overflow: GiNaC's own types
-      throw Error("{} = \"{}\" cannot be taken apart: {}", key_, text_, error.what());
+      throw Error("{} = \"{}\" cannot be taken apart: {}", key_, shortened(text_), shortened(error.what()));
     }
   }
 
@@ -130,15 +131,15 @@ class Splitter {
         throw Error(
             "{} = \"{}\": the term {} is not c·a·b with derivatives or fields a, b and a constant c: derivatives stand "
             "in quadratic terms only; differences between neighbours, as in d{}^4, may be anything",
-            key_, text_, text_of(term), layout_.variables.front());
+            key_, shortened(text_), shortened(text_of(term)), layout_.variables.front());
       if (!quadratic_.found)
         throw Error(
             "{} = \"{}\": the term {} belongs into M (with d_x for derivatives), or write the whole energy as H", key_,
-            text_, text_of(term));
+            shortened(text_), shortened(text_of(term)));
     }
     if (has_bond && (has_field || has_place || has_derivative))
       throw Error("{} = \"{}\": the term {} mixes a difference between neighbours with what belongs to one point", key_,
-                  text_, text_of(term));
+                  shortened(text_), shortened(text_of(term)));
     if (square && quadratic_.found && (has_derivative || has_bond || !is_left(*square))) {
       split_.quadratic.push_back(*square);
       quadratic_sum_ += term;
@@ -178,7 +179,7 @@ class Splitter {
       if (field && *field != of)
         throw Error(
             "{} = \"{}\": the term {} couples differences of two fields, which is possible in quadratic terms only",
-            key_, text_, text_of(term));
+            key_, shortened(text_), shortened(text_of(term)));
       field = of;
     }
     bond_[static_cast<std::size_t>(*field)] += term;

@@ -1,5 +1,6 @@
 #include <seiche/config/custom/field_potential.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/potential/on_bonds.hpp>
 #include <seiche/potential/polynomials.hpp>
 
@@ -32,7 +33,7 @@ std::shared_ptr<const PointwisePotential> point_potential(const std::string& key
   if (split.per_point.empty()) return nullptr;
   FieldFormula& f = split.per_point.front();
   if (f.count != static_cast<Index>(fields.size()))
-    throw Error("{} = \"{}\" does not name all of the fields {}", key, text, fmt::join(fields, ", "));
+    throw Error("{} = \"{}\" does not name all of the fields {}", key, shortened(text), fmt::join(fields, ", "));
   if (grows_outward) f.w.grows_outward = true;
   return point_potential(f, Grid{});
 }

@@ -1,5 +1,6 @@
 #include <seiche/config/custom/operator_formula.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/expansion.hpp>
 #include <seiche/formula/expression_text.hpp>
 #include <seiche/formula/formula_expression.hpp>
@@ -49,9 +50,9 @@ class OperatorReader {
       make_multiplier(odd_, Parity::odd);
     } catch (const Error& error) {
       const std::string_view said = error.what();
-      throw said.starts_with(key_) ? error : Error("{} = \"{}\": {}", key_, text_, said);
+      throw said.starts_with(key_) ? error : Error("{} = \"{}\": {}", key_, shortened(text_), said);
     } catch (const std::exception& error) {  // poles, overflow: GiNaC's own types
-      throw Error("{} = \"{}\": {}", key_, text_, error.what());
+      throw Error("{} = \"{}\": {}", key_, shortened(text_), shortened(error.what()));
     }
     if (!rate_.is_zero()) {
       // What is constant belongs to the rate: only together they may be known to be ≥ 0.
@@ -68,7 +69,7 @@ class OperatorReader {
     for (const Instruction& instruction : program)
       if (instruction.kind == Instruction::Kind::call && !instruction.function->differentiable)
         throw Error(
-            "{} = \"{}\": {} does not stand beside derivatives or wave numbers: {}", key_, text_,
+            "{} = \"{}\": {} does not stand beside derivatives or wave numbers: {}", key_, shortened(text_),
             instruction.function->name,
             may_vary ? "D takes coefficients of derivatives, or a rate in t and the place, as in \"max(0.1, sin(t))\""
                      : "S and M take coefficients of derivatives, and smooth functions of wave numbers");
@@ -205,7 +206,8 @@ class OperatorReader {
   }
 
   Error refused(const Expression& term, const char* reason) const {
-    return Error("{} = \"{}\": the term {} is not possible: {}", key_, text_, text_of(term), reason);
+    return Error("{} = \"{}\": the term {} is not possible: {}", key_, shortened(text_), shortened(text_of(term)),
+                 reason);
   }
 
   const std::string& key_;

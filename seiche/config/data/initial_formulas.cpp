@@ -2,6 +2,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ Vector initial_from_formulas(const std::map<std::string, std::string>& formulas,
       arguments[static_cast<std::size_t>(dimension)] = static_cast<double>(i + 1);
       z[at] = (*formula)(arguments);
       if (!std::isfinite(z[at]))
-        throw Error("problem.initial: {} = {} is {}{}", field, text->second, number_text(z[at]),
+        throw Error("problem.initial: {} = {} is {}{}", field, shortened(text->second), number_text(z[at]),
                     place_text(problem.grid, i));
       ++at;
     }
