@@ -1,9 +1,10 @@
 #include "load_case.hpp"
 
 #include <seiche/config/case/case_file.hpp>
+#include <seiche/core/text/input_file.hpp>
+#include <seiche/core/text/toml_depth.hpp>
 
 #include <iostream>
-#include <iterator>
 
 namespace seiche::cli {
 
@@ -19,8 +20,7 @@ RunSpec load_case(const CaseArgument& argument, const std::vector<std::string>& 
   if (argument.file != "-") {
     spec = read_case(argument.file, argument.overrides, methods);
   } else {
-    const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-    spec = parse_case(text, "standard input", argument.overrides, {}, methods);
+    spec = parse_case(text_up_to(std::cin, largest_case), "standard input", argument.overrides, {}, methods);
   }
   if (methods.empty()) settle_method(spec);
   return spec;

@@ -158,9 +158,19 @@ def test_complex_numbers_are_refused_from_functions_too():
         seiche.Problem(M=np.eye(2), V=lambda u: np.sum(u**2) / 2 + np.complex128(1e3j), gradient=lambda u: u, z0=[1, 0])
 
 
+# Else the interpreter dies: whoever parses such a text goes down one call for each level.
+@pytest.mark.parametrize("text", ["a" + ".a" * 40_000 + " = 1", "[a" + ".a" * 40_000 + "]", "a = " + "[" * 40_000])
+def test_a_case_file_without_end_is_refused_in_a_line(text, tmp_path):
+    (tmp_path / "deep.toml").write_text(text + "\n")
+    with pytest.raises(ValueError, match="deep.toml:1:[0-9]+: .*more than 16 ") as refusal:
+        seiche.load(tmp_path / "deep.toml")
+    assert len(str(refusal.value).encode()) <= 400 and "\n" not in str(refusal.value)
+
+
 def test_a_sentence_stays_short_whatever_was_given(tmp_path):
     for make in (
         lambda: duffing(H="p^2/2 + " + "x" * 3000),
+        lambda: seiche.load(tmp_path / ("x" * 3000)),
         lambda: seiche.solve(duffing(), 1.0, method="x" * 100_000),
     ):
         with pytest.raises(ValueError) as refusal:

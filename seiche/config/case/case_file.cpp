@@ -3,13 +3,15 @@
 #include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/case/ensemble_case.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
+#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/text/toml_depth.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 namespace seiche {
 namespace {
@@ -44,14 +46,18 @@ class Sections {
   }
 
  private:
+  // Of each kind the first, since all are in the order of the source: of a million nobody asks for the nearest names.
   void refuse_unknown() {
     const std::vector<std::string> sections = case_sections();
+    bool is_told = false;
     for (const CaseSection& section : r_.table.sections) {
       const bool known = std::find(sections.begin(), sections.end(), section.name) != sections.end();
-      if (!section.is_table) {
-        r_.complain(section.order, section.place, Error(key_outside_sections(section.name, r_.problem)));
-      } else if (!known) {
-        r_.complain(section.order, section.place, unknown_name("section", section.name, sections));
+      if (!section.is_table || !known) {
+        if (is_told) continue;
+        is_told = true;
+        r_.complain(section.order, section.place,
+                    !section.is_table ? Error(key_outside_sections(section.name, r_.problem))
+                                      : unknown_name("section", section.name, sections));
       } else if (section.name != "problem" || r_.problem != nullptr) {
         refuse_unknown_keys(section);
       }
@@ -62,7 +68,7 @@ class Sections {
     const std::vector<std::string> keys = case_keys(section.name, r_.problem);
     for (const CaseEntry& entry : section.entries)
       if (!is_one_of(entry, keys))
-        r_.complain(entry.value.order, entry.place, unknown_key(section.name, entry.key, r_.problem));
+        return r_.complain(entry.value.order, entry.place, unknown_key(section.name, entry.key, r_.problem));
   }
 
   void read_time() {
@@ -190,13 +196,22 @@ class Sections {
 }  // namespace
 
 std::string case_text(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) throw Error("the case file {} does not exist", file.string());
-  if (std::filesystem::is_directory(file)) throw Error("{} is a folder, not a case file", file.string());
+  const std::string name = shortened_path(file.string());
+  const InputFile found = look_at(file);
+  switch (found.kind) {
+    case InputKind::missing: throw Error("the case file {} does not exist", name);
+    case InputKind::folder: throw Error("{} is a folder, not a case file", name);
+    case InputKind::unreachable: throw Error("the case file {} cannot be reached: {}", name, found.reason);
+    case InputKind::other:
+      throw Error("{} is a pipe or a device, not a case file; what a program writes is read as in `… | seiche check -`",
+                  name);
+    case InputKind::file:
+    case InputKind::stream: break;
+  }
   std::ifstream input(file, std::ios::binary);
-  std::ostringstream text;
-  if (input.peek() != std::ifstream::traits_type::eof()) text << input.rdbuf();  // nothing to copy is a failure to <<
-  if (!input.is_open() || input.bad() || text.fail()) throw Error("the case file {} cannot be read", file.string());
-  return text.str();
+  std::string text = text_up_to(input, largest_case);
+  if (!input.is_open() || input.bad()) throw Error("the case file {} cannot be read", name);
+  return text;
 }
 
 RunSpec read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides,

@@ -11,7 +11,8 @@
 
 namespace seiche {
 
-// What a case file holds. Throws Error where it cannot be read.
+// What a case file holds: a regular file, or what the shell has opened (/dev/stdin, <(…)). Throws Error where it cannot
+// be read, or would be waited for or read without end.
 std::string case_text(const std::filesystem::path& file);
 
 // `overrides` are those of --set: "method.h=1/64". They replace what the file says and are checked the same way. Where

@@ -3,6 +3,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/core/text/shortened.hpp>
+#include <seiche/core/text/toml_depth.hpp>
 
 #include <toml++/toml.h>
 
@@ -103,8 +104,17 @@ CaseTable convert(const toml::table& root, const Source& source) {
   return table;
 }
 
+// Before `text` is parsed.
+void require_bounded(std::string_view text, const Source& source) {
+  if (text.size() > largest_case)
+    throw Error("{} is no case: it has more than {} MB", source.name, largest_case >> 20U);
+  if (const TomlComplaint complaint = toml_depth_complaint(text); !complaint.sentence.empty())
+    throw Error("{}: {}", source.place(complaint.line, complaint.column), complaint.sentence);
+}
+
 CaseValue override_value(const std::string& text, const Source& source) {
   const std::string line = "value = " + text;
+  require_bounded(line, source);
   try {
     const toml::table parsed = toml::parse(line);
     if (parsed.size() == 1) {  // more: the text holds lines of its own
@@ -165,6 +175,8 @@ void apply_override(CaseTable& table, const std::string& given, std::size_t numb
   const Source source{.name = "--set " + shortened(given, longest_place),
                       .is_override = true,
                       .override_number = number};
+  if (std::count(path.begin(), path.end(), '.') >= most_key_parts)
+    throw Error("{}: a key has more than {} parts", source.name, most_key_parts);
   const std::string name = path.substr(0, dot);
   const std::size_t inner_dot = path.find('.', dot + 1);  // of a key inside a table: problem.D.v
   CaseEntry entry{.key = path.substr(dot + 1, inner_dot == std::string::npos ? inner_dot : inner_dot - dot - 1),
@@ -206,6 +218,7 @@ const CaseValue* CaseTable::value(std::string_view section_name, std::string_vie
 CaseTable read_case_table(std::string_view text, std::string_view name, const std::vector<std::string>& overrides) {
   CaseTable table;
   const Source file{.name = shortened_path(name, longest_place)};
+  require_bounded(text, file);
   try {
     table = convert(toml::parse(text), file);
   } catch (const toml::parse_error& error) {

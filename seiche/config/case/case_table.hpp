@@ -32,7 +32,8 @@ struct CaseTable {
 
 // `name` is how errors call the file. Each override is "section.key=value", or "section.key.inner=value" for what
 // stands in a table (problem.D.v=0.1 leaves its other entries as they are); the value is TOML where it can be read as
-// that, and else a text, so that method.h=1/64 needs no quotes. Throws Error at the first mistake in the syntax.
+// that, and else a text, so that method.h=1/64 needs no quotes. Throws Error at the first mistake in the syntax, and
+// before it parses where a text is larger or deeper than core/text/toml_depth allows.
 CaseTable read_case_table(std::string_view text, std::string_view name, const std::vector<std::string>& overrides);
 
 }  // namespace seiche

@@ -1,0 +1,68 @@
+// Input that is meant to do harm, or has come to: refused in one short line, before anything is computed.
+#include <test/support/hostile_input.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <string>
+#include <thread>
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+using test::HostileInput;
+using test::market;
+using test::repeated;
+using Result = test::Cli::Result;
+using testing::AllOf;
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST_F(HostileInput, KeysListsAndTablesWithoutEndAreRefusedBeforeTheyAreParsed) {
+  const std::string key = "a" + repeated(".a", deep);
+  for (const std::string& text : {key + " = 1\n", "[" + key + "]\n", "[[" + key + "]]\n", "b = { " + key + " = 1 }\n"})
+    EXPECT_THAT(refused_case(text), HasSubstr("a key has more than 16 parts"));
+  for (const std::string open : {"[", "{ a = ", "{ a = [", "[\n"})
+    EXPECT_THAT(refused_case("[problem]\ngamma = " + repeated(open, deep)), HasSubstr("more than 16 deep"));
+  write_case();
+  EXPECT_THAT(refused_in_a_line("run case.toml --out out --set problem." + key + "=1"),
+              HasSubstr("more than 16 parts"));
+  EXPECT_THAT(refused_in_a_line("run case.toml --out out --set 'problem.gamma={" + key + "=1}'"),
+              HasSubstr("more than 16 parts"));
+  EXPECT_THAT(refused_in_a_line("run case.toml --out out --set 'problem.gamma=" + repeated("[", deep) + "'"),
+              HasSubstr("more than 16 deep"));
+}
+
+TEST_F(HostileInput, WhatHasNoEndOrNoWriterIsNoCaseFile) {
+  const auto said = [this](const std::string& arguments) {
+    const Result result = seiche(arguments, "timeout 20");
+    EXPECT_EQ(result.exit, 2) << arguments;
+    expect_one_line(result.err, arguments);
+    return result.err;
+  };
+  ASSERT_EQ(mkfifo((directory / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(said("check pipe"), HasSubstr("is a pipe or a device"));
+  EXPECT_THAT(said("check /dev/zero"), HasSubstr("is a pipe or a device"));
+  EXPECT_THAT(said("check - </dev/zero"), HasSubstr("more than 16 MB"));
+  EXPECT_THAT(said("check /dev/stdin </dev/zero"), HasSubstr("more than 16 MB"));
+  write("large.toml", std::string((std::size_t{16} << 20U) + 1, '\n'));
+  EXPECT_THAT(said("check large.toml"), HasSubstr("more than 16 MB"));
+  write_case("initial = { file = \"pipe\" }");
+  EXPECT_THAT(said("check case.toml"), HasSubstr("is not a file"));
+}
+
+TEST_F(HostileInput, WhatTheShellOpensIsReadAsBefore) {
+  write_case();
+  EXPECT_EQ(seiche("check /dev/stdin", "cat case.toml |").exit, 0);
+  EXPECT_EQ(seiche("check -", "cat case.toml |").exit, 0);
+  EXPECT_EQ(seiche("check /dev/stdin <case.toml").exit, 0);
+  if (std::system("bash -c true 2>/dev/null") != 0) GTEST_SKIP() << "no bash";
+  EXPECT_EQ(seiche("", "bash -c 'exec \"$0\" check <(cat case.toml)'").exit, 0);
+}
+
+}  // namespace
+}  // namespace seiche
