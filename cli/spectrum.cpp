@@ -3,6 +3,7 @@
 #include "load_case.hpp"
 
 #include <seiche/core/error.hpp>
+#include <seiche/core/simd/thread_count.hpp>
 #include <seiche/figure/spectrum_pictures.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/folder_lock.hpp>
@@ -35,6 +36,7 @@ ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
   SimulationOptions options = simulation_options(spec);
   options.backend_options.threads = arguments.threads;
   print_notes(case_notes(spec, problem));
+  if (const std::string note = note_on_threads(arguments.threads); !note.empty()) print_note(note);
   const std::filesystem::path directory = arguments.directory;
   std::optional<FolderLock> lock;
   if (arguments.directory_given) {
@@ -66,7 +68,7 @@ void add_spectrum(CLI::App& app, Action& action) {
       command->add_option("--out", arguments->directory, "Where spectrum.csv and the figures go")->type_name("DIR");
   command->add_option("--threads", arguments->threads, "Threads, over a large grid; results do not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(1, 65536));
+      ->check(CLI::Range(1, most_threads));
   command->add_flag("--json", arguments->json, "Print one JSON document on stdout");
   command->callback([arguments, out, &action] {
     arguments->directory_given = out->count() > 0;

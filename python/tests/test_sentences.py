@@ -44,6 +44,8 @@ def event(**attributes):
         (lambda p: seiche.solve_ensemble(p, 1.0, h=0.1, events=event()), "^unknown argument 'events'"),
         (lambda p: seiche.Problem(M=np.eye(2), fields=2.0), "^fields = 2.0 must be 1 or 2"),
         (lambda p: seiche.solve(p, 1.0, threads=0), "^threads = 0 must be ≥ 1"),
+        (lambda p: seiche.solve(p, 1.0, h=0.1, threads=65536), "^threads = 65536 must be ≤ 1024$"),
+        (lambda p: seiche.solve_ensemble(p, 1.0, z0=[[1, 0]], h=0.1, threads=65536), "^threads = 65536 must be ≤ 1024$"),
         (lambda p: seiche.solve(p, 1.0, threads=-3), "^threads = -3 must be ≥ 1"),
         (lambda p: seiche.solve(p, 1.0, threads=1.5), "^threads = 1.5 must be a whole number"),
         (lambda p: seiche.solve_ensemble(p, 1.0, z0=[[1, 0]], threads=0), "^threads = 0 must be ≥ 1"),

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/simd/thread_count.hpp>
 #include <seiche/driver/case_folder.hpp>
 #include <seiche/driver/ensemble_files.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace seiche {
 namespace {
@@ -100,6 +102,7 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
   if (options.max_hours > 0)
     throw Error("an ensemble keeps no checkpoints, from which it could go on after {:.3g} hours", options.max_hours);
   spec.output_directory = directory.string();
+  require_thread_count(options.threads);
   const Members members = make_members(spec);
   const Problem& problem = *members.list.front().problem;
   const bool has_modified = find_method(spec.method).kept_energy == "H_modified";
@@ -109,7 +112,8 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
                                                     .method_options = spec.method_options,
                                                     .t_end = spec.t_end,
                                                     .sample_solution = false});
-  const std::vector<std::string> notes = notes_on(members, *simulation, spec);
+  std::vector<std::string> notes = notes_on(members, *simulation, spec);
+  if (std::string note = note_on_threads(options.threads); !note.empty()) notes.push_back(std::move(note));
   const std::atomic<bool>& stop = *begin_run(options, notes);
   const CaseFolder case_folder(directory, RunKind::ensemble, spec, options.restart);
   const Folder& folder = case_folder.folder();

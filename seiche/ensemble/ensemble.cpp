@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/simd/thread_count.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/ensemble/panel_block.hpp>
 #include <seiche/ensemble/parallel_for.hpp>
@@ -41,6 +42,7 @@ class Run {
 
   EnsembleResult run() {
     const auto begin = std::chrono::steady_clock::now();
+    require_thread_count(options_.threads);
     require_one_size();
     make_blocks();
     EnsembleResult result;

@@ -1,10 +1,13 @@
 #include <seiche/core/commuting_damping.hpp>
+#include <seiche/core/simd/thread_count.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/simulation/kick_stability.hpp>
 #include <seiche/simulation/prepared_run.hpp>
 
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace seiche {
 namespace {
@@ -25,6 +28,8 @@ PreparedRun::PreparedRun(const Problem& problem, const RunPlan& plan)
       adaptive_(plan.tolerance ? &simulation_->adaptive_stepper() : nullptr) {
   if (!plan.tolerance)
     notes_ = notes_on_step_size(*simulation_, plan.simulation.backend_options.sparse, plan.h, plan.t_end);
+  if (std::string note = note_on_threads(plan.simulation.backend_options.threads); !note.empty())
+    notes_.push_back(std::move(note));
   certificate_ = certify(problem, {.method = std::string(simulation_->method().name),
                                    .method_options = simulation_->method_options(),
                                    .t_start = plan.t_start,

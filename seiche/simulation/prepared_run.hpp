@@ -32,7 +32,7 @@ class PreparedRun {
   Simulation& simulation() { return *simulation_; }
   const std::shared_ptr<Simulation>& shared_simulation() const { return simulation_; }
   AdaptiveStepper* adaptive() const { return adaptive_; }           // null: steps of one size
-  const std::vector<std::string>& notes() const { return notes_; }  // on the step size
+  const std::vector<std::string>& notes() const { return notes_; }  // on step size and threads
   const Certificate& certificate() const { return certificate_; }
   LawPromise promise() const;  // for these times
 

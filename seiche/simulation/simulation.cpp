@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/physical_memory.hpp>
+#include <seiche/core/simd/thread_count.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/simulation/auto_method.hpp>
 #include <seiche/simulation/run_memory.hpp>
@@ -63,6 +64,7 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
     : method_(is_automatic(options) ? nullptr : &find_method(options.method)),
       problem_(method_ != nullptr ? as_integrated(*method_, problem) : problem),
       method_options_(options.method_options) {
+  require_thread_count(options.backend_options.threads);
   require_gradient(problem_);
   backend_ = &choose_backend(options, problem_, method_options_);
   if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps, *backend_);

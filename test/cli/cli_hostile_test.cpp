@@ -64,5 +64,22 @@ TEST_F(HostileInput, WhatTheShellOpensIsReadAsBefore) {
   EXPECT_EQ(seiche("", "bash -c 'exec \"$0\" check <(cat case.toml)'").exit, 0);
 }
 
+TEST_F(HostileInput, MoreThanAThousandThreadsAreRefusedAndManyToACoreAreNoted) {
+  write_case();
+  for (const std::string command : {"run case.toml --out out", "spectrum case.toml"})
+    EXPECT_THAT(refused_in_a_line(command + " --threads 65536"), HasSubstr("1024")) << command;
+  write("ensemble.toml", text("case.toml") + "[ensemble]\nmembers = 9\nperturb_initial = 0.1\n");
+  EXPECT_THAT(refused_in_a_line("run ensemble.toml --out out --threads 1025"),
+              HasSubstr("threads = 1025 must be ≤ 1024"));
+  const std::string few = seiche("run case.toml --out few --threads 2").err;
+  EXPECT_THAT(few, Not(HasSubstr("take turns")));
+  const Result many = seiche("run case.toml --out many --threads 1024");
+  EXPECT_EQ(many.exit, 0) << many.err;
+  if (std::thread::hardware_concurrency() < 256) {
+    EXPECT_THAT(many.err, HasSubstr("seiche: 1024 threads take turns on "));
+    EXPECT_THAT(seiche("run ensemble.toml --out members --threads 1024").err, HasSubstr("take turns on "));
+  }
+}
+
 }  // namespace
 }  // namespace seiche
