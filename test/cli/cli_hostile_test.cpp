@@ -81,5 +81,38 @@ TEST_F(HostileInput, MoreThanAThousandThreadsAreRefusedAndManyToACoreAreNoted) {
   }
 }
 
+TEST_F(HostileInput, SizesOfMatricesAreComparedBeforeTheirEntriesAreRead) {
+  write_matrices(market + "2 2 1\nx y z\n", market + "4 4 1\nx y z\n");
+  EXPECT_THAT(refused_in_a_line("run case.toml --out out"), HasSubstr("problem.S is 4 × 4 but problem.M is 2 × 2"));
+  write_matrices(market + "2 3 1\nx y z\n");
+  EXPECT_THAT(refused_in_a_line("run case.toml --out out"), HasSubstr("problem.M is 2 × 3 and must be square"));
+}
+
+TEST_F(HostileInput, AMatrixOfEmptyRowsIsRefusedBeforeItTakesMemory) {
+  for (const std::string rows : {"50000000", "100000000", "2000000000"}) {
+    write_matrices(market + rows + " " + rows + " 1\n1 1 1\n");
+    EXPECT_THAT(refused_in_a_line("check case.toml"),
+                AnyOf(HasSubstr("nearly all rows are empty"), HasSubstr("needs at least")));
+  }
+}
+
+TEST_F(HostileInput, EntriesAtOnePlaceAddUpAndThatIsSaid) {
+  write_matrices(market + "2 2 3\n1 1 1\n2 2 1\n1 1 1\n");
+  EXPECT_THAT(seiche("run case.toml --out out").err,
+              HasSubstr("seiche: problem.M: M.mtx has several entries at one place, which add up"));
+  write_matrices(market + "2 2 2\n1 1 1\n2 2 1\n");
+  EXPECT_THAT(seiche("run case.toml --out out").err, Not(HasSubstr("several entries")));
+}
+
+TEST_F(HostileInput, TwoSignsMakeNoNumber) {
+  write_matrices(market + "2 2 2\n1 1 +-1\n2 2 1\n");
+  EXPECT_THAT(refused_in_a_line("check case.toml"), HasSubstr("M.mtx:3: '+-1' is not a number"));
+  write_matrices(market + "2 2 2\n1 1 +1\n2 2 1\n");
+  EXPECT_EQ(seiche("check case.toml").exit, 0);
+  write("z.txt", "+-0.05" + repeated(" 1", 15) + "\n");
+  write_case("initial = { file = \"z.txt\" }");
+  EXPECT_THAT(refused_in_a_line("check case.toml"), HasSubstr("z.txt:1: '+-0.05' is not a finite number"));
+}
+
 }  // namespace
 }  // namespace seiche

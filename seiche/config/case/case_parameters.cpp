@@ -153,14 +153,26 @@ DampingRate compile_damping_rate(const std::string& key, const std::string& text
   return compile_space_rate(key, text, constants);
 }
 
+std::optional<MatrixSizes> matrix_sizes(const std::string& key, const CaseValue& value,
+                                        const std::filesystem::path& folder) {
+  const std::string name = read_text(key, value);
+  if (name.empty()) return std::nullopt;
+  return matrix_market_sizes(find_file(key, name, folder));
+}
+
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
                    const std::filesystem::path& folder) {
   const std::string key = "problem." + parameter.name;
   if (parameter.kind == ParameterKind::matrix) {
     const std::string name = read_text(key, value);
     const std::string file = name.empty() ? "" : find_file(key, name, folder).string();
-    spec.parameters.set(parameter.name,
-                        file.empty() ? nullptr : std::make_shared<const SparseMatrix>(read_matrix_market(file)));
+    bool repeats = false;
+    spec.parameters.set(parameter.name, file.empty()
+                                            ? nullptr
+                                            : std::make_shared<const SparseMatrix>(read_matrix_market(file, &repeats)));
+    if (repeats)
+      spec.notes.push_back(fmt::format("{}: {} has several entries at one place, which add up", key,
+                                       std::filesystem::path(file).filename().string()));
     spec.parameter_texts[parameter.name] = file;  // absolute: the case file is copied to where the results are
     return;
   }

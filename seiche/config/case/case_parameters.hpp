@@ -3,10 +3,13 @@
 
 #include <seiche/config/case/case_value.hpp>
 #include <seiche/config/case/run_spec.hpp>
+#include <seiche/config/data/matrix_market.hpp>
 #include <seiche/formula/formula_parser.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace seiche {
 
@@ -14,6 +17,10 @@ namespace seiche {
 // or else at the current one.
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
                    const std::filesystem::path& folder = {});
+
+// Of a parameter that is a matrix, before its entries are read; nothing where it names no file.
+std::optional<MatrixSizes> matrix_sizes(const std::string& key, const CaseValue& value,
+                                        const std::filesystem::path& folder);
 
 // A formula in t and as many of x, y, z as it names, which asks the grid for so many axes. Throws Error that names the
 // key.

@@ -3,6 +3,7 @@
 #include <seiche/config/case/case_parameters.hpp>
 #include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/custom/custom_case.hpp>
+#include <seiche/config/data/matrix_market.hpp>
 
 #include <fmt/ranges.h>
 
@@ -21,7 +22,9 @@ class ProblemSection {
   }
 
   void read() {
+    const bool can_be_read = compare_matrices();
     for (const Parameter& parameter : r_.problem->parameters) {
+      if (parameter.kind == ParameterKind::matrix && !can_be_read) continue;
       const bool given = r_.on("problem", parameter.name, [&](const std::string&, const CaseValue& value) {
         set_parameter(spec_, parameter, value, r_.folder);
       });
@@ -52,6 +55,34 @@ class ProblemSection {
   }
 
  private:
+  // Before any of them takes memory: matrices of one system are square and of one size, and hardly a row is empty.
+  bool compare_matrices() {
+    const std::size_t complaints = r_.complaints.size();
+    MatrixSizes first;
+    std::string first_key;
+    for (const Parameter& parameter : r_.problem->parameters) {
+      if (parameter.kind != ParameterKind::matrix) continue;
+      r_.on("problem", parameter.name, [&](const std::string& key, const CaseValue& value) {
+        const std::optional<MatrixSizes> sizes = matrix_sizes(key, value, r_.folder);
+        if (!sizes) return;
+        const auto [rows, columns, entries] = *sizes;
+        if (rows != columns) throw Error("{} is {} × {} and must be square", key, rows, columns);
+        if (!first_key.empty()) {
+          if (rows != first.rows)
+            throw Error("{} is {} × {} but {} is {} × {}", key, rows, columns, first_key, first.rows, first.columns);
+          return;
+        }
+        constexpr Index many_rows = Index{1} << 20U, most_rows_per_entry = 8;
+        if (rows > many_rows && rows / most_rows_per_entry > entries)
+          throw Error("{} has {} rows and {} entr{}: nearly all rows are empty, and would take memory for nothing", key,
+                      rows, entries, entries == 1 ? "y" : "ies");
+        first = *sizes;
+        first_key = key;
+      });
+    }
+    return r_.complaints.size() == complaints;
+  }
+
   void find_entry() {
     const bool given = r_.on("problem", "name", [&](const std::string& key, const CaseValue& value) {
       spec_.problem = read_name(key, value, all_problem_names());

@@ -1,6 +1,8 @@
 #include <seiche/config/data/initial_file.hpp>
 #include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
+#include <seiche/core/text/shortened.hpp>
 
 #include <fmt/ranges.h>
 
@@ -19,9 +21,8 @@ double read_token(const std::string& token, const std::filesystem::path& file, s
   const char* end = token.data() + token.size();
   double value = 0.0;
   const auto [rest, status] = std::from_chars(begin, end, value);
-  if (status == std::errc() && rest == end && std::isfinite(value)) return value;
-  throw Error("{}:{}: '{}' is not a finite number", file.string(), line,
-              token.size() > 60 ? token.substr(0, 60) + "…" : token);
+  if (!token.starts_with("+-") && status == std::errc() && rest == end && std::isfinite(value)) return value;
+  throw Error("{}:{}: '{}' is not a finite number", shortened_path(file.string()), line, shortened(token));
 }
 
 bool depends_on_time(const Problem& problem) {
@@ -32,9 +33,11 @@ bool depends_on_time(const Problem& problem) {
 }  // namespace
 
 Vector read_initial_file(const std::filesystem::path& file, const Problem& problem) {
-  if (!std::filesystem::is_regular_file(file)) throw Error("{} is not a file of numbers", file.string());
+  const std::string name = shortened_path(file.string());
+  if (const std::string complaint = complaint_about_file(file); !complaint.empty())
+    throw Error("{} {}{}", name, complaint, complaint == "is not a file" ? " of numbers" : "");
   std::ifstream input(file);
-  if (!input) throw Error("{} cannot be read", file.string());
+  if (!input) throw Error("{} cannot be read", name);
   Vector z(problem.size());
   Index count = 0;
   std::string text;
@@ -45,9 +48,9 @@ Vector read_initial_file(const std::filesystem::path& file, const Problem& probl
       if (count < z.size()) z[count] = value;
     }
   }
-  if (input.bad()) throw Error("{} cannot be read to its end", file.string());
+  if (input.bad()) throw Error("{} cannot be read to its end", name);
   if (count != z.size())
-    throw Error("{} holds {} number{} but the state has {} ({})", file.string(), count, count == 1 ? "" : "s", z.size(),
+    throw Error("{} holds {} number{} but the state has {} ({})", name, count, count == 1 ? "" : "s", z.size(),
                 problem.grid.unknowns() == 1
                     ? fmt::format("{}", fmt::join(problem.fields, ", "))
                     : fmt::format("{} field{} × {} unknowns", problem.field_count(),

@@ -1,6 +1,8 @@
 #include <seiche/config/data/matrix_market.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/physical_memory.hpp>
+#include <seiche/core/text/input_file.hpp>
+#include <seiche/core/text/shortened.hpp>
 
 #include <fmt/ranges.h>
 
@@ -15,16 +17,22 @@ namespace {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : name_(file.string()) {
-    if (!std::filesystem::is_regular_file(file)) throw Error("{} is not a file", name_);
+  explicit Reader(const std::filesystem::path& file) : name_(shortened_path(file.string())) {
+    const std::string complaint = complaint_about_file(file);
+    if (!complaint.empty()) throw Error("{} {}", name_, complaint);
     input_.open(file);
     if (!input_) throw Error("{} cannot be read", name_);
     bytes_ = static_cast<double>(std::filesystem::file_size(file));
   }
 
-  SparseMatrix read() {
+  MatrixSizes sizes() {
     read_header();
     read_sizes();
+    return {rows_, columns_, count_};
+  }
+
+  SparseMatrix read(bool* repeats) {
+    sizes();
     if (is_array_) {
       read_array();
     } else {
@@ -33,6 +41,7 @@ class Reader {
     if (next_line()) complain("more entries follow than the {} announced", count_);
     SparseMatrix a(rows_, columns_);
     a.setFromTriplets(entries_.begin(), entries_.end());
+    if (repeats != nullptr) *repeats = a.nonZeros() < std::ssize(entries_);
     return a;
   }
 
@@ -47,7 +56,7 @@ class Reader {
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
     if (std::find(allowed.begin(), allowed.end(), lower) == allowed.end())
-      complain("'{}' must be one of {}", word, fmt::join(allowed, ", "));
+      complain("'{}' must be one of {}", shortened(word), fmt::join(allowed, ", "));
     return lower;
   }
 
@@ -93,13 +102,14 @@ class Reader {
     Number value{};
     const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
     const auto [rest, status] = std::from_chars(begin, word.data() + word.size(), value);
-    if (status != std::errc() || rest != word.data() + word.size()) complain("'{}' is not a number", word);
+    if (word.starts_with("+-") || status != std::errc() || rest != word.data() + word.size())
+      complain("'{}' is not a number", shortened(word));
     return value;
   }
 
   double value(const std::string& word) const {
     const double x = number<double>(word);
-    if (!std::isfinite(x)) complain("the entry {} is not finite", word);
+    if (!std::isfinite(x)) complain("the entry {} is not finite", shortened(word));
     return x;
   }
 
@@ -123,9 +133,9 @@ class Reader {
       complain("{} entries do not fit into the {:.0f} bytes of this file", count_, bytes_);
   }
 
-  // Of S, M, D and a few states with so many rows, however few entries follow.
+  // Of S, M, D and what is made of them with so many rows, however few entries follow.
   void require_memory() const {
-    constexpr double bytes_per_row = 100;
+    constexpr double bytes_per_row = 3 * 90;  // measured
     const double needed = bytes_per_row * static_cast<double>(std::max(rows_, columns_));
     if (needed > physical_memory())
       complain("a matrix of {} × {} needs at least {:.3g} bytes, and this machine has {:.3g}", rows_, columns_, needed,
@@ -173,6 +183,8 @@ class Reader {
 
 }  // namespace
 
-SparseMatrix read_matrix_market(const std::filesystem::path& file) { return Reader(file).read(); }
+MatrixSizes matrix_market_sizes(const std::filesystem::path& file) { return Reader(file).sizes(); }
+
+SparseMatrix read_matrix_market(const std::filesystem::path& file, bool* repeats) { return Reader(file).read(repeats); }
 
 }  // namespace seiche

@@ -8,9 +8,17 @@
 namespace seiche {
 
 // `coordinate` or `array`; `real`, `integer` or (coordinate only) `pattern`; `general`, `symmetric` or
-// `skew-symmetric`. Entries at the same place add up. Throws Error with the line and what is wrong with it, or with
-// both counts where they differ, and before anything is allocated where the header promises more entries than the file
-// can hold.
-SparseMatrix read_matrix_market(const std::filesystem::path& file);
+// `skew-symmetric`. Entries at the same place add up, and `repeats` tells that there are such. Throws Error with the
+// line and what is wrong with it, or with both counts where they differ, and before anything is allocated where the
+// header promises more entries than the file can hold, or more rows than the memory.
+SparseMatrix read_matrix_market(const std::filesystem::path& file, bool* repeats = nullptr);
+
+struct MatrixSizes {
+  Index rows = 0, columns = 0;
+  Index entries = 0;  // in the file
+};
+
+// What the header says; nothing behind it is read.
+MatrixSizes matrix_market_sizes(const std::filesystem::path& file);
 
 }  // namespace seiche
