@@ -114,5 +114,21 @@ TEST_F(HostileInput, TwoSignsMakeNoNumber) {
   EXPECT_THAT(refused_in_a_line("check case.toml"), HasSubstr("z.txt:1: '+-0.05' is not a finite number"));
 }
 
+TEST_F(HostileInput, NamesThatAreNoUtf8AreRefusedBeforeTheRun) {
+  write_case();
+  const std::string byte = "\xff";
+  EXPECT_THAT(refused_in_a_line("run case.toml --out 'bad" + byte + "'"),
+              AllOf(HasSubstr("output folder"), HasSubstr("UTF-8")));
+  EXPECT_FALSE(fs::exists(directory / ("bad" + byte)));
+  fs::copy_file(directory / "case.toml", directory / ("case" + byte + ".toml"));
+  EXPECT_THAT(refused_in_a_line("run 'case" + byte + ".toml' --out out"),
+              AllOf(HasSubstr("case file"), HasSubstr("UTF-8")));
+  write("z" + byte, repeated("1\n", 16));
+  EXPECT_THAT(refused_in_a_line("run case.toml --out out --set 'problem.initial={file=\"z" + byte + "\"}'"),
+              HasSubstr("initial"));
+  EXPECT_EQ(seiche("run case.toml --quiet --out größe").exit, 0);
+  EXPECT_EQ(seiche("audit größe").exit, 0);
+}
+
 }  // namespace
 }  // namespace seiche

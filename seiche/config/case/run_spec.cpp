@@ -34,6 +34,21 @@ void check_field_rates(const RunSpec& spec, const Problem& problem) {
       check_field_rate(spec, parameter, problem);
 }
 
+// The names of files and folders in a case are written to its case.toml, which is UTF-8.
+void require_utf8(const RunSpec& spec) {
+  const auto require = [](std::string_view what, const std::string& name) {
+    if (!is_utf8(name))
+      throw Error("the name of the {} {} is not in UTF-8, as case files are: give it another one", what,
+                  shortened_path(name));
+  };
+  require("output folder", spec.output_directory);
+  require("case file", spec.source);
+  if (const auto* data = std::get_if<FileData>(&spec.initial)) require("initial file", data->file.string());
+  if (spec.ensemble)
+    for (const std::filesystem::path& file : spec.ensemble->files) require("initial file", file.string());
+  for (const auto& [name, text] : spec.parameter_texts) require("file in problem." + name, text);
+}
+
 // Where the value of the key stands that a complaint begins with: what was given after --set is not in the file.
 std::string blamed(const RunSpec& spec, std::string_view complaint) {
   const auto given = std::find_if(spec.overrides.rbegin(), spec.overrides.rend(), [&](const std::string& text) {
@@ -65,6 +80,7 @@ FormulaConstants formula_constants(const RunSpec& spec) {
 
 Problem make_problem(const RunSpec& spec) {
   try {
+    require_utf8(spec);
     const ProblemEntry& entry = problem_entry(spec);
     const auto* preset = std::get_if<PresetData>(&spec.initial);
     Problem problem = entry.make(spec.parameters, preset != nullptr ? preset->name : entry.presets.front());
