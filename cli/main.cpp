@@ -2,12 +2,16 @@
 #include "command_line.hpp"
 #include "versions.hpp"
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/shortened.hpp>
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <system_error>
 
 namespace seiche::cli {
 namespace {
@@ -33,6 +37,14 @@ Error unexpected(const CLI::App& app) {
   const std::string extra = app.remaining(true).front();
   if (!extra.starts_with("-")) return Error("unexpected argument '{}'", shortened(extra));
   return unknown_name("option", extra.substr(0, extra.find('=')), option_names(command));
+}
+
+// Is the name itself at fault that the user gave, and not the disk?
+bool leads_nowhere(const std::error_code& code) {
+  for (const std::errc name : {std::errc::too_many_symbolic_link_levels, std::errc::filename_too_long,
+                               std::errc::not_a_directory, std::errc::no_such_file_or_directory})
+    if (code == name) return true;
+  return false;
 }
 
 ExitCode run_program(const std::vector<std::string>& arguments) {
@@ -88,6 +100,12 @@ int main(int count, char** values) {
   } catch (const std::bad_alloc&) {
     print_note("there is not enough memory for this");
     return computation_failed;
+  } catch (const std::filesystem::filesystem_error& error) {
+    print_failure(fmt::format("{}: {}", seiche::shortened_path(error.path1().string()), error.code().message()));
+    return leads_nowhere(error.code()) ? wrong_usage : computation_failed;
+  } catch (const nlohmann::json::exception&) {
+    print_note("a file in JSON, such as summary.json, does not hold what Seiche writes to it");
+    return wrong_usage;
   } catch (const std::exception& error) {
     print_failure(error.what());
     return computation_failed;

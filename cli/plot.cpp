@@ -49,6 +49,18 @@ std::vector<std::string> parsed_fields(const std::string& text, const SolutionRe
   return fields;
 }
 
+// Asked where something went wrong, since all of it is read.
+bool is_damaged(const std::filesystem::path& file) {
+  try {
+    const SolutionReader solution(file);
+    Vector values;
+    for (Index k = 0; k < solution.count(); ++k) solution.state(k, values);
+    return false;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
 ExitCode plot(const PlotArguments& arguments) {
   PictureOptions options{.formats = parsed_formats(arguments.formats), .film = !arguments.no_film};
   require_recovered(arguments.directory);
@@ -72,10 +84,12 @@ ExitCode plot(const PlotArguments& arguments) {
       if (!film.dark_file.empty())
         print_lines(fmt::format("{:<10} {}\n", "", (run.directory / film.dark_file).string()));
     }
-  } catch (const Error& error) {  // the run and its files are what they were, and so are pictures of an earlier call
+  } catch (const Error& error) {
+    if (is_damaged(run.directory / "solution.h5")) throw;
+    // The run and its files are what they were, and so are pictures of an earlier call.
     if (!std::filesystem::exists(run.directory / "figures" / "energy.png"))
       write_run_report(run, history, {}, error.what());
-    print_note(error.what());
+    print_failure(error.what());
     return computation_failed;
   }
   print_lines(fmt::format("{:<10} {}\n", "report", (run.directory / "report.html").string()));

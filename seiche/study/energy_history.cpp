@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/output/csv_table.hpp>
 #include <seiche/study/energy_history.hpp>
 
@@ -73,7 +74,7 @@ EnergyHistory read_energy_history(const std::filesystem::path& file) {
   const std::vector<std::string>& names = reader.names();
   if (names.size() < 2 || names[0] != "t" || names[1] != "H")
     throw Error("{} is no table of energies: it begins with '{}'", file.string(),
-                fmt::format("{}", fmt::join(names, ",")).substr(0, 40));
+                shortened(fmt::format("{}", fmt::join(names, ",")), 40));
 
   const std::size_t first_cause = names.size() > 2 && names[2] == "H_modified" ? 3 : 2;
   std::vector<Extremes> curves(names.size());

@@ -1,5 +1,6 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
 #include <seiche/problem/problems.hpp>
 #include <seiche/study/run_files.hpp>
 
@@ -26,6 +27,11 @@ double number(const Json& object, const char* key) {
   return found != object.end() && found->is_number() ? found->get<double>() : std::nan("");
 }
 
+std::int64_t whole(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+}
+
 std::string text(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
@@ -45,7 +51,7 @@ void read_certificate(const Json& certificate, RunFiles& run) {
     run.hypotheses.push_back(
         {text(item, "hypothesis"), text(item, "grade"), text(item, "statement"), text(item, "witness")});
   const Json law = member(certificate, "law");
-  run.promised = law.value("promised", false);
+  run.promised = law.contains("promised") && law["promised"] == true;
   run.law_reason = text(law, "reason");
   run.theorem = text(law, "theorem");
 }
@@ -54,9 +60,9 @@ void read_certificate(const Json& certificate, RunFiles& run) {
 
 RunFiles read_run(const std::filesystem::path& directory) {
   namespace fs = std::filesystem;
-  if (!fs::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
+  if (look_at(directory).kind != InputKind::folder) throw Error("{} is no directory of a run", directory.string());
   for (const char* name : {"case.toml", "summary.json", "energy.csv"})
-    if (!fs::exists(directory / name))
+    if (look_at(directory / name).kind != InputKind::file)
       throw Error("{} is no directory of a finished run: it has no {}", directory.string(), name);
   const Json summary = Json::parse(text_of(directory / "summary.json"), nullptr, false);
   if (!summary.is_object() || !summary.contains("energy") || !summary.contains("status"))
@@ -76,7 +82,7 @@ RunFiles read_run(const std::filesystem::path& directory) {
   run.problem = text(summary, "problem");
   run.method = text(summary, "method");
   run.backend = text(summary, "backend");
-  run.steps = summary.value("steps", std::int64_t{0});
+  run.steps = whole(summary, "steps");
   run.t = number(summary, "t");
   const Json energy = member(summary, "energy");
   run.energy = numbers(energy);

@@ -130,5 +130,16 @@ TEST_F(HostileInput, NamesThatAreNoUtf8AreRefusedBeforeTheRun) {
   EXPECT_EQ(seiche("audit größe").exit, 0);
 }
 
+TEST_F(HostileInput, LinksThatLeadInCirclesAreNamedWithTheReason) {
+  fs::create_symlink("b", directory / "a");
+  fs::create_symlink("a", directory / "b");
+  for (const std::string command : {"check a", "run a --out out", "audit a", "plot a"}) refused_in_a_line(command);
+  EXPECT_THAT(refused("check a"), HasSubstr("Too many levels of symbolic links"));
+  write_case("initial = { file = \"a\" }");
+  EXPECT_THAT(refused_in_a_line("check case.toml"), HasSubstr("Too many levels of symbolic links"));
+  write_case();
+  EXPECT_THAT(refused_in_a_line("run case.toml --out a/x"), HasSubstr("Too many levels of symbolic links"));
+}
+
 }  // namespace
 }  // namespace seiche
