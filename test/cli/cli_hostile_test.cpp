@@ -1,6 +1,7 @@
 // Input that is meant to do harm, or has come to: refused in one short line, before anything is computed.
 #include <test/support/hostile_input.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -90,7 +91,7 @@ TEST_F(HostileInput, SizesOfMatricesAreComparedBeforeTheirEntriesAreRead) {
 
 TEST_F(HostileInput, AMatrixOfEmptyRowsIsRefusedBeforeItTakesMemory) {
   for (const std::string rows : {"50000000", "100000000", "2000000000"}) {
-    write_matrices(market + rows + " " + rows + " 1\n1 1 1\n");
+    write_matrices(fmt::format("{0}{1} {1} 1\n1 1 1\n", market, rows));
     EXPECT_THAT(refused_in_a_line("check case.toml"),
                 AnyOf(HasSubstr("nearly all rows are empty"), HasSubstr("needs at least")));
   }

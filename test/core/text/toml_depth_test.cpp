@@ -1,4 +1,5 @@
 // How deep TOML goes is seen before it is parsed, and nothing in texts and comments is taken for depth.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <seiche/core/text/toml_depth.hpp>
@@ -43,7 +44,7 @@ TEST(TomlDepth, DotsAndBracketsInTextsAndCommentsDoNotCount) {
   const std::string many = repeated(".[{", 40);
   for (const std::string& text :
        {"# " + many + "\n", "a = \"" + many + "\"\n", "a = '" + many + "'\n",
-        "a = \"\"\"" + many + "\n" + many + "\"\"\"\n", "a = '''" + many + "\n" + many + "'''\n",
+        fmt::format("a = \"\"\"{0}\n{0}\"\"\"\n", many), fmt::format("a = '''{0}\n{0}'''\n", many),
         "a = \"\\\"" + many + "\"\n", "a = \"\"\"\\\"\"\"" + many + "\"\"\"\n",
         "a = \"\"\"x\"\"\"\"\"  # " + many + "\n", "a = ''  # " + many + "\n", "a = \"\"  # " + many + "\n"})
     EXPECT_EQ(said(text), "") << text;
