@@ -5,6 +5,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/step_controller.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
 
