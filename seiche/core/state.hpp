@@ -25,9 +25,7 @@ struct State {
   std::vector<Vector> history = {};
   double history_h = 0.0;
 
-  void archive(Archive& a) {
-    a(z, t, n, r_squared, shift, energy_scale, energy, energy_terms, history, history_h);
-  }
+  void archive(Archive& a) { a(z, t, n, r_squared, shift, energy_scale, energy, energy_terms, history, history_h); }
 };
 
 }  // namespace seiche

@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/core/text/number_text.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/damping/adaptive_integral.hpp>
 #include <seiche/damping/rates.hpp>
 

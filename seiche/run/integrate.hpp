@@ -34,7 +34,8 @@ struct IntegrateOptions {
   Resumption resumption = {};
 };
 
-// Steps from state.t to t_end, or from where options.resumption leaves off; state must have been begun. t = t₀ + n h; the last step is shortened to land on t_end.
+// Steps from state.t to t_end, or from where options.resumption leaves off; state must have been begun. t = t₀ + n h;
+// the last step is shortened to land on t_end.
 // A failed step ends the run with what was computed before it; an energy above the promised law (beyond round-off,
 // judged at every step that some observer records) sets law = violated. Never throws for numerical reasons.
 RunReport integrate(const System& system, Stepper& stepper, State& state, const IntegrateOptions& options,

@@ -49,8 +49,8 @@ class Recording {
   void abandon(const std::string& reason);  // an Error of a propagator, a full disk
 
   bool is_sound() const { return system_.space->is_finite(state_.z); }
-  // The state, and what a run has counted and judged so far. `objection` as for `finish`: what has been met stays met in a run that
-  // goes on from here.
+  // The state, and what a run has counted and judged so far. `objection` as for `finish`: what has been met stays met
+  // in a run that goes on from here.
   void archive(Archive& a, const std::function<std::string()>& objection);
 
  private:

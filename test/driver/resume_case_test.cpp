@@ -85,7 +85,8 @@ class ResumeCase : public InTemporaryDirectory {
     const Hdf5File b = Hdf5File::open(directory / other / "solution.h5");
     for (const char* name : {"t", "H", "H_modified", "u", "v", "q", "p", "x", "y"}) {
       EXPECT_EQ(a.has(name), b.has(name)) << name;
-      if (a.has(name)) EXPECT_EQ(values(a, name), values(b, name)) << other << " " << name;
+      if (!a.has(name)) continue;
+      EXPECT_EQ(values(a, name), values(b, name)) << other << " " << name;
     }
     for (const char* name : {"status", "message", "energy_law", "title", "equation", "method", "backend"})
       EXPECT_EQ(text_attribute(a.id(), name), text_attribute(b.id(), name)) << other << " " << name;

@@ -21,14 +21,14 @@ std::string repeated(std::string_view text, int count) {
 std::string said(const std::string& text) { return toml_depth_complaint(text).sentence; }
 
 TEST(TomlDepth, KeysOfMoreThanSixteenPartsAreComplainedAbout) {
-  const std::string sixteen = "a" + repeated(".a", 15), more = sixteen + ".a";
+  const std::string sixteen = fmt::format("a{}", repeated(".a", 15)), more = sixteen + ".a";
   for (const auto& [before, after] : {std::pair("", " = 1\n"), std::pair("[", "]\n"), std::pair("[[", "]]\n"),
                                       std::pair("b = { ", " = 1 }\n"), std::pair("b = [{ ", " = 1 }]\n")}) {
     EXPECT_EQ(said(before + sixteen + after), "") << before;
     EXPECT_THAT(said(before + more + after), HasSubstr("more than 16 parts")) << before;
   }
-  EXPECT_THAT(said("a" + repeated(" . \"b\"", 16) + " = 1"), HasSubstr("parts")) << "with blanks and quotes";
-  EXPECT_THAT(said("a" + repeated(".'b'", 16) + " = 1"), HasSubstr("parts"));
+  EXPECT_THAT(said(fmt::format("a{} = 1", repeated(" . \"b\"", 16))), HasSubstr("parts")) << "with blanks and quotes";
+  EXPECT_THAT(said(fmt::format("a{} = 1", repeated(".'b'", 16))), HasSubstr("parts"));
 }
 
 TEST(TomlDepth, ListsAndTablesMoreThanSixteenDeepAreComplainedAbout) {
