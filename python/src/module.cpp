@@ -2,6 +2,7 @@
 // it.
 #include "bind.hpp"
 
+#include <pybind11/stl.h>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/version.hpp>

@@ -206,7 +206,7 @@ def test_a_function_that_returns_no_number_is_a_type_error():
     [
         (lambda p: seiche.solve(p, 1.0), "give a step size h, or a tolerance"),
         (lambda p: seiche.solve(p, 1.0, h=0.1, method="seisv"), "unknown method 'seisv'; did you mean 'seisav'"),
-        (lambda p: seiche.solve(p, 1.0, h=-1), "^method.h = -1 must be > 0"),
+        (lambda p: seiche.solve(p, 1.0, h=-1), "^h = -1 must be > 0"),
         (lambda p: seiche.solve(p, (1.0, 0.0), h=0.1), "must ascend"),
         (lambda p: seiche.solve(p, 1.0, np.zeros(5), h=0.1), "z0 has 5 entries, but the state of the problem has 12"),
         (lambda p: seiche.solve(p, 1.0, h=0.1, t_eval=[0.5, 3.0]), "t_eval holds 3"),
@@ -224,7 +224,7 @@ def test_a_function_that_returns_no_number_is_a_type_error():
         (lambda p: seiche.spectrum("klein_gordon", tolerance=1e-6), "spectrum looks at one step: give h"),
         (lambda p: seiche.problem("klein_gordn"), "unknown problem.*did you mean 'klein_gordon'"),
         (lambda p: seiche.problem("klein_gordon", alhpa=1.0), "did you mean 'alpha'"),
-        (lambda p: seiche.problem("klein_gordon", points=-3), "^problem.points = -3 must be"),
+        (lambda p: seiche.problem("klein_gordon", points=-3), "^points = -3 must be"),
         (lambda p: seiche.solve(pendulums(z0=None), 1.0, h=0.1), "z0 is missing"),
     ],
 )

@@ -109,7 +109,7 @@ void require_bounded(std::string_view text, const Source& source) {
   if (text.size() > largest_case)
     throw Error("{} is no case: it has more than {} MB", source.name, largest_case >> 20U);
   if (const TomlComplaint complaint = toml_depth_complaint(text); !complaint.sentence.empty())
-    throw Error("{}: {}", source.place(complaint.line, complaint.column), complaint.sentence);
+    throw Error(complaint.sentence).at(source.place(complaint.line, complaint.column));
 }
 
 CaseValue override_value(const std::string& text, const Source& source) {

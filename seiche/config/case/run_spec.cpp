@@ -94,7 +94,7 @@ Problem make_problem(const RunSpec& spec) {
     return problem;
   } catch (const Error& error) {
     if (spec.source.empty()) throw;
-    throw Error("{}: {}", blamed(spec, error.what()), error.what());
+    throw error.at(blamed(spec, error.what()));
   }
 }
 
