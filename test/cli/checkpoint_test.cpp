@@ -22,8 +22,8 @@ using testing::HasSubstr;
 class CheckpointCli : public test::Cli {
  protected:
   void SetUp() override { write_case("", "h = \"1/512\""); }
-  static std::string keys() { return "time.end=400 output.energy_every=64 output.snapshot_every=512"; }
-  std::vector<std::string> arguments(const std::string& more = "time.end=400") const {
+  static std::string keys() { return "time.end=8000 output.energy_every=64 output.snapshot_every=8192"; }
+  std::vector<std::string> arguments(const std::string& more = "time.end=8000") const {
     return {"run",
             "case.toml",
             "--quiet",
@@ -32,7 +32,7 @@ class CheckpointCli : public test::Cli {
             "--set",
             more,
             "output.energy_every=64",
-            "output.snapshot_every=512"};
+            "output.snapshot_every=8192"};
   }
   bool has(const std::string& name) const { return fs::exists(directory / "out" / name); }
   fs::file_time_type written_at(const std::string& name) const {  // the least where it is not there
@@ -53,7 +53,9 @@ class CheckpointCli : public test::Cli {
   }
 };
 
-TEST_F(CheckpointCli, IsWhatEverySignalToEndLeaves) {
+class CheckpointCliSlow : public CheckpointCli {};  // seconds, and ten times that under a sanitizer
+
+TEST_F(CheckpointCliSlow, IsWhatEverySignalToEndLeaves) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     Background run(directory, arguments());
     ASSERT_TRUE(Background::wait_until([&] { return computes(); }));
@@ -77,10 +79,10 @@ TEST_F(CheckpointCli, IsWhatUsr1AsksForAndTheRunGoesOn) {
   EXPECT_EQ(run.end(SIGTERM), 130);
 }
 
-TEST_F(CheckpointCli, OfARunThatWasKilledLeadsToTheSameFiles) {
+TEST_F(CheckpointCliSlow, OfARunThatWasKilledLeadsToTheSameFiles) {
   for (int kills = 0; kills < 40; ++kills) {
     std::vector<std::string> words = kills == 0 ? arguments() : std::vector<std::string>{"resume", "out", "--quiet"};
-    if (kills == 0) words.emplace_back("checkpoint.every_steps=20000");
+    if (kills == 0) words.emplace_back("checkpoint.every_steps=400000");
     Background run(directory, words);
     const auto before = written_at("checkpoint.seiche");
     const bool goes_on = Background::wait_until(
@@ -108,12 +110,12 @@ TEST_F(CheckpointCli, IsNotRemovedByAnotherRun) {
 }
 
 TEST_F(CheckpointCli, EndsARunThatHasUsedItsHours) {
-  const Result stopped = seiche("run case.toml --out out --max-hours 1e-5 --set " + keys());
+  const Result stopped = seiche("run case.toml --out out --max-hours 1e-9 --set " + keys());
   EXPECT_EQ(stopped.exit, 130);
-  EXPECT_THAT(stopped.err, HasSubstr("after 1e-05 hours as asked; `seiche resume out` goes on from there"));
-  const Result farther = seiche("resume out --until 401 --json");
+  EXPECT_THAT(stopped.err, HasSubstr("after 1e-09 hours as asked; `seiche resume out` goes on from there"));
+  const Result farther = seiche("resume out --until 8001 --json");
   EXPECT_EQ(farther.exit, 0) << farther.err;
-  EXPECT_EQ(json::parse(farther.out)["t"], 401);
+  EXPECT_EQ(json::parse(farther.out)["t"], 8001);
 }
 
 TEST_F(CheckpointCli, RunsWithoutAReaderOfItsMessages) {
