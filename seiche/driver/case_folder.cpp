@@ -23,7 +23,7 @@ CaseFolder::CaseFolder(const std::filesystem::path& path, RunKind kind, const Ru
     require_finished(path);
   }
   remove_earlier_results(path);
-  for (const char* name : {checkpoint_name, earlier_checkpoint_name}) remove_file(folder_, name);
+  remove_checkpoints(folder_);
   remove_own_report(path);
   remove_pictures(path);
   write_file(folder_, "case.toml", write_case(spec));

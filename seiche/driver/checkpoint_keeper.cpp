@@ -74,8 +74,4 @@ void CheckpointKeeper::write(FunctionRef<void(Archive&)> run) const {
   file.commit();
 }
 
-void CheckpointKeeper::remove() const {
-  for (const char* name : {checkpoint_name, earlier_checkpoint_name}) remove_file(folder_, name);
-}
-
 }  // namespace seiche

@@ -26,7 +26,6 @@ class CheckpointKeeper : public Checkpoints {
 
   // A checkpoint that cannot be written ends no run: that is said once.
   void save(FunctionRef<void(Archive&)> run) override;
-  void remove() const;                           // when the run has come to its end
   bool has_saved() const { return has_saved_; }  // the last time that it tried
   bool is_out_of_time() const { return out_of_time_; }
 

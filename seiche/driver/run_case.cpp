@@ -151,7 +151,7 @@ class CaseRun {
 
     const Resumption resumption{.checkpoints = &*keeper_, .from = from_ != nullptr ? &from_->rest : nullptr};
     RunReport report = with_way_on(run_.integrate(*stop_, observers, resumption));
-    if (report.status == RunReport::Status::success) keeper_->remove();
+    if (report.status == RunReport::Status::success) remove_checkpoints(folder);
     last_words.correct(report);
     // From here on nothing is lost: it can all be had again from the files that are there.
     if (const std::string failure = write_for_readers(folder, spec_, solution, leave, warn); !failure.empty()) {

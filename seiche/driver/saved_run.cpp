@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/driver/saved_run.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/checksum.hpp>
 
 #include <fmt/ranges.h>
@@ -75,6 +76,10 @@ Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& not
 bool has_checkpoint(const std::filesystem::path& directory) {
   return std::filesystem::exists(directory / checkpoint_name) ||
          std::filesystem::exists(directory / earlier_checkpoint_name);
+}
+
+void remove_checkpoints(const Folder& folder) {
+  for (const char* name : {checkpoint_name, earlier_checkpoint_name}) remove_file(folder, name);
 }
 
 }  // namespace seiche

@@ -45,5 +45,6 @@ Checkpoint read_checkpoint(const std::filesystem::path& file);
 Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& notes);
 
 bool has_checkpoint(const std::filesystem::path& directory);
+void remove_checkpoints(const Folder& folder);  // fine if there is none
 
 }  // namespace seiche

@@ -81,11 +81,7 @@ class AdaptiveLoop {
       if (!stops) return false;
       take_back_first();
     }
-    if (checkpoints_ == nullptr) return stops;
-    const Checkpoints::Wish wish = stops ? Checkpoints::Wish::save_and_stop : checkpoints_->wish(state_.n);
-    if (wish != Checkpoints::Wish::none && recording_.is_sound())
-      checkpoints_->save([this](Archive& a) { archive(a); });
-    return wish == Checkpoints::Wish::save_and_stop;
+    return recording_.pauses(stops, checkpoints_, [this](Archive& a) { archive(a); });
   }
 
   void archive(Archive& a) {

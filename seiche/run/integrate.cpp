@@ -56,11 +56,7 @@ class FixedLoop {
   // Is the run to stop here? It is saved before that, and whenever somebody wants it.
   bool pauses() {
     const bool stops = options_.stop && options_.stop->load(std::memory_order_relaxed);
-    if (checkpoints_ == nullptr) return stops;
-    const Checkpoints::Wish wish = stops ? Checkpoints::Wish::save_and_stop : checkpoints_->wish(state_.n);
-    if (wish != Checkpoints::Wish::none && recording_.is_sound())
-      checkpoints_->save([this](Archive& a) { archive(a); });
-    return wish == Checkpoints::Wish::save_and_stop;
+    return recording_.pauses(stops, checkpoints_, [this](Archive& a) { archive(a); });
   }
 
   void archive(Archive& a) {

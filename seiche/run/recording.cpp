@@ -154,6 +154,13 @@ double Recording::seconds() const {
   return seconds_earlier_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
+bool Recording::pauses(bool stops, Checkpoints* checkpoints, FunctionRef<void(Archive&)> run) const {
+  if (checkpoints == nullptr) return stops;
+  const Checkpoints::Wish wish = stops ? Checkpoints::Wish::save_and_stop : checkpoints->wish(state_.n);
+  if (wish != Checkpoints::Wish::none && system_.space->is_finite(state_.z)) checkpoints->save(run);
+  return wish == Checkpoints::Wish::save_and_stop;
+}
+
 void Recording::archive(Archive& a, const std::function<std::string()>& objection) {
   Potential::Counts counts_so_far = counts();
   double seconds_so_far = seconds();

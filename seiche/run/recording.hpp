@@ -5,6 +5,7 @@
 #include <seiche/core/control/archive.hpp>
 #include <seiche/core/observer.hpp>
 #include <seiche/core/system.hpp>
+#include <seiche/run/checkpoints.hpp>
 #include <seiche/run/energy_book.hpp>
 
 #include <chrono>
@@ -48,7 +49,9 @@ class Recording {
   RunReport finish(const std::function<std::string()>& objection, const std::string& remark);
   void abandon(const std::string& reason);  // an Error of a propagator, a full disk
 
-  bool is_sound() const { return system_.space->is_finite(state_.z); }
+  // Is the run to stop between two steps? `run` writes it for whoever keeps checkpoints (null: nobody) before that, and
+  // whenever one is wanted; never where the state is not finite.
+  bool pauses(bool stops, Checkpoints* checkpoints, FunctionRef<void(Archive&)> run) const;
   // The state, and what a run has counted and judged so far. `objection` as for `finish`: what has been met stays met
   // in a run that goes on from here.
   void archive(Archive& a, const std::function<std::string()>& objection);
