@@ -252,5 +252,17 @@ TEST_F(Survival, NoLibraryIsLookedForInTheCurrentFolder) {
   }
 }
 
+// As Debian hardens its packages: protected stacks, checked copies, addresses that are read-only once they are known.
+TEST_F(Survival, TheProgramIsHardened) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the sanitizers have checks of their own";
+#endif
+  const std::string read =
+      "readelf -Wldh --dyn-syms '" + test::program_path() + "' >'" + (directory / "elf.txt").string() + "' 2>/dev/null";
+  if (std::system(read.c_str()) != 0) GTEST_SKIP() << "no readelf";
+  EXPECT_THAT(text("elf.txt"), AllOf(HasSubstr("GNU_RELRO"), HasSubstr("BIND_NOW"), HasSubstr("__stack_chk_fail"),
+                                     HasSubstr("_chk@GLIBC"), HasSubstr("DYN (Position-Independent")));
+}
+
 }  // namespace
 }  // namespace seiche::test
