@@ -44,6 +44,7 @@ ExitCode check(const CheckArguments& arguments) {
   const Simulation simulation(problem, simulation_options(spec));  // refuses what `run` refuses
   const Certificate certificate = certify(problem, {.method = spec.method,
                                                     .method_options = spec.method_options,
+                                                    .t_start = spec.t_start,
                                                     .t_end = spec.t_end,
                                                     .at_start = &simulation});
   print_data(arguments.json ? to_json(spec, certificate).dump(2) + "\n" : to_text(spec, certificate));

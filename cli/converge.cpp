@@ -83,6 +83,9 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
   }
   RunSpec spec = load_case(arguments.case_argument, methods);
   const Problem problem = make_problem(spec);
+  if (spec.t_start != 0)
+    throw Error("{} has time.start = {}, and converge compares runs from t = 0: leave it out", spec.source,
+                spec.t_start);
   if (methods.empty()) methods = {spec.method};
   for (auto name = methods.begin(); name != methods.end(); ++name)
     if (std::find(methods.begin(), name, *name) != name) throw Error("--methods names {} twice", *name);

@@ -27,7 +27,7 @@ std::vector<Variant> variants() {
 }
 
 SimulationOptions options_of(const Variant& variant, double parameter, double t_end) {
-  SimulationOptions options{.method = variant.method, .backend_options = {.measure_plans = true}, .t_end = t_end};
+  SimulationOptions options{.method = variant.method, .backend_options = {.measure_plans = true}, .duration = t_end};
   options.method_options.linear = variant.linear;
   if (variant.sweep == Sweep::step_size) return options;
   options.variable_steps = true;

@@ -136,10 +136,10 @@ def solve_ensemble(
         raise ValueError("the list of problems is empty: give one for each member")
     given = problem if isinstance(problem, Case) else as_problem(problem[0] if several else problem)
     default_end = given.t_end if isinstance(given, Case) else run_case(given, {}).t_end if given._text else None
-    start, end = _span(t_span, default_end)
-    if start != 0:
-        raise ValueError(f"t_span = ({start:g}, {end:g}): an ensemble starts at t = 0")
-    case = run_case(given, {"t_end": end, "method": method, "backend": backend, "h": h} | options)
+    start, end = _span(t_span, default_end, given.t_start if isinstance(given, Case) else 0.0)
+    if start < 0:
+        raise ValueError(f"t_span = ({start:g}, {end:g}): an ensemble starts at t = 0 or later")
+    case = run_case(given, {"t_start": start, "t_end": end, "method": method, "backend": backend, "h": h} | options)
     if z0 is None and isinstance(given, Case) and case.is_ensemble:
         held = _core.ensemble_of_case(case, thread_count(threads))
         one_grid = "length" not in held.parameters

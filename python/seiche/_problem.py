@@ -23,6 +23,7 @@ _KEY_ARGUMENTS = {
     "backend.exponential": "exponential",
     "backend.pade_degree": "pade_degree",
     "backend.lanczos_dimension": "lanczos_dimension",
+    "time.start": "t_start",
     "time.end": "t_end",
     "output.energy_every": "energy_every",
 }
@@ -321,6 +322,10 @@ class Case:
     def text(self) -> str:
         """The case as it runs, every default filled in."""
         return self._core.text()
+
+    @property
+    def t_start(self) -> float:
+        return self._core.t_start
 
     @property
     def t_end(self) -> float:

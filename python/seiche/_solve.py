@@ -13,11 +13,11 @@ from ._problem import Case, Problem, as_problem, real_array, refuse_other_names,
 from ._result import Result, SeicheWarning, result_of
 
 
-def _span(t_span: Any, default_end: float | None) -> tuple[float, float]:
+def _span(t_span: Any, default_end: float | None, default_start: float = 0.0) -> tuple[float, float]:
     if t_span is None:
         if default_end is None:
             raise ValueError("t_span is missing: give the end of the run, or (start, end)")
-        return 0.0, default_end
+        return default_start, default_end
     ends = np.atleast_1d(real_array("t_span", t_span))
     if ends.shape not in ((1,), (2,)):
         raise ValueError(f"t_span = {t_span!r} must be the end of the run, or (start, end)")
@@ -132,13 +132,15 @@ def solve(
     default_end = given.t_end if isinstance(given, Case) else None
     if default_end is None and stated._text is not None and t_span is None:
         default_end = run_case(stated, {}).t_end
-    start, end = _span(t_span, default_end)
+    start, end = _span(t_span, default_end, given.t_start if isinstance(given, Case) else 0.0)
+    looked_at = max(start, 0.0)  # cases begin at 0 or later
     if z0 is None:
         require_start(stated, "seiche.solve")
     case = run_case(
         given,
         {
-            "t_end": end - start,
+            "t_start": looked_at,
+            "t_end": looked_at + (end - start),
             "method": method,
             "backend": backend,
             "h": h,

@@ -25,6 +25,7 @@ void run(HeldEnsemble& held, const std::vector<EnsembleMember>& members, const R
   SignalCheck signals;
   const EnsembleOptions options{.simulation = simulation_options(spec),
                                 .h = spec.h,
+                                .t_start = spec.t_start,
                                 .t_end = spec.t_end,
                                 .energy_every = spec.energy_every,
                                 .threads = threads,

@@ -139,6 +139,7 @@ void bind_problems(py::module_& module) {
       .def_readonly("h_is_default", &RunSpec::h_is_default)
       .def_readonly("h_max", &RunSpec::h_max)
       .def_readonly("backend", &RunSpec::backend)
+      .def_readonly("t_start", &RunSpec::t_start)
       .def_readonly("t_end", &RunSpec::t_end)
       .def_readonly("ledger", &RunSpec::ledger)
       .def_readonly("output_directory", &RunSpec::output_directory)

@@ -15,6 +15,7 @@ std::string check(const HeldProblem& held, const RunSpec& spec) {
     const Simulation simulation(*held.problem, simulation_options(spec));  // refuses what `solve` refuses
     return certificate_json(certify(*held.problem, {.method = std::string(simulation.method().name),
                                                     .method_options = simulation.method_options(),
+                                                    .t_start = spec.t_start,
                                                     .t_end = spec.t_end,
                                                     .at_start = &simulation,
                                                     .stop = stop}));
@@ -30,6 +31,8 @@ std::string spectrum_of(const HeldProblem& held, const RunSpec& spec) {
 
 std::string converge_of(const HeldProblem& held, const std::vector<std::string>& methods,
                         const std::vector<double>& step_sizes, const RunSpec& spec, bool timed) {
+  if (spec.t_start != 0)
+    throw Error("the case has time.start = {}, and converge compares runs from t = 0: leave it out", spec.t_start);
   return interruptible([&](const std::atomic<bool>* stop) {
     const ConvergeOptions options{.t_end = spec.t_end,
                                   .backend = spec.backend,

@@ -7,6 +7,10 @@
 
 namespace seiche {
 
+struct TimeSpan {
+  double begin, length;
+};
+
 class Rate {
  public:
   virtual ~Rate() = default;

@@ -60,11 +60,23 @@ SolutionDescription description(const RunSpec& spec, const Simulation& simulatio
                     {"versions", nlohmann::json(versions).dump()}}};
 }
 
+// Of the final.txt of a run, whose summary.json knows it; NaN of any other file.
+double time_of_final_state(const fs::path& file) {
+  const nlohmann::json summary =
+      file.filename() == "final.txt"
+          ? nlohmann::json::parse(text_of(file.parent_path() / "summary.json"), nullptr, false)
+          : nlohmann::json();
+  if (!summary.is_object() || !summary.contains("t") || !summary["t"].is_number())
+    return std::numeric_limits<double>::quiet_NaN();
+  return summary["t"].get<double>();
+}
+
 RunPlan plan(const RunSpec& spec, int threads) {
   RunPlan plan{.simulation = simulation_options(spec),
                .h = spec.h,
                .tolerance = spec.tolerance,
                .h_max = spec.h_max,
+               .t_start = spec.t_start,
                .t_end = spec.t_end};
   plan.simulation.backend_options.threads = threads;
   return plan;
@@ -171,8 +183,10 @@ class CaseRun {
  private:
   void begin(const Problem& problem) {
     spec_.notes.insert(spec_.notes.end(), run_.notes().begin(), run_.notes().end());
-    if (std::holds_alternative<FileData>(spec_.initial))
-      if (const std::string lost = lost_between_runs(run_.simulation()); !lost.empty()) spec_.notes.push_back(lost);
+    if (const auto* data = std::get_if<FileData>(&spec_.initial)) {
+      const std::string lost = lost_between_runs(run_.simulation(), spec_.t_start, time_of_final_state(data->file));
+      if (!lost.empty()) spec_.notes.push_back(lost);
+    }
     notes_ = case_notes(spec_, problem);
     stop_ = begin_run(options_, notes_);
     folder_ = &own_folder_.emplace(spec_.output_directory, RunKind::run, spec_, options_.restart);

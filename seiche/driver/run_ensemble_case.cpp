@@ -90,7 +90,8 @@ std::vector<std::string> notes_on(const Members& members, const Simulation& simu
     for (std::string& note : first.notes) note.insert(0, "of member 1: ");
   std::vector<std::string> all = case_notes(spec, first);
   if (spec.tolerance) return all;
-  const std::vector<std::string> on_h = notes_on_step_size(simulation, spec.sparse, spec.h, spec.t_end);
+  const std::vector<std::string> on_h =
+      notes_on_step_size(simulation, spec.sparse, spec.h, {spec.t_start, spec.duration()});
   all.insert(all.end(), on_h.begin(), on_h.end());
   return all;
 }
@@ -110,6 +111,7 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
   // Of the first member; each member's own promise is counted in "laws".
   const Certificate certificate = certify(problem, {.method = spec.method,
                                                     .method_options = spec.method_options,
+                                                    .t_start = spec.t_start,
                                                     .t_end = spec.t_end,
                                                     .sample_solution = false});
   std::vector<std::string> notes = notes_on(members, *simulation, spec);
@@ -123,6 +125,7 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
       run_ensemble(members.list,
                    {.simulation = simulation_options(spec),
                     .h = spec.h,
+                    .t_start = spec.t_start,
                     .t_end = spec.t_end,
                     .energy_every = spec.energy_every,
                     .threads = options.threads,

@@ -38,7 +38,7 @@ struct Records {
 class Run {
  public:
   Run(std::span<const EnsembleMember> members, const EnsembleOptions& options)
-      : members_(members), options_(options), grid_(0.0, options.h, options.t_end) {}
+      : members_(members), options_(options), grid_(options.t_start, options.h, options.t_end) {}
 
   EnsembleResult run() {
     const auto begin = std::chrono::steady_clock::now();
@@ -87,6 +87,7 @@ class Run {
       const auto begin = static_cast<std::size_t>(b * panel_members);
       const std::size_t size = std::min(members_.size() - begin, static_cast<std::size_t>(panel_members));
       blocks_[static_cast<std::size_t>(b)] = make_block(members_.subspan(begin, size), options_.simulation);
+      blocks_[static_cast<std::size_t>(b)]->set_time(options_.t_start);
       for (std::size_t m = begin; m < begin + size; ++m) open_book(static_cast<Index>(m));
     });
     if (!any_runs()) throw Error(status(0).message);

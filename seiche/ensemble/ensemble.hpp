@@ -24,7 +24,7 @@ struct EnsembleRecord {
 struct EnsembleOptions {
   SimulationOptions simulation = {};
   double h = 0.0;
-  double t_end = 0.0;
+  double t_start = 0.0, t_end = 0.0;
   std::int64_t energy_every = 1;                              // steps between records
   int threads = 1;                                            // results do not depend on it, to the last bit
   std::function<LawPromise(const Simulation&)> promise = {};  // none: no law is promised
@@ -48,7 +48,7 @@ struct EnsembleResult {
   double wall_seconds = 0.0;
 };
 
-// Every member runs as it would alone, from t = 0 to t_end, by fixed steps of which the last is shortened; one that
+// Every member runs as it would alone, from t_start to t_end, by fixed steps of which the last is shortened; one that
 // fails stops with its message, and the others go on. Throws Error where no member can start, with the reason of the
 // first, where members differ in their number of unknowns, and where it is stopped before they are set up.
 EnsembleResult run_ensemble(std::span<const EnsembleMember> members, const EnsembleOptions& options);

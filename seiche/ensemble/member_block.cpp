@@ -36,6 +36,12 @@ void MemberBlock::start(Index member, const EnsembleMember& from, const Simulati
   simulations_[static_cast<std::size_t>(member)] = simulation.get();
 }
 
+void MemberBlock::set_time(double t) {
+  t_ = t;
+  for (State& s : states_) s.t = t;
+  for (MemberStatus& status : statuses_) status.t = t;
+}
+
 void MemberBlock::step(std::int64_t n, double t, double h, double t_after) {
   step_all(n, t, h);
   steps_ = n;

@@ -122,10 +122,6 @@ std::string complaints_beyond_linear(const Problem& problem, double t_end) {
   return all;
 }
 
-struct TimeSpan {
-  double begin, length;
-};
-
 // A short part of a span in which a rate is infinite. `exists`: of its integral over a span; where it does so on all
 // parts of one, that was merely too long for the quadrature.
 template <class Exists>

@@ -16,7 +16,7 @@ constexpr double stiff_friction =
     50;                               // times the rate of the solution: beside it exact flows of the friction cost less
 constexpr double stiff_kicks = 10;    // times the rate of the solution: kicks would be bound by their stability
 constexpr Index many_unknowns = 256;  // below them a transform costs no more than the differences it replaces
-constexpr double faded = 20;          // γ · t_end: by then exact flows take steps far beyond what is stable for kicks
+constexpr double faded = 20;  // γ · duration: by then exact flows take steps far beyond what is stable for kicks
 constexpr double rough_tolerance = 3e-5;      // collocation above it: order four
 constexpr double fine_tolerance = 3e-8;       // collocation below it: order eight
 constexpr double nystrom_tolerance = 1.5e-7;  // Nyström splittings above it: order four, below it six
@@ -57,7 +57,7 @@ bool damps_momenta_alike(const Problem& problem) {
 
 // Is a solution still there at the end?
 bool stays(const MethodRequest& request, const ProblemRates& rates) {
-  return rates.damping == 0 || (request.t_end > 0 && rates.damping * request.t_end <= faded);
+  return rates.damping == 0 || (request.duration > 0 && rates.damping * request.duration <= faded);
 }
 
 // Do kicks by all forces cost less than exact flows? The size of a step of one size is the user's, and may be beyond

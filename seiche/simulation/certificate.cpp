@@ -118,6 +118,7 @@ class PowerWatch final : public Observer {
 Hypothesis sampled_condition(const Problem& problem, const CertificateOptions& options, const std::string& name) {
   Simulation simulation(problem, {.method = "egc4", .variable_steps = true});
   PowerWatch watch(simulation.system());
+  simulation.state().t = options.t_start;
   const std::vector<Observer*> observers = {&watch};
   const RunReport report =
       integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
@@ -143,7 +144,7 @@ Hypothesis hypothesis_of_condition(const Problem& problem, const CertificateOpti
     return same;
   }
   if (law.promised) return {name, Grade::by_structure, law.reason + ", by the form of V"};
-  if (!options.sample_solution || options.t_end <= 0)
+  if (!options.sample_solution || options.t_end <= options.t_start)
     return {name, Grade::sampled, "not looked at: no solution was followed; seiche check follows one"};
   return sampled_condition(problem, options, name);
 }

@@ -23,14 +23,14 @@ std::string beyond_stability(const Simulation& simulation, double h) {
       h, method.name, fastest, largest);
 }
 
-std::string beyond_rate(const Simulation& simulation, double h, double t_end) {
+std::string beyond_rate(const Simulation& simulation, double h, TimeSpan run) {
   constexpr int samples = 4096;
   const RatePointer& rate = simulation.problem().damping.rate;
   if (!simulation.method().kind.holds_rate_of_start || !rate || rate->is_constant()) return "";
   const double held = rate_of_D0(simulation.problem());
   double farthest = held;
   for (int i = 0; i <= samples; ++i) {
-    const double gamma = rate->value(t_end * i / samples);
+    const double gamma = rate->value(run.begin + run.length * i / samples);
     if (std::abs(gamma - held) > std::abs(farthest - held)) farthest = gamma;
   }
   if (!(h * std::abs(farthest - held) > 1)) return "";
@@ -64,7 +64,8 @@ std::string beyond_splitting(const Simulation& simulation, double h) {
       of_order_four ? h * rate : h * rate / 2, h, rate, 1 / rate);
 }
 
-std::string work_of_exponentials(const Simulation& simulation, const SparseOptions& options, double h, double t_end) {
+std::string work_of_exponentials(const Simulation& simulation, const SparseOptions& options, double h,
+                                 double duration) {
   constexpr double large = 1000;  // h times the fastest rate
   const MethodEntry& method = simulation.method();
   const bool by_krylov = method.projects() && simulation.method_options().linear == LinearTreatment::exact;
@@ -73,7 +74,7 @@ std::string work_of_exponentials(const Simulation& simulation, const SparseOptio
   if (!simulation.backend().exponentials_by_krylov || !(by_krylov || by_pade)) return "";
   const double rate = sparse_rate(simulation.problem());
   if (!(h * rate > large)) return "";
-  const double steps = std::ceil(t_end / h);
+  const double steps = std::ceil(duration / h);
   const std::string start = fmt::format(
       "h = {:.4g} is {:.3g} times as long as what the fastest rate {:.3g} resolves, and the sparse backend takes exponentials ",
       h, h * rate, rate);
@@ -96,10 +97,11 @@ std::string work_of_exponentials(const Simulation& simulation, const SparseOptio
 }
 
 std::vector<std::string> notes_on_step_size(const Simulation& simulation, const SparseOptions& options, double h,
-                                            double t_end) {
+                                            TimeSpan run) {
   std::vector<std::string> notes;
-  for (const std::string& note : {beyond_stability(simulation, h), beyond_rate(simulation, h, t_end),
-                                  beyond_splitting(simulation, h), work_of_exponentials(simulation, options, h, t_end)})
+  for (const std::string& note :
+       {beyond_stability(simulation, h), beyond_rate(simulation, h, run), beyond_splitting(simulation, h),
+        work_of_exponentials(simulation, options, h, run.length)})
     if (!note.empty()) notes.push_back(note);
   return notes;
 }

@@ -15,7 +15,7 @@ namespace {
 SimulationOptions with_times(SimulationOptions options, const RunPlan& plan) {
   options.variable_steps = plan.tolerance.has_value();
   options.tolerance = plan.tolerance.value_or(0.0);
-  options.t_end = plan.t_end;
+  options.duration = plan.t_end - plan.t_start;
   return options;
 }
 
@@ -27,7 +27,8 @@ PreparedRun::PreparedRun(const Problem& problem, const RunPlan& plan)
       simulation_(std::make_shared<Simulation>(problem, with_times(plan.simulation, plan))),
       adaptive_(plan.tolerance ? &simulation_->adaptive_stepper() : nullptr) {
   if (!plan.tolerance)
-    notes_ = notes_on_step_size(*simulation_, plan.simulation.backend_options.sparse, plan.h, plan.t_end);
+    notes_ = notes_on_step_size(*simulation_, plan.simulation.backend_options.sparse, plan.h,
+                                {plan.t_start, plan.t_end - plan.t_start});
   if (std::string note = note_on_threads(plan.simulation.backend_options.threads); !note.empty())
     notes_.push_back(std::move(note));
   certificate_ = certify(problem, {.method = std::string(simulation_->method().name),

@@ -72,7 +72,7 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
   if (method_ == nullptr) {
     MethodChoice choice = choose_method(problem_, system_,
                                         {.tolerance = options.tolerance,
-                                         .t_end = options.t_end,
+                                         .duration = options.duration,
                                          .by_kicks = may_choose_kicks(options, problem_, *backend_),
                                          .by_krylov = backend_->exponentials_by_krylov},
                                         options.method_options);

@@ -17,7 +17,7 @@ struct SimulationOptions {
   BackendOptions backend_options = {};
   bool variable_steps = false;  // a stepper that tells its errors, for integrate_adaptive
   double tolerance = 0.0;       // for method "auto": of values at the end; 0: not known
-  double t_end = 0.0;           // likewise
+  double duration = 0.0;        // likewise
 };
 
 // Throws Error where the method does not apply to the problem, with the reason, and where the gradient of an own

@@ -97,23 +97,23 @@ class Auditor {
                                       spec_.tolerance ? "tolerance" : "h", t));
   }
 
-  // From 0 on and rising; with steps of one size after every energy_every of them, and so many as there are.
+  // From the start on and rising; with steps of one size after every energy_every of them, and so many as there are.
   void times() {
     const std::string claim = "energy.csv has the rows of this run, one after the other";
     const double apart = spec_.h * static_cast<double>(spec_.energy_every);
     const auto contradict = [&](std::string evidence) { book_.add(claim, Verdict::contradicted, std::move(evidence)); };
     const auto is_expected = [&](std::size_t i) {
-      if (i == 0) return t_[0] == 0;
+      if (i == 0) return t_[0] == spec_.t_start;
       if (!(t_[i] > t_[i - 1])) return false;
       const bool is_any_time = spec_.tolerance || i + 1 == t_.size();
-      return is_any_time || std::abs(t_[i] - static_cast<double>(i) * apart) <= 1e-9 * spec_.t_end;
+      return is_any_time || std::abs(t_[i] - spec_.t_start - static_cast<double>(i) * apart) <= 1e-9 * spec_.duration();
     };
     for (std::size_t i = 0; i < t_.size(); ++i)
       if (!is_expected(i))
         return contradict(fmt::format("row {} is at t = {:.17g}{}", i + 1, t_[i],
                                       i == 0 ? "" : fmt::format(", after {:.17g}", t_[i - 1])));
     if (!spec_.tolerance) {
-      const double steps = std::ceil(t_.back() / spec_.h - 1e-6);
+      const double steps = std::ceil((t_.back() - spec_.t_start) / spec_.h - 1e-6);
       const Json written = summary_.value("steps", Json());
       if (written.is_number() && written.get<double>() != steps)
         return contradict(fmt::format("t = {:.6g} takes {} steps of h = {:.6g}, and summary.json says {}", t_.back(),
@@ -122,7 +122,8 @@ class Auditor {
       if (static_cast<double>(t_.size()) != rows)
         return contradict(fmt::format("{} rows, where the run has {}", t_.size(), rows));
     }
-    book_.add(claim, Verdict::confirmed, fmt::format("{} rows from t = 0 to {:.6g}", t_.size(), t_.back()));
+    book_.add(claim, Verdict::confirmed,
+              fmt::format("{} rows from t = {:.6g} to {:.6g}", t_.size(), spec_.t_start, t_.back()));
   }
 
   void case_of(const SolutionReader& solution) {

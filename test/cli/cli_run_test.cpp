@@ -11,7 +11,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <set>
@@ -77,6 +79,32 @@ TEST_F(Cli, OneRunStartsWhereAnotherEnded) {
   ASSERT_EQ(seiche("run case.toml --out second --quiet --set 'problem.initial={file=\"first/final.txt\"}'").exit, 0);
   const json first = json::parse(text("first/summary.json")), second = json::parse(text("second/summary.json"));
   EXPECT_NEAR(second["energy"]["initial"].get<double>(), first["energy"]["final"].get<double>(), 1e-15);
+}
+
+// A rate that changes in time is that of the whole run only where the second one begins at the time of the file.
+TEST_F(Cli, TwoRunsOfWhichTheSecondStartsInTimeAreOne) {
+  write_case("gamma = \"0.5 + 0.4*sin(3*t)\"\n");
+  const std::string run = "run case.toml --set method.name=egc4 ";
+  ASSERT_EQ(seiche(run + "time.end=2 --out whole").exit, 0);
+  ASSERT_EQ(seiche(run + "time.end=1 --out first").exit, 0);
+  const std::string second = run + "'problem.initial={ file = \"first/final.txt\" }' ";
+  const Result result = seiche(second + "time.start=1 time.end=2 --out second");
+  ASSERT_EQ(result.exit, 0) << result.err;
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("a file holds z alone")));
+  const auto distance = [&](const char* one, const char* other) {
+    double largest = 0;
+    const std::vector<std::string> a = lines(fs::path(one) / "final.txt"), b = lines(fs::path(other) / "final.txt");
+    for (std::size_t i = 0; i < a.size(); ++i)
+      largest = std::max(largest, std::abs(std::stod(a[i]) - std::stod(b.at(i))));
+    return largest;
+  };
+  EXPECT_LT(distance("second", "whole"), 1e-11);
+  EXPECT_THAT(lines("second/energy.csv")[1], testing::StartsWith("1,"));
+  EXPECT_THAT(text("second/case.toml"), HasSubstr("start = 1.0"));
+  EXPECT_EQ(seiche("audit second").exit, 0) << text("stdout.txt");
+  EXPECT_THAT(seiche(second + "time.end=1 --out third").err,
+              HasSubstr("damping and forces are those from t = 0 on, not from [time] start = 1, where the file was"));
+  EXPECT_GT(distance("third", "whole"), 1e-3);
 }
 
 TEST_F(Cli, JsonIsExactlyOneDocumentOnStdoutAndTheSummaryFile) {

@@ -7,6 +7,7 @@
 #include <seiche/damping/rates.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/ensemble/panel_block.hpp>
+#include <seiche/formula/formula_compiler.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/sparse.hpp>
 #include <seiche/problem/variable_wave.hpp>
@@ -235,6 +236,23 @@ TEST(Ensemble, AMemberWithoutAPropagatorLeavesTheOthersRunning) {
   EXPECT_NE(result.members[1].report.message.find("cannot be factorised"), std::string::npos)
       << result.members[1].report.message;
   EXPECT_EQ(result.members[1].report.steps, 0);
+}
+
+TEST(Ensemble, StartsAtTheTimeAskedForAsEachMemberAlone) {
+  Problem problem = klein_gordon_case();
+  problem.damping.rate = formula_rate(compile_formula("0.5 + 0.4*sin(3*t)", {"t"}));
+  const std::vector<EnsembleMember> members = scaled_members(problem, 3);
+  const SimulationOptions simulation{.method = "seisav"};
+  const EnsembleResult result =
+      run_ensemble(members, {.simulation = simulation, .h = 0.125, .t_start = 1.0, .t_end = 2.0});
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const std::unique_ptr<Simulation> one = alone(members[m], simulation);
+    one->state().t = 1.0;
+    integrate(one->system(), one->stepper(), one->state(), {.h = 0.125, .t_end = 2.0});
+    EXPECT_EQ(result.members[m].report.t, 2.0);
+    EXPECT_EQ(result.members[m].report.steps, 8);
+    EXPECT_LT(largest(result.members[m].final - one->physical()), 1e-13) << m;
+  }
 }
 
 TEST(Ensemble, RefusesToRunWhereNoMemberCanStart) {

@@ -28,7 +28,7 @@ struct Ended {
 };
 
 Ended run(const Problem& problem, const std::string& method, double tolerance, double t_end) {
-  Simulation simulation(problem, {.method = method, .variable_steps = true, .tolerance = tolerance, .t_end = t_end});
+  Simulation simulation(problem, {.method = method, .variable_steps = true, .tolerance = tolerance, .duration = t_end});
   const RunReport report =
       integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
                          {.tolerance = tolerance, .t_end = t_end, .law = promise_energy_law(simulation, t_end)});

@@ -79,7 +79,7 @@ TEST(AutoMethod, TakesExactFlowsWhereFrictionIsSharp) {
 }
 
 TEST(AutoMethod, KicksWhereMatricesWouldMakeExactFlowsKrylovSpaces) {
-  const SimulationOptions options{.method = "auto", .variable_steps = true, .tolerance = 1e-6, .t_end = 1000};
+  const SimulationOptions options{.method = "auto", .variable_steps = true, .tolerance = 1e-6, .duration = 1000};
   const Problem membrane = variable_wave(
       {.grid = {.points = {16, 16}, .length = {2.0, 2.0}, .boundary = {Boundary::dirichlet, Boundary::dirichlet}},
        .alpha = 1.0,
@@ -121,7 +121,7 @@ std::unique_ptr<Simulation> chosen_for(const Wave& wave, const std::string& back
   SimulationOptions options{.method = "auto", .backend = backend};
   options.variable_steps = wave.tolerance > 0;
   options.tolerance = wave.tolerance;
-  options.t_end = wave.t_end;
+  options.duration = wave.t_end;
   return std::make_unique<Simulation>(p, options);
 }
 

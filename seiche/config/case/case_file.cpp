@@ -72,10 +72,20 @@ class Sections {
   }
 
   void read_time() {
-    if (r_.problem != nullptr) spec_.t_end = r_.problem->default_end;
+    // Hypotheses of the energy law are looked at from t = 0 on.
+    r_.on("time", "start", [&](const std::string& key, const CaseValue& value) {
+      const double start = read_number(key, value);
+      if (start < 0)
+        throw Error("{} = {} must be ≥ 0: rather shift the formulas in t, so that the run begins at 0", key,
+                    value.shown());
+      spec_.t_start = start;
+    });
+    if (r_.problem != nullptr) spec_.t_end = spec_.t_start + r_.problem->default_end;
     r_.on("time", "end", [&](const std::string& key, const CaseValue& value) {
       const double end = read_number(key, value);
-      if (end <= 0) throw Error("{} = {} must be > 0", key, value.shown());
+      if (end <= spec_.t_start)
+        throw Error("{} = {} must be > {}", key, value.shown(),
+                    spec_.t_start == 0 ? "0" : fmt::format("time.start = {}", spec_.t_start));
       spec_.t_end = end;
     });
   }
@@ -107,14 +117,14 @@ class Sections {
   void refuse_endless_files() {
     if (r_.asks_for_tolerance()) return;  // who knows
     constexpr double most_records = 1e8;  // some gigabytes of energy.csv
-    const double records = spec_.t_end / spec_.h / static_cast<double>(spec_.energy_every);
+    const double records = spec_.duration() / spec_.h / static_cast<double>(spec_.energy_every);
     if (!(records > most_records)) return;
     const CaseValue* h = r_.table.value("method", "h");
     r_.complain(h ? h->order : CaseReading::at_the_end, h ? h->place : r_.name,
                 Error("h = {} makes {:.3g} steps, and output.energy_every = {} would record {:.3g} energies; set it to "
                       "at least {:.0f}, or choose a larger h",
-                      spec_.h, spec_.t_end / spec_.h, spec_.energy_every, records,
-                      std::ceil(spec_.t_end / spec_.h / most_records)));
+                      spec_.h, spec_.duration() / spec_.h, spec_.energy_every, records,
+                      std::ceil(spec_.duration() / spec_.h / most_records)));
   }
 
   void read_output() {
@@ -141,8 +151,8 @@ class Sections {
     r_.on("output", "snapshot_interval", [&](const std::string& key, const CaseValue& value) {
       const double interval = read_number(key, value);
       if (interval < 0) throw Error("{} = {} must be ≥ 0", key, value.shown());
-      if (interval > 0 && spec_.t_end / interval > 1e7)
-        throw Error("{} = {} would make {:.3g} snapshots", key, value.shown(), spec_.t_end / interval);
+      if (interval > 0 && spec_.duration() / interval > 1e7)
+        throw Error("{} = {} would make {:.3g} snapshots", key, value.shown(), spec_.duration() / interval);
       if (interval == 0 || r_.asks_for_tolerance()) {
         spec_.snapshot_interval = interval;
       } else if (spec_.h > 0) {

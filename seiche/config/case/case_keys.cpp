@@ -33,6 +33,7 @@ const std::vector<Synonyms>& synonyms() {
        "tolerance",
        {"tol", "rtol", "atol", "reltol", "abstol", "relativetolerance", "absolutetolerance", "accuracy", "precision"}},
       {"method", "h_max", {"hmax", "maxh", "dtmax", "maxdt", "maxstep", "maxstepsize", "maximumstep"}},
+      {"time", "start", {"t0", "tstart", "tbegin", "starttime", "initialtime"}},
       {"time", "end", {"t", "tend", "tmax", "tfinal", "finaltime", "endtime", "tstop", "duration"}},
       {"output", "directory", {"dir", "folder", "out", "outdir"}},
       {"output", "snapshot_interval", {"saveat", "dtout", "dtsave", "saveinterval"}},
@@ -78,7 +79,7 @@ std::vector<std::string> case_keys(const std::string& section, const ProblemEntr
     return keys;
   }
   if (section == "backend") return {"name", "plan", "exponential", "pade_degree", "lanczos_dimension"};
-  if (section == "time") return {"end"};
+  if (section == "time") return {"start", "end"};
   if (section == "output")
     return {"directory", "energy_every", "ledger", "report", "snapshot_every", "snapshot_interval"};
   if (section == "checkpoint") return {"every_seconds", "every_steps", "keep"};

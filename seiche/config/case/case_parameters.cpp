@@ -30,11 +30,10 @@ FormulaPointer compiled(const std::string& text, const std::vector<std::string>&
   }
 }
 
-// γ(t), sampled up to t_end.
-RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, double t_end) {
+RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, TimeSpan sampled) {
   constexpr int samples = 4096;
   for (int i = 0; i <= samples; ++i) {
-    const double t = t_end * i / samples;
+    const double t = sampled.begin + sampled.length * i / samples;
     const std::string complaint = out_of_bounds(parameter, (*formula)(t));
     if (!complaint.empty()) throw Error("problem.{} at t = {}", complaint, t);
   }
@@ -43,17 +42,17 @@ RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, dou
 
 // A formula in t alone is a rate for all points. Any other is checked on the grid.
 ParameterValue read_formula_rate(const std::string& key, const Parameter& parameter, const std::string& text,
-                                 double t_end) {
-  if (FormulaPointer formula = compiled(text, {"t"})) return checked_rate(parameter, std::move(formula), t_end);
+                                 TimeSpan sampled) {
+  if (FormulaPointer formula = compiled(text, {"t"})) return checked_rate(parameter, std::move(formula), sampled);
   return compile_space_rate(key, text);
 }
 
-ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, double t_end) {
+ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, TimeSpan sampled) {
   const std::string key = "problem." + parameter.name;
   if (value.kind != CaseValue::Kind::number && value.kind != CaseValue::Kind::text)
     throw Error("{} = {} must be a number, or a formula in t (and x, y, z) such as \"0.1 + 0.05*sin(t)\"", key,
                 value.shown());
-  if (value.kind == CaseValue::Kind::text) return read_formula_rate(key, parameter, value.text, t_end);
+  if (value.kind == CaseValue::Kind::text) return read_formula_rate(key, parameter, value.text, sampled);
   const double gamma = read_number(key, value);
   require(out_of_bounds(parameter, gamma));
   return constant_rate(gamma);
@@ -177,7 +176,7 @@ void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& v
     return;
   }
   if (parameter.kind == ParameterKind::rate) {
-    spec.parameters.set(parameter.name, read_rate(parameter, value, spec.t_end));
+    spec.parameters.set(parameter.name, read_rate(parameter, value, {spec.t_start, spec.duration()}));
     spec.parameter_texts[parameter.name] = is_toml_number(value.text) ? toml_real(read_number(key, value)) : value.text;
     return;
   }

@@ -13,7 +13,7 @@
 
 namespace seiche {
 
-// Needs spec.t_end: a rate must be finite, and within its bounds, up to there. A relative file name starts at `folder`,
+// Needs spec.t_start and t_end: a rate must be finite, and within its bounds, between them. A relative file name starts at `folder`,
 // or else at the current one.
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
                    const std::filesystem::path& folder = {});

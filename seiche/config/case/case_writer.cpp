@@ -96,6 +96,7 @@ std::string example_sections(const ProblemEntry& entry) {
   text += line("pade_degree", "0", "sparse: 1 to 12; 0: whatever round-off asks for");
   text += line("lanczos_dimension", "0", "sparse: pairs of vectors, at least 2; 0: until nothing changes");
   text += "\n[time]\n";
+  text += line("# start", "0.0", "time of the initial state, which γ(t) and forces know");
   text += line("end", toml_real(entry.default_end), "time");
   text += "\n[output]\n";
   text += line("directory", toml_string("out/" + entry.name), "made if it is not there");
@@ -144,7 +145,9 @@ std::string write_case(const RunSpec& spec) {
   text += fmt::format("exponential = \"{}\"\npade_degree = {}\nlanczos_dimension = {}\n",
                       spec.sparse.exponential == ExponentialKind::lanczos ? "lanczos" : "pade", spec.sparse.pade_degree,
                       spec.sparse.lanczos_dimension);
-  text += fmt::format("\n[time]\nend = {}\n", toml_real(spec.t_end));
+  text += "\n[time]\n";
+  if (spec.t_start != 0) text += fmt::format("start = {}\n", toml_real(spec.t_start));
+  text += fmt::format("end = {}\n", toml_real(spec.t_end));
   text += fmt::format("\n[output]\ndirectory = {}\nenergy_every = {}\nsnapshot_every = {}\n",
                       toml_string(spec.output_directory), spec.energy_every, spec.snapshot_every);
   if (spec.ledger) text += "ledger = \"on\"\n";

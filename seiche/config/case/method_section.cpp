@@ -78,18 +78,23 @@ class MethodSection {
     const auto read = [&](const std::string& key, const CaseValue& value) {
       const double h = read_number(key, value);
       if (h <= 0) throw Error("{} = {} must be > 0", key, value.shown());
-      if (r_.problem == nullptr && spec_.t_end == 0) return;
-      if (h > spec_.t_end) throw Error("{} = {} must be ≤ time.end = {}", key, value.shown(), spec_.t_end);
-      if (spec_.t_end / h > 1e15) throw Error("{} = {} would take {:.3g} steps", key, value.shown(), spec_.t_end / h);
+      if (r_.problem == nullptr && spec_.duration() == 0) return;
+      if (h > spec_.duration())
+        throw Error("{} = {} must be ≤ {}", key, value.shown(),
+                    spec_.t_start == 0 ? fmt::format("time.end = {}", spec_.t_end)
+                                       : fmt::format("{}, the time from time.start to time.end", spec_.duration()));
+      if (spec_.duration() / h > 1e15)
+        throw Error("{} = {} would take {:.3g} steps", key, value.shown(), spec_.duration() / h);
       spec_.h = h;
     };
     if (r_.on("method", "h", read) || r_.problem == nullptr || r_.asks_for_tolerance()) return;
     spec_.h = read_number("method.h", default_value(r_.problem->default_h));
-    spec_.h_is_default = spec_.h <= spec_.t_end;
+    spec_.h_is_default = spec_.h <= spec_.duration();
     if (spec_.h_is_default) return;
-    spec_.h = spec_.t_end;
-    spec_.notes.push_back(fmt::format("method.h is not given and its default {} is more than time.end: h = {}",
-                                      r_.problem->default_h, spec_.h));
+    spec_.h = spec_.duration();
+    spec_.notes.push_back(
+        fmt::format("method.h is not given and its default {} is more than the time of the run: h = {}",
+                    r_.problem->default_h, spec_.h));
   }
 
   CaseReading& r_;

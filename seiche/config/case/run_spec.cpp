@@ -11,13 +11,15 @@
 namespace seiche {
 namespace {
 
-// γ(x, t) at every point, and at so many times up to t_end that it takes no second.
+// γ(x, t) at every point, and at so many times of the run that it takes no second.
 void check_field_rate(const RunSpec& spec, const Parameter& parameter, const Problem& problem) {
   const FieldRate& rate = *problem.damping.field_rate;
   std::vector<double> gamma(static_cast<std::size_t>(problem.grid.unknowns()));
   const std::size_t samples = rate.is_constant() ? 1 : std::clamp<std::size_t>((1U << 22U) / gamma.size(), 16, 4096);
   for (std::size_t i = 0; i < samples; ++i) {
-    const double t = samples > 1 ? spec.t_end * static_cast<double>(i) / static_cast<double>(samples - 1) : 0.0;
+    const double t = samples > 1
+                         ? spec.t_start + spec.duration() * static_cast<double>(i) / static_cast<double>(samples - 1)
+                         : spec.t_start;
     rate.values(t, gamma);
     for (std::size_t j = 0; j < gamma.size(); ++j) {
       const std::string complaint = out_of_bounds(parameter, gamma[j]);
@@ -105,7 +107,7 @@ SimulationOptions simulation_options(const RunSpec& spec) {
           .backend_options = {.measure_plans = spec.measure_plans, .sparse = spec.sparse},
           .variable_steps = spec.tolerance.has_value(),
           .tolerance = spec.tolerance.value_or(0.0),
-          .t_end = spec.t_end};
+          .duration = spec.duration()};
 }
 
 std::vector<std::string> case_notes(const RunSpec& spec, const Problem& problem) {
@@ -130,7 +132,7 @@ void settle_snapshots(RunSpec& spec, const Problem& problem) {
   constexpr Index most_numbers = Index{1} << 24U;
   Index count = problem.size() <= 16 ? 1024 : 512;
   while (count > 16 && count * problem.size() > most_numbers) count /= 2;
-  spec.snapshot_interval = spec.t_end / static_cast<double>(count);  // exact, for a power of two
+  spec.snapshot_interval = spec.duration() / static_cast<double>(count);  // exact, for a power of two
 }
 
 }  // namespace seiche

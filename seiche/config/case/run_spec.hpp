@@ -63,7 +63,7 @@ struct RunSpec {
   bool measure_plans = false;
   SparseOptions sparse;
 
-  double t_end = 0.0;
+  double t_start = 0.0, t_end = 0.0;
   std::string output_directory;
   std::int64_t energy_every = 1;     // steps
   std::int64_t snapshot_every = 64;  // steps; 0: the first and the last state only
@@ -76,6 +76,8 @@ struct RunSpec {
   std::optional<EnsembleSpec> ensemble;  // none: one run
 
   std::vector<std::string> notes;  // what the user should know before the run
+
+  double duration() const { return t_end - t_start; }
 };
 
 // Of the list, or of the custom problem.

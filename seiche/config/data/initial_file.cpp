@@ -58,12 +58,17 @@ Vector read_initial_file(const std::filesystem::path& file, const Problem& probl
   return z;
 }
 
-std::string lost_between_runs(Simulation& simulation) {
+std::string lost_between_runs(Simulation& simulation, double t_start, double written_at) {
   const std::string auxiliaries =
       simulation.stepper().has_modified_energy()
           ? fmt::format("the auxiliary variables of {} begin anew", simulation.method().name)
           : "";
-  const std::string time = depends_on_time(simulation.problem()) ? "damping and forces are those from t = 0 on" : "";
+  std::string time;
+  if (written_at != t_start && depends_on_time(simulation.problem())) {
+    time = fmt::format("damping and forces are those from t = {:.9g} on", t_start);
+    if (!std::isnan(written_at))
+      time += fmt::format(", not from [time] start = {}, where the file was written", written_at);
+  }
   if (auxiliaries.empty() && time.empty()) return "";
   const std::string both = auxiliaries.empty() || time.empty() ? "" : ", and ";
   return fmt::format("a file holds z alone: {}{}{}; a run that this is to continue would go on a little differently",

@@ -12,7 +12,8 @@ namespace seiche {
 // Throws Error with the line and the token that is no finite number, or with both counts where they differ.
 Vector read_initial_file(const std::filesystem::path& file, const Problem& problem);
 
-// What to say before a run that begins with such a file, where z is not all that a continued run would know; else "".
-std::string lost_between_runs(Simulation& simulation);
+// What to say before a run from t_start that begins with such a file, where z is not all that a continued run would
+// know; else "". `written_at`: the time of the state in the file, NaN where nobody knows.
+std::string lost_between_runs(Simulation& simulation, double t_start, double written_at);
 
 }  // namespace seiche

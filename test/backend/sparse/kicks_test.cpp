@@ -264,11 +264,11 @@ TEST(Kicks, AreWhatExplicitMethodsRunOnByThemselves) {
 
 TEST(Rates, RatesThatStepsDoNotResolveAreSaidBeforeTheRun) {
   const Problem p = oscillator({.gamma = formula_rate(compile_formula("1000*sin(3*t)^2", {"t"}))});
-  EXPECT_THAT(beyond_rate(Simulation(p, {.method = "egc8"}), 1.0 / 512, 10),
+  EXPECT_THAT(beyond_rate(Simulation(p, {.method = "egc8"}), 1.0 / 512, {0, 10}),
               testing::AllOf(testing::HasSubstr("1000*sin(3*t)^2 reaches 1e+03"), testing::HasSubstr("h ≤ 0.001")));
-  EXPECT_EQ(beyond_rate(Simulation(p, {.method = "egc8"}), 1e-4, 10), "");
-  EXPECT_EQ(beyond_rate(Simulation(p, {.method = "seisav"}), 1.0 / 512, 10), "") << "takes its integral";
-  EXPECT_EQ(beyond_rate(Simulation(oscillator(), {.method = "egc8"}), 1, 10), "");
+  EXPECT_EQ(beyond_rate(Simulation(p, {.method = "egc8"}), 1e-4, {0, 10}), "");
+  EXPECT_EQ(beyond_rate(Simulation(p, {.method = "seisav"}), 1.0 / 512, {0, 10}), "") << "takes its integral";
+  EXPECT_EQ(beyond_rate(Simulation(oscillator(), {.method = "egc8"}), 1, {0, 10}), "");
 }
 
 TEST(Rates, RatesOfASplitDampingThatBalancesForcesAreSaidBeforeTheRun) {

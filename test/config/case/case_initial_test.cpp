@@ -111,16 +111,19 @@ TEST_F(CaseFolder, ACaseFileThatCannotBeReadSaysSo) {
 }
 
 TEST_F(CaseFolder, WhatAFileCannotTellAContinuedRunIsSaid) {
-  const auto lost = [](const Problem& problem, const char* method) {
+  const auto lost = [](const Problem& problem, const char* method, double start = 0, double written = NAN) {
     Simulation simulation(problem, {.method = method});
-    return lost_between_runs(simulation);
+    return lost_between_runs(simulation, start, written);
   };
   const Problem constant = duffing_from("1 2 3 4");
   EXPECT_EQ(lost(constant, "egc4"), "");
   EXPECT_THAT(lost(constant, "seisav"), HasSubstr("auxiliary variables of seisav"));
   Problem changing = constant;
   changing.damping.rate = formula_rate(compile_formula("0.1 + 0.05*sin(t)", {"t"}));
-  EXPECT_THAT(lost(changing, "egc4"), HasSubstr("from t = 0 on"));
+  EXPECT_THAT(lost(changing, "egc4"), HasSubstr("those from t = 0 on;"));
+  EXPECT_THAT(lost(changing, "egc4", 1, 2.5), HasSubstr("those from t = 1 on, not from [time] start = 2.5,"));
+  EXPECT_EQ(lost(changing, "egc4", 2.5, 2.5), "");
+  EXPECT_EQ(lost(constant, "egc4", 1, 2.5), "");
 }
 
 }  // namespace

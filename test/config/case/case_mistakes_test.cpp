@@ -46,6 +46,14 @@ TEST(CaseFile, MisspeltNamesAreRefusedWithTheNearestOne) {
               AllOf(StartsWith("x.toml:3:15: "), HasSubstr("did you mean 'conservative'?")));
 }
 
+TEST(CaseFile, ARunStartsAtZeroOrLaterAndEndsBehindItsStart) {
+  EXPECT_THAT(complaint(minimal + "[time]\nstart = -1\n"), HasSubstr("time.start = -1 must be ≥ 0"));
+  EXPECT_THAT(complaint(minimal + "[time]\nstart = 3\nend = 2\n"), HasSubstr("time.end = 2 must be > time.start = 3"));
+  EXPECT_THAT(complaint(minimal + "[method]\nh = 2\n[time]\nstart = 3\nend = 4\n"),
+              HasSubstr("method.h = 2 must be ≤ 1, the time from time.start to time.end"));
+  EXPECT_THAT(complaint(minimal + "gamma = \"sqrt(2.5 - t)\"\n[time]\nstart = 3\nend = 4\n"), HasSubstr("at t = 3"));
+}
+
 TEST(CaseFile, ACaseNamesItsProblem) {
   EXPECT_THAT(complaint(""), AllOf(StartsWith("x.toml: "), HasSubstr("[problem] has no name"), HasSubstr("gkdv")));
   EXPECT_THAT(complaint("[problm]\nname = \"gkdv\"\n"), HasSubstr("did you mean 'problem'?"));
@@ -144,7 +152,7 @@ TEST(CaseFile, WordsOfOtherProgramsAreTakenByTheirMeaningNotTheirLetters) {
     EXPECT_THAT(meant("method", word), HasSubstr("did you mean 'h'? Allowed: name"));
   for (const std::string word : {"max_step", "dt_max", "hmax"})
     EXPECT_THAT(meant("method", word), HasSubstr("did you mean 'h_max'?"));
-  EXPECT_THAT(meant("time", "t_end"), HasSubstr("did you mean 'end'? Allowed: end"));
+  EXPECT_THAT(meant("time", "t_end"), HasSubstr("did you mean 'end'? Allowed: start, end"));
   EXPECT_THAT(meant("method", "tmax"), HasSubstr("did you mean 'end' in [time]?"));
   EXPECT_THAT(complaint("dt = 0.1\n" + minimal), HasSubstr("outside every section; did you mean 'h' in [method]?"));
   EXPECT_THAT(complaint_of_override("method.dt=0.1"), AllOf(StartsWith("--set method.dt=0.1: "), HasSubstr("'h'?")));
