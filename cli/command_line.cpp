@@ -10,7 +10,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <new>
 #include <stdexcept>
 
 namespace seiche::cli {
@@ -42,7 +45,25 @@ void print_notes(const std::vector<std::string>& notes) {
 // Whoever closed stderr, or let its disk fill up, wants the result all the same.
 void print_lines(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
+void print_out_of_memory() noexcept {
+  constexpr std::string_view text = "seiche: there is not enough memory for this\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
 void prepare_process() {
+  // Memory may end where nothing may be thrown, as in destructors, or while another sentence is put together.
+  static const std::terminate_handler usual = std::get_terminate();
+  std::set_terminate([] {
+    try {
+      if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);
+    } catch (const std::bad_alloc&) {
+      print_out_of_memory();
+      ::_exit(computation_failed);
+    } catch (...) {
+      usual();
+    }
+    usual();
+  });
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing, which is told
   // The lowest number that is free is given to the next file that is opened. Opened the wrong way round, reading and
   // writing fail as they do with a closed one.

@@ -33,6 +33,9 @@ void print_failure(std::string_view text);  // why nothing, or not all, was done
 void print_notes(const std::vector<std::string>& notes);  // each on a line of its own
 void print_lines(std::string_view text);                  // to stderr as it is; never throws
 
+// To stderr, without memory.
+void print_out_of_memory() noexcept;
+
 // Before anything is opened: no file of a run takes the number of a closed standard stream, and limits of the size of
 // files are errors.
 void prepare_process();

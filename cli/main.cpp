@@ -98,7 +98,7 @@ int main(int count, char** values) {
     print_failure(error.what());
     return wrong_usage;
   } catch (const std::bad_alloc&) {
-    print_note("there is not enough memory for this");
+    print_out_of_memory();
     return computation_failed;
   } catch (const std::filesystem::filesystem_error& error) {
     print_failure(fmt::format("{}: {}", seiche::shortened_path(error.path1().string()), error.code().message()));

@@ -78,7 +78,7 @@ TEST_F(Survival, WhicheverWriteFailsTheRowsBeforeItAreReadable) {
   fs::rename(directory / "out", directory / "whole");
   const SolutionReader whole(directory / "whole/solution.h5");
   Index most = 0;
-  for (const auto& [error, once] : {std::pair(ENOSPC, false), std::pair(EIO, true), std::pair(EIO, false)}) {
+  for (const auto& [error, once] : {std::pair(ENOSPC, false), std::pair(EIO, true), std::pair(EDQUOT, false)}) {
     for (int n = once ? 2 : 1;; n += 17) {
       fs::remove_all(directory / "out");
       const std::string where = fmt::format("write {} fails with {}{}", n, error, once ? " once" : "");
