@@ -61,6 +61,7 @@ std::string options_left_out(const std::vector<std::string>& methods, const Meth
   look_at("scalar_solver", &MethodOptions::scalar_solver);
   look_at("law", &MethodOptions::law);
   look_at("linear", &MethodOptions::linear);
+  look_at("predictor", &MethodOptions::predictor);
   return all.empty() ? "" : fmt::format("{}, to which that means nothing", fmt::join(all, ", "));
 }
 

@@ -1,4 +1,5 @@
 #include <paper/examples.hpp>
+#include <paper/scheme.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
@@ -25,16 +26,12 @@ std::vector<double> halved_from(int first) {
 
 // Schemes that verdicts need beside the paper's eight: the scheme without splitting, and what the paper prints.
 std::vector<Contender> studied_beside() {
-  const auto with = [](const char* method, AuxiliaryMode auxiliary, ScalarSolver solver) {
-    return SimulationOptions{.method = method,
-                             .method_options = {.C = {}, .auxiliary = auxiliary, .scalar_solver = solver}};
-  };
   using enum AuxiliaryMode;
   using enum ScalarSolver;
-  return {{"eavf", {.method = "eavf"}},
-          {"seisav frozen", with("seisav", frozen, robust)},
-          {plain_newton, with("seilm", transport, newton)},
-          {"seilm frozen newton", with("seilm", frozen, newton)}};
+  return {{"eavf", scheme("eavf")},
+          {"seisav frozen", scheme("seisav", frozen, robust)},
+          {plain_newton, scheme("seilm", transport, newton)},
+          {"seilm frozen newton", scheme("seilm", frozen, newton)}};
 }
 
 bool applies(const Contender& contender, const Problem& problem) {
@@ -140,7 +137,7 @@ ExampleStudy study_example(const PaperExample& example, const ExampleOptions& op
 
   std::vector<Contender> contenders;
   for (const std::string& method : paper_methods()) {
-    const Contender contender{method, {.method = method}};
+    const Contender contender{method, scheme(method)};
     if (!applies(contender, example.problem)) {
       evidence.refused.push_back(method);
       continue;

@@ -1,4 +1,5 @@
 #include <paper/law_checks.hpp>
+#include <paper/scheme.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
@@ -43,10 +44,6 @@ void add_run(LawCheck& check, const Problem& problem, const SimulationOptions& o
   check.largest_drift = std::max(check.largest_drift, observer.relative());
 }
 
-SimulationOptions variant(const char* method, AuxiliaryMode auxiliary, ScalarSolver solver = ScalarSolver::robust) {
-  return {.method = method, .method_options = {.C = {}, .auxiliary = auxiliary, .scalar_solver = solver}};
-}
-
 LawCheck over_examples(const char* name, const SimulationOptions& options, const std::vector<PaperExample>& examples,
                        int steps) {
   LawCheck check{.scheme = name};
@@ -67,7 +64,7 @@ std::vector<LawCheck> over_undamped(const std::vector<Named>& problems) {
   for (const char* method : {"eisav", "eilm", "lm", "avf"}) {
     for (const Named& named : problems) {
       LawCheck check{.scheme = fmt::format("{} on {}", method, named.name)};
-      for (const double h : {1.0 / 64, 1.0 / 16}) add_run(check, named.problem, {.method = method}, h, named.t_end);
+      for (const double h : {1.0 / 64, 1.0 / 16}) add_run(check, named.problem, scheme(method), h, named.t_end);
       checks.push_back(std::move(check));
     }
   }
@@ -93,10 +90,10 @@ void check_without_ecld(Evidence& evidence) {
   }
   std::vector<RunRequest> requests;
   using enum AuxiliaryMode;
-  const std::vector<Contender> contenders = {{"seilm", variant("seilm", transport)},
-                                             {"seisav", variant("seisav", transport)},
-                                             {"seilm frozen newton", variant("seilm", frozen, ScalarSolver::newton)},
-                                             {"seisav frozen", variant("seisav", frozen)}};
+  const std::vector<Contender> contenders = {{"seilm", scheme("seilm", transport)},
+                                             {"seisav", scheme("seisav", transport)},
+                                             {"seilm frozen newton", scheme("seilm", frozen, ScalarSolver::newton)},
+                                             {"seisav frozen", scheme("seisav", frozen)}};
   for (const Contender& contender : contenders) {
     requests.push_back({.problem = &problem, .contender = contender, .h = h, .t_end = t_end, .record_points = 0});
   }
@@ -108,10 +105,10 @@ void check_without_ecld(Evidence& evidence) {
 void check_laws(Evidence& evidence, const std::vector<PaperExample>& examples, bool quick) {
   const int steps = quick ? 64 : 256;
   using enum AuxiliaryMode;
-  evidence.seisav_laws = {over_examples("r² transported", variant("seisav", transport), examples, steps),
-                          over_examples("as printed (r frozen)", variant("seisav", frozen), examples, steps)};
-  evidence.seilm_laws = {over_examples("V transported, robust solve", variant("seilm", transport), examples, steps),
-                         over_examples("as printed (V frozen, Newton)", variant("seilm", frozen, ScalarSolver::newton),
+  evidence.seisav_laws = {over_examples("r² transported", scheme("seisav", transport), examples, steps),
+                          over_examples("as printed (r frozen)", scheme("seisav", frozen), examples, steps)};
+  evidence.seilm_laws = {over_examples("V transported, robust solve", scheme("seilm", transport), examples, steps),
+                         over_examples("as printed (V frozen, Newton)", scheme("seilm", frozen, ScalarSolver::newton),
                                        examples, steps)};
 
   // Without damping, focusing Klein–Gordon blows up at t ≈ 12.7.

@@ -1,5 +1,6 @@
 #include <paper/findings.hpp>
 #include <paper/multiplier_trace.hpp>
+#include <paper/scheme.hpp>
 #include <paper/side_studies.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/gkdv.hpp>
@@ -19,7 +20,7 @@ namespace {
 
 Contender contender(const char* label, const char* method, AuxiliaryMode auxiliary,
                     ScalarSolver solver = ScalarSolver::robust) {
-  return {label, {.method = method, .method_options = {.C = {}, .auxiliary = auxiliary, .scalar_solver = solver}}};
+  return {label, scheme(method, auxiliary, solver)};
 }
 
 Contender seisav_printed() { return contender("SEISAV as printed (r frozen)", "seisav", AuxiliaryMode::frozen); }

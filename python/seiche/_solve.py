@@ -107,7 +107,7 @@ def solve(
     threads : int
         For large grids. Results do not depend on it.
     **options
-        C, auxiliary, scalar_solver, law, linear (of methods); plan, exponential, pade_degree, lanczos_dimension (of
+        C, auxiliary, scalar_solver, predictor, law, linear (of methods); plan, exponential, pade_degree, lanczos_dimension (of
         backends), with the values of case files.
 
     Returns

@@ -30,6 +30,21 @@ class Propagator {
   // others are written. z_mid may be the gradient.
   virtual void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before = {}) const = 0;
 
+  // The same from gradients at the last three midpoints, for ḡ = g₀ + weight·(g₀ − g₁) in the place of ∇V(z⁻). `missed`
+  // is what such an extrapolation missed last time, F_{h/2} applied to g₀ − g₁ − ratio·(g₁ − g₂), and `size` that of ẑ:
+  // squares of Euclidean norms of coordinates on the support. False, and nothing done, where it is not fused.
+  struct Recalled {
+    double missed = 0.0, size = 0.0;
+  };
+  struct Gradients {
+    const Vector &g0, &g1, &g2;
+    double weight, ratio;
+  };
+  virtual bool recall(const Vector& /*z*/, const Gradients&, Vector& /*z_mid*/, FieldFactors /*before*/,
+                      Recalled&) const {
+    return false;
+  }
+
   struct Powers {
     double of_increment = 0.0;      // fᵀFMz⁻
     double of_force = 0.0;          // fᵀFf

@@ -9,6 +9,19 @@
 
 namespace seiche {
 
+// ∇V at the midpoints of the last steps, the newest first, with the lengths of these steps: what the predictor
+// "remembered" starts from.
+struct MidpointMemory {
+  static constexpr int depth = 3;  // two foretell the next one, and the third tells how well they do
+
+  std::vector<Vector> gradients = {};  // none where the predictor is another
+  std::vector<double> lengths = {};
+  int known = 0;    // of them; 0 after a start or restart
+  int resting = 0;  // steps that are not to use them
+
+  void archive(Archive& a) { a(gradients, lengths, known, resting); }
+};
+
 struct State {
   Vector z;            // in the coordinates of Space
   double t = 0.0;      // t₀ + n h for fixed steps
@@ -25,7 +38,11 @@ struct State {
   std::vector<Vector> history = {};
   double history_h = 0.0;
 
-  void archive(Archive& a) { a(z, t, n, r_squared, shift, energy_scale, energy, energy_terms, history, history_h); }
+  MidpointMemory midpoints = {};  // of closures
+
+  void archive(Archive& a) {
+    a(z, t, n, r_squared, shift, energy_scale, energy, energy_terms, history, history_h, midpoints);
+  }
 };
 
 }  // namespace seiche

@@ -14,7 +14,7 @@
 namespace seiche {
 namespace {
 
-constexpr std::string_view format = "Seiche checkpoint 1\n";
+constexpr std::string_view format = "Seiche checkpoint 2\n";
 
 struct Head {
   std::uint64_t length;

@@ -14,8 +14,8 @@ constexpr double stagnation = 100;  // in units of the tolerance, as in method/c
 
 class PanelAvf final : public PanelStepper {
  public:
-  PanelAvf(std::unique_ptr<PanelSystem> from, const MethodEntry& method)
-      : PanelStepper(std::move(from), method),
+  PanelAvf(std::unique_ptr<PanelSystem> from, const MethodEntry& method, const MethodOptions& options)
+      : PanelStepper(std::move(from), method, options.predictor),
         linear_(system().size()),
         plus_(system().size()),
         q_(system().size()),
@@ -58,14 +58,11 @@ void PanelAvf::advance(PanelState& s, const PanelStep& maps, RowFactors after, P
   std::memset(g, 0, sizeof(double) * static_cast<std::size_t>(system().support_size() * panel_members));
   maps.step.add_to(z, z, linear_.row(0));  // with g = 0
   if (system().support_size() > 0) {
-    const PanelPotential& potential = system().potential();
     system().to_values(s.z.row(system().support_begin()), at_z_.row(0));
-    potential.gradient(at_z_.row(0), slopes());
+    predict(s, maps);  // ẑ
+    system().potential().gradient(values(), slopes());
     system().to_coordinates(slopes(), g);
-    maps.predict.apply(z, slopes());  // ẑ
-    system().to_values(slopes(), values());
-    potential.gradient(values(), slopes());
-    system().to_coordinates(slopes(), g);
+    keep_gradient(s);
   }
   maps.all_forces.add_to(linear_.row(0), g, plus_.row(0));  // the explicit step
 
@@ -99,8 +96,9 @@ void PanelAvf::advance(PanelState& s, const PanelStep& maps, RowFactors after, P
 
 }  // namespace
 
-std::unique_ptr<PanelStepper> make_panel_avf(std::unique_ptr<PanelSystem> system, const MethodEntry& method) {
-  return std::make_unique<PanelAvf>(std::move(system), method);
+std::unique_ptr<PanelStepper> make_panel_avf(std::unique_ptr<PanelSystem> system, const MethodEntry& method,
+                                             const MethodOptions& options) {
+  return std::make_unique<PanelAvf>(std::move(system), method, options);
 }
 
 }  // namespace seiche

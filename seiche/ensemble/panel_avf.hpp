@@ -7,6 +7,7 @@
 
 namespace seiche {
 
-std::unique_ptr<PanelStepper> make_panel_avf(std::unique_ptr<PanelSystem> system, const MethodEntry& method);
+std::unique_ptr<PanelStepper> make_panel_avf(std::unique_ptr<PanelSystem> system, const MethodEntry& method,
+                                             const MethodOptions& options);
 
 }  // namespace seiche

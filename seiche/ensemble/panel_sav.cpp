@@ -37,8 +37,8 @@ SEICHE_MULTIVERSION void take_force(const Powers& __restrict powers, bool guarde
 
 class PanelSav final : public PanelStepper {
  public:
-  PanelSav(std::unique_ptr<PanelSystem> system, const MethodEntry& method, AuxiliaryMode auxiliary)
-      : PanelStepper(std::move(system), method), auxiliary_(auxiliary) {}
+  PanelSav(std::unique_ptr<PanelSystem> system, const MethodEntry& method, const MethodOptions& options)
+      : PanelStepper(std::move(system), method, options.predictor), auxiliary_(options.auxiliary) {}
 
  private:
   void damp(PanelState& s, double t, double h) override;
@@ -69,14 +69,10 @@ void PanelSav::advance(PanelState& s, const PanelStep& maps, RowFactors after, P
   double* z = s.z.row(0);
   double* g = gradient_of(s);
   if (system().support_size() > 0) {
-    const PanelPotential& potential = system().potential();
-    system().to_values(s.z.row(system().support_begin()), values());
-    potential.gradient(values(), slopes());
-    system().to_coordinates(slopes(), g);
-    maps.predict.apply(z, slopes());  // ẑ
-    system().to_values(slopes(), values());
-    potential.value_and_gradient(values(), slopes(), powers_.v_mid);
+    predict(s, maps);  // ẑ
+    system().potential().value_and_gradient(values(), slopes(), powers_.v_mid);
     system().to_coordinates(slopes(), g);  // ĝ
+    keep_gradient(s);
   }
   powers_.quadratic = twice_quadratic_energy(s);
   maps.increment.dot(g, z, powers_.of_increment);
@@ -103,7 +99,7 @@ void PanelSav::modified_energy(const PanelState& s, const PanelValues& quadratic
 
 std::unique_ptr<PanelStepper> make_panel_sav(std::unique_ptr<PanelSystem> system, const MethodEntry& method,
                                              const MethodOptions& options) {
-  return std::make_unique<PanelSav>(std::move(system), method, options.auxiliary);
+  return std::make_unique<PanelSav>(std::move(system), method, options);
 }
 
 }  // namespace seiche

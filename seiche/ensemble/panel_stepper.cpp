@@ -23,8 +23,8 @@ void copy_scalars(const PanelState& from, PanelState& to) {
 
 }  // namespace
 
-PanelStepper::PanelStepper(std::unique_ptr<PanelSystem> system, const MethodEntry& method)
-    : system_(std::move(system)), splits_damping_(method.kind.splits_damping) {
+PanelStepper::PanelStepper(std::unique_ptr<PanelSystem> system, const MethodEntry& method, Predictor predictor)
+    : system_(std::move(system)), predictor_(*system_, predictor), splits_damping_(method.kind.splits_damping) {
   for (PanelState* s : {&first_, &second_, &work_}) {
     s->z = Panel(system_->size() + system_->support_size());
     s->r_squared.fill(1);  // columns without a member rest at z = 0
@@ -32,17 +32,33 @@ PanelStepper::PanelStepper(std::unique_ptr<PanelSystem> system, const MethodEntr
   }
   values_ = Panel(system_->support_size());
   slopes_ = Panel(system_->support_size());
+  gradient_ = Panel(system_->support_size());
   none_.of_field.resize(static_cast<std::size_t>(system_->fields()));
   for (PanelValues& field : none_.of_field) field.fill(1);
   set_rows(none_);
 }
 
 void PanelStepper::load(const State& state, Index member) {
+  load_values(state, member);
+  predictor_.load(state, member);
+}
+
+void PanelStepper::load_values(const State& state, Index member) {
   const auto l = static_cast<std::size_t>(member);
   system_->load(state.z, member, state_->z);
   state_->r_squared[l] = state.r_squared;
   state_->shift[l] = state.shift;
   state_->energy_scale[l] = state.energy_scale;
+}
+
+void PanelStepper::predict(PanelState& s, const PanelStep& maps) {
+  double* const g = gradient_of(s);
+  predictor_.predict(s.z.row(0), g, maps, step_size_, slopes(), [&] {
+    system_->to_values(s.z.row(system_->support_begin()), values());
+    system_->potential().gradient(values(), gradient_.row(0));
+    system_->to_coordinates(gradient_.row(0), g);
+  });
+  system_->to_values(slopes(), values());
 }
 
 void PanelStepper::store(Index member, State& state) const {
@@ -51,15 +67,20 @@ void PanelStepper::store(Index member, State& state) const {
   state.r_squared = state_->r_squared[l];
   state.shift = state_->shift[l];
   state.energy_scale = state_->energy_scale[l];
+  predictor_.store(member, state);
 }
 
 void PanelStepper::mend(const State& state, Index member) {
   std::swap(state_, next_);
-  load(state, member);
+  load_values(state, member);
   std::swap(state_, next_);
+  predictor_.mend(state, member);
 }
 
-void PanelStepper::accept() { std::swap(state_, next_); }
+void PanelStepper::accept() {
+  std::swap(state_, next_);
+  predictor_.accept();
+}
 
 void PanelStepper::set_rows(Decay& decay) {
   decay.of_row.clear();
@@ -154,7 +175,7 @@ std::unique_ptr<PanelStepper> make_panel_stepper(PanelSimulations members, const
   std::unique_ptr<PanelSystem> system = PanelSystem::make(members, method.propagator);
   if (!system) return nullptr;
   if (method.kind.members == MembersTogether::sav) return make_panel_sav(std::move(system), method, options);
-  return make_panel_avf(std::move(system), method);
+  return make_panel_avf(std::move(system), method, options);
 }
 
 }  // namespace seiche

@@ -4,6 +4,7 @@
 
 #include <seiche/core/state.hpp>
 #include <seiche/core/stepper.hpp>
+#include <seiche/ensemble/panel_predictor.hpp>
 #include <seiche/ensemble/panel_system.hpp>
 #include <seiche/ensemble/row_loops.hpp>
 
@@ -28,7 +29,7 @@ struct PanelReport {
 
 class PanelStepper {
  public:
-  PanelStepper(std::unique_ptr<PanelSystem> system, const MethodEntry& method);
+  PanelStepper(std::unique_ptr<PanelSystem> system, const MethodEntry& method, Predictor predictor);
   PanelStepper(const PanelStepper&) = delete;
   PanelStepper& operator=(const PanelStepper&) = delete;
   virtual ~PanelStepper() = default;
@@ -58,6 +59,9 @@ class PanelStepper {
   const PanelSystem& system() const { return *system_; }
   void flow(PanelState& s, double t, double h);                    // z ← Ψ(t, t + h)z, half of the step h of `step`
   const PanelValues& twice_quadratic_energy(const PanelState& s);  // zᵀMz at the start of the substep
+  // ẑ, on the support, into `values`; and behind the force, ĝ of the step.
+  void predict(PanelState& s, const PanelStep& maps);
+  void keep_gradient(PanelState& s) { predictor_.keep(gradient_of(s), step_size_); }
   double* gradient_of(PanelState& s) { return s.z.row(system_->size()); }
   double* values() { return values_.row(0); }  // of V's fields on the grid
   double* slopes() { return slopes_.row(0); }  // likewise
@@ -65,6 +69,7 @@ class PanelStepper {
 
  private:
   std::unique_ptr<PanelSystem> system_;
+  PanelPredictor predictor_;
   // Factors for every row, one set for each half-flow.
   struct Decay {
     std::vector<PanelValues> of_field;
@@ -72,6 +77,7 @@ class PanelStepper {
     double h = -1.0;
   };
   RowFactors factors(Decay& decay, double t, double h);
+  void load_values(const State& state, Index member);
   void apply_flow(const BlockMap& flow, PanelState& s);
   void set_rows(Decay& decay);
 
@@ -83,7 +89,7 @@ class PanelStepper {
   PanelState first_, second_, work_;
   PanelState* state_ = &first_;  // before the step
   PanelState* next_ = &second_;  // after it
-  Panel values_, slopes_, moved_;
+  Panel values_, slopes_, gradient_, moved_;
 };
 
 // Null where the method is not written for panels, or the members do not allow it (PanelSystem::make).

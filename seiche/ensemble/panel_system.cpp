@@ -159,16 +159,19 @@ const PanelStep& PanelSystem::at(double h) {
 }
 
 PanelStep PanelSystem::make_step(double h) const {
-  std::vector<Matrix> predict, increment, force, step, all_forces, flow;
+  std::vector<Matrix> predict, missed, increment, force, step, all_forces, flow;
   const std::vector<Index> support(place_.begin() + support_begin_, place_.begin() + support_begin_ + support_size_);
   for (const Simulation* member : members_) {
     const System& system = member->system();
     const Index n = system.space->size();
     const std::unique_ptr<Propagator> propagator = system.linear->propagator(kind_, h);
     const Vector zero = Vector::Zero(n);
-    predict.push_back(side_by_side(
-        probe(n, support, place_, [&](const Vector& in, Vector& out) { propagator->predict(in, zero, out); }),
-        probe(n, support, support, [&](const Vector& in, Vector& out) { propagator->predict(zero, in, out); })));
+    const Matrix Q =
+        probe(n, support, support, [&](const Vector& in, Vector& out) { propagator->predict(zero, in, out); });
+    predict.push_back(side_by_side(probe(n, support, place_,
+                                         [&](const Vector& in, Vector& out) { propagator->predict(in, zero, out); }),
+                                   Q));
+    missed.emplace_back(Q.transpose() * Q);
     const Matrix FM = probe(n, place_, place_, [&](const Vector& in, Vector& out) { propagator->increment(in, out); });
     const Matrix F = probe(n, place_, support, [&](const Vector& in, Vector& out) { propagator->force(in, out); });
     increment.emplace_back(FM.middleRows(support_begin_, support_size_));
@@ -177,8 +180,13 @@ PanelStep PanelSystem::make_step(double h) const {
     all_forces.push_back(F);
     if (has_constant_damping_) flow.push_back(constant_flow(*member, rates_commute_ ? h / 2 : h / 4, place_));
   }
-  PanelStep maps{BlockMap(predict), BlockMap(increment),  PanelQuadratic(force),
-                 BlockMap(step),    BlockMap(all_forces), {}};
+  PanelStep maps{BlockMap(predict),
+                 PanelQuadratic(missed),
+                 BlockMap(increment),
+                 PanelQuadratic(force),
+                 BlockMap(step),
+                 BlockMap(all_forces),
+                 {}};
   if (!flow.empty()) maps.flow = BlockMap(flow);
   return maps;
 }
@@ -200,6 +208,15 @@ void PanelSystem::load(const Vector& z, Index member, Panel& panel) const {
 void PanelSystem::store(const Panel& panel, Index member, Vector& z) const {
   z.setZero(columns_[static_cast<std::size_t>(member)]->system().space->size());
   for (Index j = 0; j < size(); ++j) z[place_[static_cast<std::size_t>(j)]] = panel(j, member);
+}
+
+void PanelSystem::load_support(const Vector& z, Index member, Panel& panel) const {
+  for (Index j = 0; j < support_size_; ++j) panel(j, member) = z[place_[static_cast<std::size_t>(support_begin_ + j)]];
+}
+
+void PanelSystem::store_support(const Panel& panel, Index member, Vector& z) const {
+  z.setZero(columns_[static_cast<std::size_t>(member)]->system().space->size());
+  for (Index j = 0; j < support_size_; ++j) z[place_[static_cast<std::size_t>(support_begin_ + j)]] = panel(j, member);
 }
 
 void PanelSystem::decay(double t, double h, std::vector<PanelValues>& factors) const {

@@ -30,11 +30,12 @@ class PanelQuadratic {
 
 // The maps of one step size. A panel that holds z and, below it, a gradient on the support of V is called (z, g).
 struct PanelStep {
-  BlockMap predict;      // (z, ∇V(z)) → ẑ, on the support
-  BlockMap increment;    // z → FMz, on the support
-  PanelQuadratic force;  // g → gᵀFg
-  BlockMap step;         // (z, g) → FMz + Fg
-  BlockMap all_forces;   // g → Fg
+  BlockMap predict;       // (z, ∇V(z)) → ẑ, on the support
+  PanelQuadratic missed;  // g → |Qg|², with Q the part of `predict` that multiplies g
+  BlockMap increment;     // z → FMz, on the support
+  PanelQuadratic force;   // g → gᵀFg
+  BlockMap step;          // (z, g) → FMz + Fg
+  BlockMap all_forces;    // g → Fg
   // The constant part of a half-flow, e^{−hD/2}; e^{−hD/4}, to be applied twice, where the rates do not commute with
   // it. No rows if there is none.
   BlockMap flow;
@@ -65,6 +66,9 @@ class PanelSystem {
 
   void load(const Vector& z, Index member, Panel& panel) const;
   void store(const Panel& panel, Index member, Vector& z) const;
+  // The same of the support alone, for panels that hold nothing else.
+  void load_support(const Vector& z, Index member, Panel& panel) const;
+  void store_support(const Panel& panel, Index member, Vector& z) const;
 
   // The factors by which γ(t) multiplies each field over [t, t + h], one for every member.
   void decay(double t, double h, std::vector<PanelValues>& factors) const;

@@ -60,6 +60,28 @@ SEICHE_MULTIVERSION void measure(const double* in, const double* diagonal, Index
   put(total, sum);
 }
 
+SEICHE_MULTIVERSION void extrapolate_rows(const double* a, const double* b, double weight, Index rows, double* out) {
+  for_packs(
+      rows, [&](Index i, int) __attribute__((always_inline)) {
+        packs_of(out)[i] = packs_of(a)[i] + weight * (packs_of(a)[i] - packs_of(b)[i]);
+      });
+}
+
+SEICHE_MULTIVERSION void second_difference(const double* a, const double* b, const double* c, double ratio, Index rows,
+                                           double* out) {
+  for_packs(
+      rows, [&](Index i, int) __attribute__((always_inline)) {
+        packs_of(out)[i] = packs_of(a)[i] - packs_of(b)[i] - ratio * (packs_of(b)[i] - packs_of(c)[i]);
+      });
+}
+
+SEICHE_MULTIVERSION void sum_squares(const double* in, Index rows, PanelValues& sum) {
+  Pack total[packs] = {};
+  for_packs(
+      rows, [&](Index i, int q) __attribute__((always_inline)) { total[q] += packs_of(in)[i] * packs_of(in)[i]; });
+  put(total, sum);
+}
+
 SEICHE_MULTIVERSION void damp_rows(RowFactors factors, Index rows, double* values) {
   for (Index j = 0; j < rows; ++j) {
     const Pack* c = packs_of(factors[j]);

@@ -47,29 +47,33 @@ std::unique_ptr<AdaptiveStepper> with_weights(const MethodEntry& method, const S
 constexpr MethodKind avf{.closure = "avf",
                          .make = by_closure,
                          .make_adaptive = with_weights,
-                         .make_closure = [](const System& s, const MethodOptions&) { return make_avf_closure(s); },
+                         .make_closure = make_avf_closure,
+                         .takes_predictor = true,
                          .members = MembersTogether::avf,
-                         .doubles = 22};
+                         .doubles = 24};
 constexpr MethodKind sav{.closure = "sav",
                          .make = by_closure,
                          .make_adaptive = with_weights,
                          .make_closure = make_sav_closure,
                          .takes_C = true,
                          .takes_auxiliary = true,
+                         .takes_predictor = true,
                          .members = MembersTogether::sav,
-                         .doubles = 12};
+                         .doubles = 15};
 constexpr MethodKind lm{.closure = "lm",
                         .make = by_closure,
                         .make_adaptive = with_weights,
                         .make_closure = make_lm_closure,
                         .takes_auxiliary = true,
                         .takes_solver = true,
-                        .doubles = 27};
+                        .takes_predictor = true,
+                        .doubles = 28};
 constexpr MethodKind dm{.closure = "dm",
                         .make = by_closure,
                         .make_adaptive = with_weights,
-                        .make_closure = [](const System& s, const MethodOptions&) { return make_dm_closure(s); },
-                        .doubles = 21};
+                        .make_closure = make_dm_closure,
+                        .takes_predictor = true,
+                        .doubles = 23};
 
 constexpr MethodKind whole(MethodKind kind) {
   kind.composition = "whole";
@@ -231,6 +235,9 @@ void MethodOptions::validate(const MethodEntry& method) const {
     throw Error("scalar_solver = \"newton\" belongs to the lm family; {} solves no equation for η", method.name);
   if (linear != LinearTreatment::exact && !kind.takes_linear)
     throw Error("linear = \"explicit\" belongs to crkn4 and crkn6; {} takes the linear part in one piece", method.name);
+  if (predictor != Predictor::remembered && !kind.takes_predictor)
+    throw Error("predictor = \"gradient\" belongs to the avf, sav, lm and dm families; {} has no midpoint to foretell",
+                method.name);
   if (auxiliary == AuxiliaryMode::transport) return;
   if (!kind.takes_auxiliary)
     throw Error("auxiliary belongs to the sav and lm families; {} carries no auxiliary through the damping",
@@ -249,6 +256,7 @@ MethodOptions MethodOptions::meant_for(const MethodEntry& method) const {
   if (kind.takes_auxiliary) own.auxiliary = auxiliary;
   if (kind.takes_solver) own.scalar_solver = scalar_solver;
   if (kind.takes_linear) own.linear = linear;
+  if (kind.takes_predictor) own.predictor = predictor;
   if (law && method.projects()) own.law = std::max(*law, method.projection);
   return own;
 }

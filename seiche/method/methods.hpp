@@ -21,6 +21,7 @@ struct MethodOptions;
 
 enum class AuxiliaryMode { transport, frozen, refresh };
 enum class ScalarSolver { robust, newton };
+enum class Predictor { gradient, remembered };         // seiche/method/closure/midpoint_predictor.hpp
 enum class LinearTreatment { exact, explicit_kicks };  // e^{hL}, or kicks by all forces between drifts
 enum class MembersTogether { none, avf, sav };         // how many members of an ensemble take a step side by side
 
@@ -38,6 +39,7 @@ struct MethodKind {
 
   // Options that have a meaning for it, beside `law` of those that project:
   bool takes_C = false, takes_auxiliary = false, takes_refresh = false, takes_solver = false, takes_linear = false;
+  bool takes_predictor = false;
 
   // Problems that it applies to:
   bool merges_damping = false;   // those that with_damping_merged can restate
@@ -88,6 +90,7 @@ struct MethodOptions {
   std::optional<EnergyLaw> law = {};  // of methods that project; the strongest they can have if not given
 
   LinearTreatment linear = LinearTreatment::exact;  // of crkn4 and crkn6
+  Predictor predictor = Predictor::remembered;      // of closures
 
   EnergyLaw law_of(const MethodEntry& method) const { return law.value_or(method.projection); }
   // Why no energy law is promised with these options, or "".

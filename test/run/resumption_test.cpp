@@ -4,6 +4,7 @@
 #include <seiche/run/adaptive.hpp>
 #include <seiche/simulation/simulation.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -53,6 +54,7 @@ struct Kind {
   std::string method, backend;
   std::optional<double> tolerance;
   bool ledger = false;
+  int threads = 1;
 };
 
 struct Outcome {
@@ -66,6 +68,7 @@ Outcome run(const Problem& problem, const Kind& kind, AfterSteps* keeper, Archiv
             std::int64_t shown = 0, const std::string& objection = "") {
   Simulation simulation(problem, {.method = kind.method,
                                   .backend = kind.backend,
+                                  .backend_options = {.threads = kind.threads},
                                   .variable_steps = kind.tolerance.has_value(),
                                   .tolerance = kind.tolerance.value_or(0.0)});
   if (kind.ledger) simulation.stepper().keep_ledger();
@@ -89,12 +92,15 @@ Outcome run(const Problem& problem, const Kind& kind, AfterSteps* keeper, Archiv
 }
 
 // The rows of a run that goes on are the last ones of the whole run, bit for bit, and so is all else.
-void expect_same_run(const Problem& problem, const Kind& kind, std::int64_t n, const std::string& name) {
+void expect_same_run(const Problem& problem, const Kind& kind, std::int64_t n, const std::string& name,
+                     int threads_behind = 1) {
   AfterSteps keeper(n);
   const Outcome whole = run(problem, kind, &keeper);
   ASSERT_TRUE(keeper.bytes) << name << ": " << whole.report.message;
   Archive archive(*keeper.bytes);
-  const Outcome rest = run(problem, kind, nullptr, &archive, keeper.shown);
+  Kind behind_checkpoint = kind;
+  behind_checkpoint.threads = threads_behind;
+  const Outcome rest = run(problem, behind_checkpoint, nullptr, &archive, keeper.shown);
   EXPECT_TRUE(archive.is_at_end()) << name;
   EXPECT_EQ(rest.z, whole.z) << name;
   ASSERT_LT(rest.rows.size(), whole.rows.size()) << name;
@@ -139,6 +145,35 @@ TEST_P(ResumptionOf, GoesOnToTheSameBitsWithVariableSteps) {
     expect_same_run(problem, kind, n, name + " after step " + std::to_string(n));
   }
 }
+
+// Every method on every backend, fixed steps and a tolerance, one thread and two, after five numbers of steps.
+class ResumptionOfSlow : public testing::TestWithParam<std::string> {};
+
+TEST_P(ResumptionOfSlow, GoesOnToTheSameBitsFromAnywhereOnAnyNumberOfThreads) {
+  int resumed = 0;
+  for (const auto& [name, problem] : {golden_cases().front(), grid_cases().front()}) {
+    if (!applies(GetParam(), problem)) continue;
+    for (const BackendEntry& backend : backends_for(problem)) {
+      for (const std::optional<double> tolerance : {std::optional<double>(), std::optional(1e-3)}) {
+        for (const int threads : {1, 2}) {
+          for (const std::int64_t n : {0, 1, 2, 3, 5}) {
+            const Kind kind{.method = GetParam(),
+                            .backend = std::string(backend.name),
+                            .tolerance = tolerance,
+                            .threads = threads};
+            expect_same_run(problem, kind, n, fmt::format("{} {} after step {}", name, backend.name, n), 3 - threads);
+            ++resumed;
+          }
+        }
+      }
+    }
+  }
+  RecordProperty("resumed", resumed);
+  EXPECT_GE(resumed, 60);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMethod, ResumptionOfSlow, testing::ValuesIn(method_names()),
+                         [](const auto& of) { return of.param; });
 
 INSTANTIATE_TEST_SUITE_P(EveryMethod, ResumptionOf, testing::ValuesIn(method_names()),
                          [](const auto& of) { return of.param; });

@@ -33,7 +33,8 @@ const nlohmann::json& GoldenMethod::result(double h) const {
 
 SimulationOptions GoldenMethod::options(std::string_view backend, ScalarSolver solver) const {
   SimulationOptions options{.method = method, .backend = std::string(backend)};
-  options.method_options = MethodOptions{.C = C, .scalar_solver = solver}.meant_for(find_method(method));
+  options.method_options =
+      MethodOptions{.C = C, .scalar_solver = solver, .predictor = Predictor::gradient}.meant_for(find_method(method));
   if (literal) options.method_options.auxiliary = AuxiliaryMode::frozen;
   return options;
 }

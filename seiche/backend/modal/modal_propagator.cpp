@@ -24,7 +24,8 @@ class FusedPropagator final : public Propagator {
         maps_(std::move(maps)),
         step_(with_maps(maps_.F)),
         middle_(with_maps(maps_.Q)),
-        sums_(static_cast<std::size_t>(blocks_)) {}
+        sums_(static_cast<std::size_t>(blocks_)),
+        recalled_(sums_.size()) {}
 
   void increment(const Vector& z, Vector& dz) const override {
     Operands<S> o = step_;
@@ -40,6 +41,27 @@ class FusedPropagator final : public Propagator {
   void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
     point(middle_, z, &gradient, &z_mid, before);
     run_over<Predict>(middle_);
+  }
+
+  bool recall(const Vector& z, const Gradients& g, Vector& z_mid, FieldFactors before,
+              Recalled& recalled) const override {
+    point(middle_, z, &g.g0, &z_mid, before);
+    for (int i = 0; i < S::fields; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      middle_.f1[at] = g.g1.data() + i * slots_;
+      middle_.f2[at] = g.g2.data() + i * slots_;
+    }
+    middle_.weight = g.weight;
+    middle_.ratio = g.ratio;
+    for_blocks(blocks_, threads_, [&](Index block) {
+      recalled_[static_cast<std::size_t>(block)] = mode_kernels::recall<S>(middle_, begin(block), end(block));
+    });
+    recalled = {};
+    for (const RecallSums& part : recalled_) {
+      recalled.missed += part.missed;
+      recalled.size += part.size;
+    }
+    return true;
   }
 
   Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
@@ -99,6 +121,7 @@ class FusedPropagator final : public Propagator {
   ModalForceMaps maps_;
   mutable Operands<S> step_, middle_;  // with F, and with Q
   mutable std::vector<PowerSums> sums_;
+  mutable std::vector<RecallSums> recalled_;
 };
 
 using Make = std::unique_ptr<Propagator> (*)(const ModalExtent&, const ModalMetric&, ModalForceMaps);

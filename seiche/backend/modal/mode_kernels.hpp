@@ -26,8 +26,10 @@ struct Operands {
   std::array<const double*, S::fields> f{};  // the force: on the support only
   std::array<const double*, S::fields> M{};  // null where it is the identity
   std::array<std::array<const double*, S::fields>, S::fields> F{};
+  std::array<const double*, S::fields> f1{}, f2{};  // of `recall`: the forces before f, and before that
   std::array<double, S::fields> before{}, after{};
   double factor = 1.0;
+  double weight = 0.0, ratio = 1.0;  // of `recall`
 };
 
 // factor of the modes of these slots × slots
@@ -143,6 +145,36 @@ struct PowerLanes {
   PowerSums sums() const { return {sum(of_increment), sum(of_force), sum(twice_energy)}; }
 };
 
+struct RecallSums {
+  double missed = 0, size = 0;
+};
+
+// ẑ = z⁻ + Q(Mz⁻ + ḡ) with ḡ = f + weight·(f − f₁), on the support, and the squares of ẑ and of Qd with
+// d = f − f₁ − ratio·(f₁ − f₂); Q is passed as F.
+template <class S, class V>
+struct RecallLanes {
+  V missed{}, size{};
+
+  [[gnu::always_inline]] inline void at(const Operands<S>& o, Index slot) {
+    const Point<S, V> p(o, slot);
+    std::array<V, S::fields> w = p.Mz, d{};
+    for (int j = S::first; j < S::first + S::count; ++j) {
+      const V f = load<V>(o.f[j] + slot), f1 = load<V>(o.f1[j] + slot);
+      w[j] += f + o.weight * (f - f1);
+      d[j] = (f - f1) - o.ratio * (f1 - load<V>(o.f2[j] + slot));
+    }
+    for (int i = S::first; i < S::first + S::count; ++i) {
+      const V z_mid = p.z[i] + row<S, V>(o, i, slot, w);
+      store<V>(o.out[i] + slot, z_mid);
+      V Qd = times<S::layout, V>(o.F[i][S::first], slot, d[S::first]);
+      for (int j = S::first + 1; j < S::first + S::count; ++j) Qd += times<S::layout, V>(o.F[i][j], slot, d[j]);
+      missed += Qd * Qd;
+      size += z_mid * z_mid;
+    }
+  }
+  RecallSums sums() const { return {sum(missed), sum(size)}; }
+};
+
 template <class S>
 using Last = std::conditional_t<S::layout == ModeLayout::singles, double, Pair>;  // what is left behind full lanes
 
@@ -165,6 +197,19 @@ SEICHE_MULTIVERSION PowerSums powers(const Operands<S>& operands, Index begin, I
   const PowerSums a = lanes.sums();
   const PowerSums b = last.sums();
   return {a.of_increment + b.of_increment, a.of_force + b.of_force, a.twice_energy + b.twice_energy};
+}
+
+template <class S>
+SEICHE_MULTIVERSION RecallSums recall(const Operands<S>& operands, Index begin, Index end) {
+  const Operands<S> o = operands;
+  RecallLanes<S, Lanes> lanes;
+  RecallLanes<S, Last<S>> last;
+  Index slot = begin;
+  for (; slot + lane_count <= end; slot += lane_count) lanes.at(o, slot);
+  for (; slot < end; slot += slots_per_mode(S::layout)) last.at(o, slot);
+  const RecallSums a = lanes.sums();
+  const RecallSums b = last.sums();
+  return {a.missed + b.missed, a.size + b.size};
 }
 
 }  // namespace seiche::mode_kernels

@@ -83,6 +83,8 @@ std::string example_sections(const ProblemEntry& entry) {
   text +=
       line("auxiliary", "\"transport\"", "transport | frozen | refresh: what the damping does to r (sav, lm family)");
   text += line("scalar_solver", "\"robust\"", "lm family: robust | newton (the paper's)");
+  text += line("predictor", "\"remembered\"",
+               "avf, sav, lm, dm: remembered (one gradient a step) | gradient (the paper's: two)");
   text += line("# law", "\"interval\"",
                fmt::format("methods that end with a projection ({}): {}; the strongest they can have if not given",
                            fmt::join(projecting_methods(), ", "), fmt::join(energy_law_names(), " | ")));
@@ -137,6 +139,7 @@ std::string write_case(const RunSpec& spec) {
   text += fmt::format("auxiliary = \"{}\"\n", to_text(options.auxiliary));
   text += fmt::format("scalar_solver = \"{}\"\n", options.scalar_solver == ScalarSolver::newton ? "newton" : "robust");
 
+  if (options.predictor == Predictor::gradient) text += "predictor = \"gradient\"\n";
   if (options.law) text += fmt::format("law = \"{}\"\n", to_string(*options.law));
   if (options.linear == LinearTreatment::explicit_kicks) text += "linear = \"explicit\"\n";
 

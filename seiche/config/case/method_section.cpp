@@ -106,7 +106,7 @@ class MethodSection {
 void read_method_section(CaseReading& reading) { MethodSection(reading).read(); }
 
 std::span<const MethodOptionKey> method_option_keys() {
-  static const std::array<MethodOptionKey, 5> keys = {{
+  static const std::array<MethodOptionKey, 6> keys = {{
       {"C",
        [](MethodOptions& options, const std::string& key, const CaseValue& value) {
          if (value.kind == CaseValue::Kind::text && value.text == "auto") return;
@@ -135,6 +135,11 @@ std::span<const MethodOptionKey> method_option_keys() {
        [](MethodOptions& options, const std::string& key, const CaseValue& value) {
          const bool kicks = read_name(key, value, {"exact", "explicit"}) == "explicit";
          options.linear = kicks ? LinearTreatment::explicit_kicks : LinearTreatment::exact;
+       }},
+      {"predictor",
+       [](MethodOptions& options, const std::string& key, const CaseValue& value) {
+         const bool remembered = read_name(key, value, {"remembered", "gradient"}) == "remembered";
+         options.predictor = remembered ? Predictor::remembered : Predictor::gradient;
        }},
   }};
   return keys;

@@ -13,8 +13,8 @@ constexpr double stagnation = 100;  // in units of the tolerance: round-off of F
 
 class AvfClosure final : public Closure {
  public:
-  explicit AvfClosure(const System& system)
-      : Closure(system),
+  AvfClosure(const System& system, const MethodOptions& options)
+      : Closure(system, options.predictor),
         start_(system.space->size()),
         mean_(Vector::Zero(system.space->size())),
         q_(system.space->size()),
@@ -23,6 +23,7 @@ class AvfClosure final : public Closure {
   StepReport advance(State& s, Propagators& propagators, double t, double h) override;
 
  private:
+  Vector& midpoint_gradient() override { return start_.g; }
   bool sweep_to_fixed_point(const Vector& z, const Propagator& propagator, StepReport& report);
   // next = z + FMz + Fḡ(z, z⁺); returns the size of the update in units of 4ε(|z⁺| + |Fḡ|).
   double sweep(const Vector& z, const Vector& z_plus, const Propagator& propagator, Vector& next);
@@ -68,6 +69,7 @@ double AvfClosure::residual(const Vector& z, const Propagator& propagator) {
 StepReport AvfClosure::advance(State& s, Propagators& propagators, double t, double h) {
   StepReport report;
   const Propagator& propagator = propagators.at(h);
+  predictor().predict(s, propagator, h, start_.z_mid);
   start_.prepare(potential(), propagator, s.z);
   if (!sweep_to_fixed_point(s.z, propagator, report)) {
     ++report.fallbacks;
@@ -96,6 +98,8 @@ StepReport AvfClosure::advance(State& s, Propagators& propagators, double t, dou
 
 }  // namespace
 
-std::unique_ptr<Closure> make_avf_closure(const System& system) { return std::make_unique<AvfClosure>(system); }
+std::unique_ptr<Closure> make_avf_closure(const System& system, const MethodOptions& options) {
+  return std::make_unique<AvfClosure>(system, options);
+}
 
 }  // namespace seiche

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/method/closure/closure.hpp>
+#include <seiche/method/methods.hpp>
 
 #include <memory>
 
@@ -9,6 +10,6 @@ namespace seiche {
 
 // Keeps H exactly in the Hamiltonian substep. Implicit: fixed point with the linear part inside, then Newton–Krylov
 // where that does not contract; a step that neither solves fails.
-std::unique_ptr<Closure> make_avf_closure(const System& system);
+std::unique_ptr<Closure> make_avf_closure(const System& system, const MethodOptions& options);
 
 }  // namespace seiche

@@ -29,12 +29,10 @@ bool Closure::nothing_changes_H() const {
 }
 
 ExplicitStep::ExplicitStep(Index size) {
-  for (Vector* v : {&z_mid, &g, &dz, &q, &delta, &z_plus, &gradient_}) v->setZero(size);
+  for (Vector* v : {&z_mid, &g, &dz, &q, &delta, &z_plus}) v->setZero(size);
 }
 
 double ExplicitStep::prepare(const Potential& potential, const Propagator& propagator, const Vector& z) {
-  potential.gradient(z, gradient_);
-  propagator.predict(z, gradient_, z_mid);
   const double v_mid = potential.value_and_gradient(z_mid, g);
   propagator.increment(z, dz);
   propagator.force(g, q);

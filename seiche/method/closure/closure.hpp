@@ -5,21 +5,24 @@
 #include <seiche/core/state.hpp>
 #include <seiche/core/stepper.hpp>
 #include <seiche/core/system.hpp>
+#include <seiche/method/closure/midpoint_predictor.hpp>
 
 namespace seiche {
 
 class Closure {
  public:
-  explicit Closure(const System& system) : system_(system) {}
+  Closure(const System& system, Predictor predictor) : system_(system), predictor_(system, predictor) {}
   virtual ~Closure() = default;
 
-  virtual void begin(State&) {}
+  virtual void begin(State& s) { predictor_.begin(s); }
   // A damping half-flow, z ← Ψ(t, t+h)z, with what the closure carries beside z.
   virtual void damp(State& s, double t, double h) { system_.damping->flow(t, h, s.z); }
   // The external force over h, z += ∫f, likewise. Only where the system has one.
   virtual void impulse(State& s, double t, double h) { system_.force->impulse(t, h, s.z); }
   // The Hamiltonian substep of length h within the step that starts at t. On failure s is left in any state.
   virtual StepReport advance(State& s, Propagators& propagators, double t, double h) = 0;
+  // Behind a step of length h that succeeded as a whole: what the next one is to remember of it.
+  void keep(State& s, double h) { predictor_.keep(s, h, midpoint_gradient()); }
 
   // Damping half-flows around a substep, where each multiplies every field by a number.
   struct HalfFlows {
@@ -42,19 +45,22 @@ class Closure {
   bool keeps_ledger() const { return keeps_ledger_; }
   // Replaces H, which stands there, by the modified energy and its round-off.
   virtual void read_modified(const State&, const ValueAndMagnitude& /*quadratic*/, EnergyReading&) const {}
+  MidpointPredictor& predictor() { return predictor_; }
+  virtual Vector& midpoint_gradient() = 0;  // ĝ of the last substep
   const System& system() const { return system_; }
   const Potential& potential() const { return *system_.potential; }
   const Space& space() const { return *system_.space; }
 
  private:
   const System& system_;
+  MidpointPredictor predictor_;
   bool keeps_ledger_ = false;
 };
 
 // The explicit step z₁ = Ez + F∇V(ẑ) that every closure starts from, and its parts.
 struct ExplicitStep {
   explicit ExplicitStep(Index size);
-  // Fills everything below from z; returns V(ẑ).
+  // Fills everything below ẑ, from ẑ and z; returns V(ẑ).
   double prepare(const Potential& potential, const Propagator& propagator, const Vector& z);
 
   Vector z_mid;   // ẑ
@@ -63,9 +69,6 @@ struct ExplicitStep {
   Vector q;       // Fĝ
   Vector delta;   // δ₁ = dz + q
   Vector z_plus;  // z₁ = z + δ₁
-
- private:
-  Vector gradient_;
 };
 
 }  // namespace seiche

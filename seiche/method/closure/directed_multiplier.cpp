@@ -12,8 +12,17 @@ DirectedMultiplier::DirectedMultiplier(const System& system)
       equation_(*system.space, *system.potential),
       q_(system.space->size()) {}
 
-StepReport DirectedMultiplier::advance(Vector& z, Propagators& propagators, double h, std::optional<double> energy,
-                                       int depth) {
+StepReport DirectedMultiplier::advance(State& s, MidpointPredictor& predictor, Propagators& propagators, double h,
+                                       std::optional<double> energy) {
+  predictor.predict(s, propagators.at(h), h, start_.z_mid);
+  start_.prepare(*system_.potential, propagators.at(h), s.z);
+  return finish(s.z, start_, propagators, h, energy, max_depth);
+}
+
+StepReport DirectedMultiplier::advance_half(Vector& z, Propagators& propagators, double h, std::optional<double> energy,
+                                            int depth) {
+  system_.potential->gradient(z, start_.z_mid);
+  propagators.at(h).predict(z, start_.z_mid, start_.z_mid);
   start_.prepare(*system_.potential, propagators.at(h), z);
   return finish(z, start_, propagators, h, energy, depth);
 }
@@ -50,7 +59,8 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
     return report;
   }
   ++report.fallbacks;
-  for (int half = 0; half < 2 && report.solved(); ++half) report += advance(z, propagators, h / 2, energy, depth - 1);
+  for (int half = 0; half < 2 && report.solved(); ++half)
+    report += advance_half(z, propagators, h / 2, energy, depth - 1);
   return report;
 }
 
@@ -58,20 +68,31 @@ namespace {
 
 class DmClosure final : public Closure {
  public:
-  explicit DmClosure(const System& system) : Closure(system), multiplier_(system), conserves_(nothing_changes_H()) {}
-  void begin(State& s) override { s.energy = system().energy(s.z); }
+  DmClosure(const System& system, const MethodOptions& options)
+      : Closure(system, options.predictor), multiplier_(system), conserves_(nothing_changes_H()) {}
+  void begin(State& s) override {
+    Closure::begin(s);
+    s.energy = system().energy(s.z);
+  }
   StepReport advance(State& s, Propagators& propagators, double /*t*/, double h) override {
-    return multiplier_.advance(s.z, propagators, h, conserves_ ? std::optional(s.energy) : std::nullopt);
+    StepReport report =
+        multiplier_.advance(s, predictor(), propagators, h, conserves_ ? std::optional(s.energy) : std::nullopt);
+    if (report.fallbacks > 0) predictor().discard();  // the last ĝ is that of a part of the step
+    return report;
   }
   void keep_ledger() override { multiplier_.keep_ledger(); }
 
  private:
+  Vector& midpoint_gradient() override { return multiplier_.midpoint_gradient(); }
+
   DirectedMultiplier multiplier_;
   bool conserves_;
 };
 
 }  // namespace
 
-std::unique_ptr<Closure> make_dm_closure(const System& system) { return std::make_unique<DmClosure>(system); }
+std::unique_ptr<Closure> make_dm_closure(const System& system, const MethodOptions& options) {
+  return std::make_unique<DmClosure>(system, options);
+}
 
 }  // namespace seiche

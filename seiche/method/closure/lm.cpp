@@ -10,7 +10,7 @@ namespace {
 class LmClosure final : public Closure {
  public:
   LmClosure(const System& system, const MethodOptions& options)
-      : Closure(system),
+      : Closure(system, options.predictor),
         // Frozen is the printed scheme: the fallbacks of the robust solver measure V elsewhere and would be another
         // one.
         solver_(options.auxiliary == AuxiliaryMode::frozen ? ScalarSolver::newton : options.scalar_solver),
@@ -25,7 +25,10 @@ class LmClosure final : public Closure {
       for (Vector* v : {&before_damping_, &end_, &direction_}) v->setZero(system.space->size());
   }
 
-  void begin(State& s) override { s.energy = system().energy(s.z); }
+  void begin(State& s) override {
+    Closure::begin(s);
+    s.energy = system().energy(s.z);
+  }
   void damp(State& s, double t, double h) override {
     if (frozen_) before_damping_ = s.z;
     Closure::damp(s, t, h);
@@ -37,6 +40,7 @@ class LmClosure final : public Closure {
   }
 
  private:
+  Vector& midpoint_gradient() override { return start_.g; }
   double residual(const Vector& z, double x);
   void set_equation(const Vector& z, double t, double h);
   StepReport solve_robustly(Vector& z, Propagators& propagators, double h, std::optional<double> energy);
@@ -54,8 +58,9 @@ class LmClosure final : public Closure {
 //   z⁺ = Ez⁻ + ηFĝ,   V(z⁺) − V(z⁻) = ηĝᵀ(z⁺ − z⁻)                                                       (3.6), (4.5)
 // solved for x = η − 1, about the explicit step z₁ = Ez⁻ + Fĝ.
 StepReport LmClosure::advance(State& s, Propagators& propagators, double t, double h) {
-  start_.prepare(potential(), propagators.at(h), s.z);  // p − z⁻ = FMz⁻, q = Fĝ: (3.7)
-  set_equation(s.z, t, h);                              // in η: (3.9)
+  predictor().predict(s, propagators.at(h), h, start_.z_mid);  // ẑ
+  start_.prepare(potential(), propagators.at(h), s.z);         // p − z⁻ = FMz⁻, q = Fĝ: (3.7)
+  set_equation(s.z, t, h);                                     // in η: (3.9)
   if (solver_ == ScalarSolver::newton) return solve_by_newton(s.z, t);
   const std::optional<double> energy = conserves_ ? std::optional(s.energy) : std::nullopt;
   if (energy) equation_.make_up_for(system().energy(s.z) - *energy);

@@ -11,7 +11,7 @@ namespace {
 class SavClosure final : public Closure {
  public:
   SavClosure(const System& system, const MethodOptions& options)
-      : Closure(system),
+      : Closure(system, options.predictor),
         given_C_(options.C),
         auxiliary_(options.auxiliary),
         g_(Vector::Zero(system.space->size())),
@@ -36,7 +36,8 @@ class SavClosure final : public Closure {
   void read_modified(const State& s, const ValueAndMagnitude& quadratic, EnergyReading& reading) const override;
 
  private:
-  double gradient_and_drift(const State& s, Vector& gradient) const;
+  Vector& midpoint_gradient() override { return g_; }
+  double drift(const State& s) const;
   double margin_against_drift(double drift, double margin);
 
   std::optional<double> given_C_;
@@ -47,6 +48,7 @@ class SavClosure final : public Closure {
 
 // C = 2E₀ keeps V + C well away from 0 where √(V + C) would lose digits, without drowning V in C.
 void SavClosure::begin(State& s) {
+  Closure::begin(s);
   const double v = potential().value(s.z);
   s.energy_scale = system().linear->quadratic_energy(s.z) + std::abs(v);
   s.shift = given_C_.value_or(s.energy_scale > 0 ? 2 * s.energy_scale : 1.0);
@@ -79,11 +81,9 @@ void SavClosure::impulse(State& s, double t, double h) {
   if (transports) s.r_squared += potential().value(s.z) - v_before;
 }
 
-// ∇V(zⁿ), and of r² − (V + C) what is asked for.
-double SavClosure::gradient_and_drift(const State& s, Vector& gradient) const {
-  if (error_rate_ > 0) return s.r_squared - (potential().value_and_gradient(s.z, gradient) + s.shift);
-  potential().gradient(s.z, gradient);
-  return 0;
+// r² − (V + C), where somebody asks for it.
+double SavClosure::drift(const State& s) const {
+  return error_rate_ > 0 ? s.r_squared - (potential().value(s.z) + s.shift) : 0;
 }
 
 // The errors of all steps are left in r² − (V + C) = δ, and the force is r/√(V + C) ≈ 1 + δ/(2(V + C)) times what it
@@ -115,9 +115,9 @@ StepReport no_force(const State& s, double v_mid, double t, double h) {
 //   z⁺ = Ez⁻ + F r̄g,   r⁺ − r⁻ = ½gᵀ(z⁺ − z⁻),   r̄ = ½(r⁺ + r⁻),   g = ĝ/√(V(ẑ) + C),   ĝ = ∇V(ẑ)
 StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) {
   const Propagator& propagator = propagators.at(h);
-  Vector &z_mid = g_, &g = g_;  // one buffer: ∇V(zⁿ), then ẑ, then ĝ
-  const double drift = gradient_and_drift(s, g);
-  propagator.predict(s.z, g, z_mid, flows.before);                // ẑ
+  Vector &z_mid = g_, &g = g_;  // one buffer: ẑ, then ĝ
+  const double drift = this->drift(s);
+  predictor().predict(s, propagator, h, z_mid, flows.before);     // ẑ
   const double v_mid = potential().value_and_gradient(z_mid, g);  // V(ẑ) and ĝ
   if (!std::isfinite(v_mid)) return not_finite(v_mid, t, h);
   const Propagator::Powers power = propagator.powers(s.z, g, flows.before);  // ĝᵀFMz⁻ and ĝᵀFĝ, of (3.3)
@@ -136,7 +136,9 @@ StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double
   s.r_squared = force.r_squared;
   s.shift = a.shift;
   if (flows.between != nullptr) {
-    *flows.between = s;
+    flows.between->z = s.z;
+    flows.between->r_squared = s.r_squared;
+    flows.between->shift = s.shift;
     propagator.update(flows.between->z, g, force.factor, flows.before);
   }
   propagator.update(s.z, g, force.factor, flows.before, flows.after);  // z⁺ = Ez⁻ + F r̄g: (3.1a), (4.2)

@@ -23,6 +23,7 @@ class Composed : public Stepper {
   StepReport step(State& s, double h) override {
     StepReport report = compose(s, h);
     if (!report.solved()) return report;
+    closure_->keep(s, h);
     s.t += h;
     ++s.n;
     return report;
@@ -62,7 +63,7 @@ class Composed : public Stepper {
   StepReport fused(State& s, double h, const Closure::HalfFlows& flows) {
     if (!keeps_ledger_) return closure_->advance_damped(s, propagators_, s.t, h, flows);
     const double H = closure_->energy(s).H;
-    saved_ = s;
+    save(s);
     multiply_fields(flows.before, saved_.z);
     const EnergyReading before = closure_->energy(saved_);
     StepReport report = closure_->advance_damped(s, propagators_, s.t, h, {flows.before, flows.after, &saved_});
@@ -80,14 +81,17 @@ class Composed : public Stepper {
   // The same around parts that may fail with s anywhere between.
   template <class Parts>
   StepReport or_restore(State& s, double h, const Parts& parts) {
-    saved_ = s;
+    save(s);
     StepReport report = parts();
     if (report.solved() && !space_.is_finite(s.z)) {
       report.status = StepReport::Status::failed;
       report.message =
           fmt::format("the solution is no longer finite in the step from t = {:.6g} with h = {:.6g}", s.t, h);
     }
-    if (!report.solved()) s = saved_;
+    if (!report.solved()) {
+      std::swap(saved_.midpoints, s.midpoints);
+      s = saved_;
+    }
     return report;
   }
 
@@ -95,6 +99,14 @@ class Composed : public Stepper {
   Propagators& propagators() { return propagators_; }
 
  private:
+  // All but the memory of midpoints, which no part of a step changes.
+  void save(State& s) {
+    MidpointMemory memory;
+    std::swap(memory, s.midpoints);
+    saved_ = s;
+    std::swap(memory, s.midpoints);
+  }
+
   // The substep, between these two readings.
   static void enter(const EnergyReading& before, const EnergyReading& after, StepLedger& ledger) {
     ledger.substep = (after.modified - before.modified) - ledger.scalar;

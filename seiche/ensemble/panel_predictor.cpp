@@ -1,0 +1,110 @@
+#include <seiche/ensemble/panel_predictor.hpp>
+#include <seiche/ensemble/row_loops.hpp>
+#include <seiche/method/closure/midpoint_predictor.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace seiche {
+
+PanelPredictor::PanelPredictor(const PanelSystem& system, Predictor kind)
+    : system_(system), remembers_(kind == Predictor::remembered) {
+  if (!remembers_) return;
+  for (Panel* panel : {&gradients_[0], &gradients_[1], &gradients_[2], &kept_, &difference_, &by_gradient_})
+    *panel = Panel(system.support_size());
+}
+
+void PanelPredictor::predict(const double* z, double* g, const PanelStep& maps, double h, double* z_mid,
+                             FunctionRef<void()> take_gradient) {
+  has_missed_.fill(0);
+  const auto by_gradient = [&](double* out) {
+    take_gradient();
+    maps.predict.apply(z, out);
+  };
+  if (!remembers_) return by_gradient(z_mid);
+  const double weight = midpoint_memory::weight(lengths_, h);
+  ratio_ = midpoint_memory::ratio(lengths_);
+  find_unable(weight);
+  if (std::none_of(unable_.begin(), unable_.end(), [](double member) { return member == 0; }))
+    return by_gradient(z_mid);
+  extrapolate_rows(gradients_[0].row(0), gradients_[1].row(0), weight, system_.support_size(), g);
+  maps.predict.apply(z, z_mid);
+  find_missed(z_mid, maps);
+  if (!any_unable()) return;
+  by_gradient(by_gradient_.row(0));
+  copy_members(by_gradient_.row(0), unable_, system_.support_size(), z_mid);
+}
+
+bool PanelPredictor::any_unable() const {
+  return std::any_of(unable_.begin(), unable_.end(), [](double member) { return member != 0; });
+}
+
+void PanelPredictor::find_unable(double weight) {
+  for (std::size_t l = 0; l < unable_.size(); ++l)
+    unable_[l] = known_[l] >= MidpointMemory::depth && resting_[l] == 0 && midpoint_memory::reaches(weight) ? 0.0 : 1.0;
+}
+
+void PanelPredictor::find_missed(const double* z_mid, const PanelStep& maps) {
+  const Index rows = system_.support_size();
+  second_difference(gradients_[0].row(0), gradients_[1].row(0), gradients_[2].row(0), ratio_, rows, difference_.row(0));
+  PanelValues missed, size;
+  maps.missed(difference_.row(0), missed);
+  sum_squares(z_mid, rows, size);
+  for (std::size_t l = 0; l < unable_.size(); ++l) {
+    if (unable_[l] != 0 || midpoint_memory::foretells(missed[l], size[l])) continue;
+    unable_[l] = has_missed_[l] = 1;
+  }
+}
+
+void PanelPredictor::keep(const double* g, double h) {
+  if (!remembers_) return;
+  std::memcpy(kept_.row(0), g, sizeof(double) * static_cast<std::size_t>(system_.support_size() * panel_members));
+  kept_length_ = h;
+  for (std::size_t l = 0; l < known_.size(); ++l) {
+    kept_known_[l] = std::min<double>(known_[l] + 1, MidpointMemory::depth);
+    kept_resting_[l] = midpoint_memory::resting(resting_[l], has_missed_[l] != 0);
+  }
+}
+
+void PanelPredictor::accept() {
+  if (!remembers_) return;
+  std::rotate(gradients_.begin(), gradients_.end() - 1, gradients_.end());
+  std::rotate(lengths_.begin(), lengths_.end() - 1, lengths_.end());
+  std::swap(gradients_[0], kept_);
+  lengths_[0] = kept_length_;
+  known_ = kept_known_;
+  resting_ = kept_resting_;
+}
+
+void PanelPredictor::load(const State& state, Index member) {
+  const MidpointMemory& memory = state.midpoints;
+  if (!remembers_) return;
+  const auto l = static_cast<std::size_t>(member);
+  known_[l] = memory.known;
+  resting_[l] = memory.resting;
+  for (std::size_t i = 0; i < memory.gradients.size(); ++i) {
+    system_.load_support(memory.gradients[i], member, gradients_[i]);
+    if (memory.known > static_cast<int>(i)) lengths_[i] = memory.lengths[i];
+  }
+}
+
+void PanelPredictor::store(Index member, State& state) const {
+  if (!remembers_) return;
+  const auto l = static_cast<std::size_t>(member);
+  MidpointMemory& memory = state.midpoints;
+  memory.known = static_cast<int>(known_[l]);
+  memory.resting = static_cast<int>(resting_[l]);
+  memory.gradients.resize(gradients_.size());
+  memory.lengths.assign(lengths_.begin(), lengths_.end());
+  for (std::size_t i = 0; i < gradients_.size(); ++i) system_.store_support(gradients_[i], member, memory.gradients[i]);
+}
+
+void PanelPredictor::mend(const State& state, Index member) {
+  if (!remembers_) return;
+  const auto l = static_cast<std::size_t>(member);
+  kept_known_[l] = state.midpoints.known;
+  kept_resting_[l] = state.midpoints.resting;
+  if (state.midpoints.known > 0) system_.load_support(state.midpoints.gradients.front(), member, kept_);
+}
+
+}  // namespace seiche

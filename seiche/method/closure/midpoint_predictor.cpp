@@ -1,0 +1,90 @@
+#include <seiche/method/closure/midpoint_predictor.hpp>
+#include <seiche/method/methods.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace midpoint_memory {
+
+double weight(std::span<const double> lengths, double h) { return (h / 2 + lengths[0]) / (lengths[0] + lengths[1]); }
+
+double ratio(std::span<const double> lengths) { return (lengths[0] + lengths[1]) / (lengths[1] + lengths[2]); }
+
+bool reaches(double weight) { return weight > 0 && weight <= 4; }
+
+bool foretells(double missed, double size) {
+  constexpr double share = 0.75, most_missed = 0.03;
+  return share * std::sqrt(missed) <= most_missed * std::sqrt(size);
+}
+
+double resting(double before, bool has_missed) {
+  return has_missed ? 1 : std::max(before - 1, 0.0);  // the step that missed took the gradient already
+}
+
+}  // namespace midpoint_memory
+
+void MidpointPredictor::begin(State& s) const {
+  s.midpoints = {};
+  if (kind_ == Predictor::gradient) return;
+  s.midpoints.gradients.assign(MidpointMemory::depth, Vector::Zero(s.z.size()));
+  s.midpoints.lengths.assign(MidpointMemory::depth, 0.0);
+}
+
+void MidpointPredictor::predict(const State& s, const Propagator& propagator, double h, Vector& z_mid,
+                                Propagator::FieldFactors before) {
+  has_missed_ = discards_ = false;
+  if (kind_ == Predictor::remembered && recall(s, propagator, h, z_mid, before)) return;
+  system_.potential->gradient(s.z, z_mid);
+  propagator.predict(s.z, z_mid, z_mid, before);
+}
+
+bool MidpointPredictor::recall(const State& s, const Propagator& propagator, double h, Vector& z_mid,
+                               Propagator::FieldFactors before) {
+  const MidpointMemory& memory = s.midpoints;
+  if (memory.known < MidpointMemory::depth || memory.resting > 0) return false;
+  const double weight = midpoint_memory::weight(memory.lengths, h);
+  if (!midpoint_memory::reaches(weight)) return false;
+  const Propagator::Gradients gradients{memory.gradients[0], memory.gradients[1], memory.gradients[2], weight,
+                                        midpoint_memory::ratio(memory.lengths)};
+  Propagator::Recalled recalled;
+  if (!propagator.recall(s.z, gradients, z_mid, before, recalled))
+    recall_unfused(s, propagator, gradients, h, z_mid, before, recalled);
+  has_missed_ = !midpoint_memory::foretells(recalled.missed, recalled.size);
+  return !has_missed_;
+}
+
+// What is missed takes a solve or a product of matrices of its own where nothing is fused, and mostly it is far too
+// small for that to be needed: |F_{h/2}d| ≤ (h/2)|Sd|, up to the condition of M.
+void MidpointPredictor::recall_unfused(const State& s, const Propagator& propagator,
+                                       const Propagator::Gradients& memory, double h, Vector& z_mid,
+                                       Propagator::FieldFactors before, Propagator::Recalled& recalled) {
+  const Potential::Support support = system_.potential->support();
+  const auto of_support = [&](auto& v) { return v.segment(support.begin, support.size); };
+  if (difference_.size() != s.z.size())
+    for (Vector* v : {&difference_, &pushed_, &at_rest_}) v->setZero(s.z.size());
+  of_support(difference_) =
+      of_support(memory.g0) - of_support(memory.g1) - memory.ratio * (of_support(memory.g1) - of_support(memory.g2));
+  of_support(z_mid) = of_support(memory.g0) + memory.weight * (of_support(memory.g0) - of_support(memory.g1));
+  propagator.predict(s.z, z_mid, z_mid, before);
+
+  const Space& space = *system_.space;
+  system_.linear->apply_S(difference_, pushed_);
+  recalled = {space.squared_norm(pushed_) * (h / 2) * (h / 2), space.squared_norm(of_support(z_mid))};
+  if (midpoint_memory::foretells(recalled.missed, recalled.size)) return;
+  propagator.predict(at_rest_, difference_, pushed_);
+  recalled.missed = space.squared_norm(of_support(pushed_));
+}
+
+void MidpointPredictor::keep(State& s, double h, Vector& g) const {
+  if (kind_ != Predictor::remembered) return;
+  MidpointMemory& memory = s.midpoints;
+  memory.known = discards_ ? 0 : std::min(memory.known + 1, MidpointMemory::depth);
+  memory.resting = static_cast<int>(midpoint_memory::resting(memory.resting, has_missed_));
+  std::rotate(memory.gradients.begin(), memory.gradients.end() - 1, memory.gradients.end());
+  std::rotate(memory.lengths.begin(), memory.lengths.end() - 1, memory.lengths.end());
+  memory.gradients.front().swap(g);
+  memory.lengths.front() = h;
+}
+
+}  // namespace seiche

@@ -1,0 +1,54 @@
+// ẑ, the second-order approximation at the midpoint where every closure takes ĝ = ∇V(ẑ). No energy law depends on it.
+#pragma once
+
+#include <seiche/core/propagator.hpp>
+#include <seiche/core/state.hpp>
+#include <seiche/core/system.hpp>
+
+#include <span>
+
+namespace seiche {
+
+// gradient:    ẑ = e^{A/2}z⁻ + (h/2)φ₁(A/2)S∇V(z⁻), the paper's: two gradients a step.
+// remembered:  the same with ḡ = g₀ + w(g₀ − g₁) in the place of ∇V(z⁻), for g₀, g₁ the gradients at the midpoints of the
+//              last steps h₀, h₁ and w = (h/4 + h₀/2)/((h₀ + h₁)/2): the gradient in the middle of the first half step,
+//              by Adams and Bashforth inside the exponential. One gradient a step, and errors of the same size. Where
+//              steps do not resolve the solution the memory would feed on itself, and a guard takes ∇V(z⁻).
+enum class Predictor;  // of methods.hpp
+
+// Its arithmetic, for the lengths h₀, h₁, h₂ of the last steps: for one run and for the members of a panel.
+namespace midpoint_memory {
+
+double weight(std::span<const double> lengths, double h);  // w
+double ratio(std::span<const double> lengths);  // of the second difference d = g₀ − g₁ − ratio·(g₁ − g₂)
+bool reaches(double weight);                    // is the step not much longer than those before?
+// Did the last extrapolation miss little, from |F_{h/2}d|² and |ẑ|² in the components of V?
+bool foretells(double missed, double size);
+double resting(double before, bool has_missed);  // steps that are to take the gradient yet, behind one more
+
+}  // namespace midpoint_memory
+
+class MidpointPredictor {
+ public:
+  MidpointPredictor(const System& system, Predictor kind) : system_(system), kind_(kind) {}  // which outlives it
+
+  void begin(State& s) const;
+  // z_mid = ẑ of a step h from z⁻ = Λz, on the components that V depends on. V(Λz) = V(z).
+  void predict(const State& s, const Propagator& propagator, double h, Vector& z_mid,
+               Propagator::FieldFactors before = {});
+  // Behind a step that succeeded: its ĝ goes into the memory of s, and g becomes some other vector of that size.
+  void keep(State& s, double h, Vector& g) const;
+  void discard() { discards_ = true; }  // the ĝ of this step is none at its midpoint: the memory begins anew behind it
+
+ private:
+  bool recall(const State& s, const Propagator& propagator, double h, Vector& z_mid, Propagator::FieldFactors before);
+  void recall_unfused(const State& s, const Propagator& propagator, const Propagator::Gradients& memory, double h,
+                      Vector& z_mid, Propagator::FieldFactors before, Propagator::Recalled& recalled);
+
+  const System& system_;
+  Predictor kind_;
+  bool has_missed_ = false, discards_ = false;  // in this step
+  Vector difference_, pushed_, at_rest_;        // where the propagator does not fuse it
+};
+
+}  // namespace seiche

@@ -1,0 +1,130 @@
+// The midpoint that closures foretell from the gradients of the last steps, beside the paper's.
+#include <test/support/cases.hpp>
+#include <test/support/convergence.hpp>
+
+#include <gtest/gtest.h>
+#include <seiche/method/closure/midpoint_predictor.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/run/integrate.hpp>
+#include <seiche/simulation/simulation.hpp>
+
+#include <cmath>
+
+namespace seiche::test {
+namespace {
+
+const std::vector<std::string> closures = {"seisav", "seilm", "seidm", "seavf"};
+
+SimulationOptions by(const std::string& method, Predictor predictor, const std::string& backend = "auto") {
+  return {.method = method, .backend = backend, .method_options = {.predictor = predictor}};
+}
+
+double gradients_per_step(const Problem& problem, Predictor predictor) {
+  Simulation simulation(problem, by("seisav", predictor));
+  constexpr int start = 4, steps = 100;
+  for (int n = 0; n < start; ++n) simulation.step(1.0 / 64);
+  const auto before = simulation.system().potential->counts().gradients;
+  for (int n = 0; n < steps; ++n) simulation.step(1.0 / 64);
+  return static_cast<double>(simulation.system().potential->counts().gradients - before) / steps;
+}
+
+TEST(Predictor, RememberedTakesOneGradientAStepWhereThePapersTakesTwo) {
+  for (const auto& [name, problem] : golden_cases()) {
+    EXPECT_EQ(gradients_per_step(problem, Predictor::remembered), 1) << name;
+    EXPECT_EQ(gradients_per_step(problem, Predictor::gradient), 2) << name;
+  }
+}
+
+// Wherever steps resolve the solution, and far beyond that.
+TEST(PredictorSlow, BothLeaveErrorsOfOneSizeOnEveryProblem) {
+  const std::vector<double> step_sizes = {1.0 / 4, 1.0 / 16, 1.0 / 64};
+  for (const auto& [name, problem] : all_cases()) {
+    const Reference reference = make_reference(problem, sample_times(step_sizes, 10.0));
+    for (const std::string& method : closures) {
+      if (!applies(method, problem)) continue;
+      for (const double h : step_sizes) {
+        const Errors paper = errors_against(reference, problem, by(method, Predictor::gradient), h);
+        const Errors ours = errors_against(reference, problem, by(method, Predictor::remembered), h);
+        ASSERT_EQ(paper.failure + ours.failure, "") << name << " " << method;
+        EXPECT_LT(ours.solution, 1.15 * paper.solution + 1e-12) << name << " " << method << " h = " << h;
+      }
+    }
+  }
+}
+
+TEST(Predictor, KeepsTheLawAtEveryStepSize) {
+  for (const auto& [name, problem] : golden_cases()) {
+    for (double h = 1.0 / 64; h <= 25; h *= 3) {
+      Simulation simulation(problem, by("seisav", Predictor::remembered));
+      double last = simulation.energy().modified;
+      for (int n = 0; n < 60; ++n) {
+        ASSERT_TRUE(simulation.step(h).solved()) << name << " h = " << h;
+        const EnergyReading energy = simulation.energy();
+        EXPECT_LE(energy.modified, last + 4 * energy.modified_round_off) << name << " h = " << h << " step " << n;
+        last = energy.modified;
+      }
+    }
+  }
+}
+
+// α = 25: without the guard the memory feeds on itself, and the run overflows.
+TEST(Predictor, TakesTheGradientWhereTheMemoryForetellsBadly) {
+  const Problem problem = klein_gordon_case(0.1, 25.0);
+  const std::vector<double> step_sizes = {0.5, 1.0, 2.0};
+  for (const double h : step_sizes) {
+    const Reference reference = make_reference(problem, sample_times(std::vector{h}, 20.0));
+    const double paper = errors_against(reference, problem, by("seisav", Predictor::gradient), h).solution;
+    const double ours = errors_against(reference, problem, by("seisav", Predictor::remembered), h).solution;
+    EXPECT_LT(ours, 1.15 * paper) << "h = " << h;
+  }
+}
+
+// Where nothing is fused, a bound may stand for what was missed.
+TEST(Predictor, OfEveryBackendIsTheSame) {
+  for (const auto& [name, problem] : all_cases()) {
+    if (!applies("seisav", problem)) continue;
+    std::vector<Vector> ends;
+    for (const BackendEntry& backend : backends_for(problem)) {
+      Simulation simulation(problem, by("seisav", Predictor::remembered, std::string(backend.name)));
+      for (int n = 0; n < 12; ++n) ASSERT_TRUE(simulation.step(1.0 / 16).solved()) << name;
+      ends.push_back(simulation.physical());
+    }
+    for (const Vector& z : ends)
+      EXPECT_LT((z - ends.front()).cwiseAbs().maxCoeff(), 1e-11 * (1 + ends.front().cwiseAbs().maxCoeff())) << name;
+  }
+}
+
+TEST(Predictor, StartsAnewWithTheRun) {
+  Simulation simulation(klein_gordon_case(), by("seisav", Predictor::remembered));
+  Vector first;
+  for (const bool again : {false, true}) {
+    simulation.restart();
+    for (int n = 0; n < 8; ++n) simulation.step(1.0 / 16);
+    if (again) {
+      EXPECT_EQ(simulation.physical(), first);
+    } else {
+      first = simulation.physical();
+    }
+    EXPECT_EQ(simulation.state().midpoints.known, MidpointMemory::depth);
+  }
+}
+
+// Steps that change their size, as behind an estimate of errors: order two all the same.
+TEST(Predictor, IsOfOrderTwoWhereStepsChangeTheirSize) {
+  const Problem problem = klein_gordon_case(0.1, 1.0);
+  Simulation exact(problem, {.method = "egc8"});
+  integrate(exact.system(), exact.stepper(), exact.state(), {.h = 1.0 / 64, .t_end = 6.0});
+  std::vector<double> h, errors;
+  for (double step = 1.0 / 8; step > 1.0 / 100; step /= 2) {
+    Simulation simulation(problem, by("seisav", Predictor::remembered));
+    int n = 0;
+    while (simulation.state().t < 6.0 - 1e-9)
+      simulation.step(std::min(6.0 - simulation.state().t, ++n % 3 == 0 ? step / 2 : step));
+    h.push_back(step);
+    errors.push_back((simulation.physical() - exact.physical()).cwiseAbs().maxCoeff());
+  }
+  EXPECT_NEAR(fitted_order(h, errors), 2, 0.1) << table(h, errors);
+}
+
+}  // namespace
+}  // namespace seiche::test
