@@ -2,12 +2,15 @@
 #include "command_line.hpp"
 
 #include <fmt/ranges.h>
+#include <seiche/config/case/run_spec.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/figure/plot/rendering.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/run_folder.hpp>
+#include <seiche/output/solution_layout.hpp>
 #include <seiche/output/solution_reader.hpp>
+#include <seiche/output/xdmf.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -21,6 +24,7 @@ struct PlotArguments {
   std::string formats = "png,pdf,svg";
   std::string film_fields;
   bool no_film = false;
+  bool xdmf = false;
 };
 
 std::vector<std::string> parsed_formats(const std::string& text) {
@@ -61,7 +65,18 @@ bool is_damaged(const std::filesystem::path& file) {
   }
 }
 
+ExitCode write_all_times(const std::filesystem::path& directory) {
+  require_recovered(directory);
+  const RunFiles run = read_run(directory);
+  const Folder folder(directory);
+  const FolderLock lock(folder);
+  write_xdmf(folder, "solution.h5", solution_layout(make_problem(run.spec)), {.all_times = true});
+  print_lines(fmt::format("{:<10} {}\n", "ParaView", (directory / "solution.xdmf").string()));
+  return success;
+}
+
 ExitCode plot(const PlotArguments& arguments) {
+  if (arguments.xdmf) return write_all_times(arguments.directory);
   PictureOptions options{.formats = parsed_formats(arguments.formats), .film = !arguments.no_film};
   require_recovered(arguments.directory);
   const RunFiles run = read_run(arguments.directory);
@@ -111,6 +126,8 @@ void add_plot(CLI::App& app, Action& action) {
                           ->type_name("FIELDS");
   command->add_flag("--no-film", arguments->no_film, "No film of a solution in the plane, which takes longest")
       ->excludes(film);
+  command->add_flag("--xdmf", arguments->xdmf,
+                    "No pictures, but solution.xdmf with every time for ParaView, where a long run left some out");
   command->callback([arguments, &action] { action = [arguments] { return plot(*arguments); }; });
 }
 

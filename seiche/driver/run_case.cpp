@@ -90,10 +90,11 @@ void write_page(const fs::path& directory, bool ledger) {
 
 // For ParaView and for people, unless nobody waits for it any more. Returns why the page could not be written, or "".
 std::string write_for_readers(const Folder& folder, const RunSpec& spec, const SolutionFile& solution,
-                              const std::atomic<bool>* leave, const std::function<void(const std::string&)>& warn) {
+                              const std::atomic<bool>* leave, const std::function<void(const std::string&)>& warn,
+                              std::uint64_t& xdmf_every) {
   if (!folder.has_lock()) return "";  // the run has said so
   try {
-    solution.describe(leave);
+    xdmf_every = solution.describe(leave);
   } catch (const Error& error) {
     warn(fmt::format("there is no solution.xdmf, and ParaView cannot open the solution: {}", error.what()));
   }
@@ -166,7 +167,9 @@ class CaseRun {
     if (report.status == RunReport::Status::success) remove_checkpoints(folder);
     last_words.correct(report);
     // From here on nothing is lost: it can all be had again from the files that are there.
-    if (const std::string failure = write_for_readers(folder, spec_, solution, leave, warn); !failure.empty()) {
+    std::uint64_t xdmf_every = 1;
+    const std::string failure = write_for_readers(folder, spec_, solution, leave, warn, xdmf_every);
+    if (!failure.empty()) {
       report.status = RunReport::Status::failed;
       report.message += "; " + failure;
       last_words.correct(report);
@@ -175,7 +178,8 @@ class CaseRun {
             .message = with_notes(report).message,
             .certificate = run_.certificate_after(report),
             .feeds = simulation.problem().friction ? "" : negative_rate(simulation.problem()),
-            .summary = summary(report)};
+            .summary = summary(report),
+            .xdmf_every = xdmf_every};
   }
 
   static constexpr const char* wisdom_name = "fftw_wisdom";

@@ -6,6 +6,7 @@
 #include <seiche/simulation/certificate.hpp>
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -33,11 +34,12 @@ struct RunCaseOptions {
 };
 
 struct CaseResult {
-  RunReport report;         // as it is in the files
-  std::string message;      // that of the report, with the notes
-  Certificate certificate;  // as it is behind the run
-  std::string feeds;        // where a rate of linear damping is negative: which, and when
-  std::string summary;      // summary.json
+  RunReport report;              // as it is in the files
+  std::string message;           // that of the report, with the notes
+  Certificate certificate;       // as it is behind the run
+  std::string feeds;             // where a rate of linear damping is negative: which, and when
+  std::string summary;           // summary.json
+  std::uint64_t xdmf_every = 1;  // solution.xdmf shows every n-th time of solution.h5
 };
 
 // Leaves case.toml, energy.csv, solution.h5 with solution.xdmf, final.txt, summary.json and report.html in `folder`,

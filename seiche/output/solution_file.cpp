@@ -287,8 +287,8 @@ SolutionFile::~SolutionFile() {
   file_.abandon();
 }
 
-void SolutionFile::describe(const std::atomic<bool>* stop) const {
-  write_xdmf(path_.folder(), path_.path().filename().string(), layout_, has_modified_, stop);
+std::uint64_t SolutionFile::describe(const std::atomic<bool>* stop) const {
+  return write_xdmf(path_.folder(), path_.path().filename().string(), layout_, {.stop = stop});
 }
 
 }  // namespace seiche

@@ -69,8 +69,9 @@ class SolutionFile : public Observer {
   // Called before rows go to the disk: what is written of the same run elsewhere goes first.
   void before_writing(std::function<void()> call) { before_writing_ = std::move(call); }
   Mark mark();  // with its rows on the disk
-  // solution.xdmf, after finish, for which ParaView asks; not where `stop` is set meanwhile.
-  void describe(const std::atomic<bool>* stop = nullptr) const;
+  // solution.xdmf, after finish, for which ParaView asks; not where `stop` is set meanwhile. It shows every n-th time:
+  // returns n.
+  std::uint64_t describe(const std::atomic<bool>* stop = nullptr) const;
 
  private:
   struct Column {  // a data set with its rows that are not yet written, or whose chunk is not yet full

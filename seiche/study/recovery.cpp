@@ -125,8 +125,7 @@ class Rescue {
                                          solution.time(solution.count() - 1)));
     }
     if (has("solution.xdmf")) return;
-    write_xdmf(folder_, "solution.h5", solution_layout(make_problem(spec_)),
-               find_method(spec_.method).kept_energy == "H_modified");
+    write_xdmf(folder_, "solution.h5", solution_layout(make_problem(spec_)));
     found_.saved.emplace_back("solution.xdmf");
   }
 

@@ -237,6 +237,28 @@ TEST_F(Cli, AFailureOfTheLastFilesIsToldOnceAndEverywhereTheSame) {
   }
 }
 
+TEST_F(Cli, TheFileForParaViewIsSmallBesideALongSolution) {
+  write_case();
+  const Result result = seiche(
+      "run case.toml --out out --set problem.points=64 time.end=400 output.snapshot_every=1 output.energy_every=64");
+  ASSERT_EQ(result.exit, 0) << result.err;
+  EXPECT_LE(10 * fs::file_size(directory / "out/solution.xdmf"), fs::file_size(directory / "out/solution.h5"));
+  EXPECT_THAT(result.err, HasSubstr("`seiche plot out --xdmf` shows all"));
+  const std::uintmax_t before = fs::file_size(directory / "out/solution.xdmf");
+  ASSERT_EQ(seiche("plot out --xdmf").exit, 0);
+  EXPECT_GT(fs::file_size(directory / "out/solution.xdmf"), 5 * before);
+}
+
+TEST_F(Cli, ARunIsWholeWithoutItsFileForParaView) {
+  write_case();
+  fs::create_directories(directory / "out/solution.xdmf.partial/in_the_way");
+  const Result result = seiche("run case.toml --out out --quiet");
+  EXPECT_EQ(result.exit, 0);
+  EXPECT_THAT(result.err, HasSubstr("there is no solution.xdmf, and ParaView cannot open the solution: cannot write"));
+  EXPECT_EQ(json::parse(text("out/summary.json"))["status"], "success");
+  EXPECT_TRUE(fs::exists(directory / "out/report.html"));
+}
+
 TEST_F(Cli, AFullDiskFailsTheRunAndKeepsTheSmallFilesAndTheRowsWritten) {
   write_case();
   const Result result = seiche("run case.toml --out out --set time.end=1000", "ulimit -f 100;");

@@ -10,6 +10,7 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/output/solution_file.hpp>
 #include <seiche/output/solution_reader.hpp>
+#include <seiche/output/xdmf.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/truss.hpp>
@@ -132,6 +133,28 @@ TEST_F(Solution, IsTheSameHoweverManyRowsMakeAChunk) {
     EXPECT_EQ(values, Vector::LinSpaced(4, 1000.0 * static_cast<double>(k), 1000.0 * static_cast<double>(k) + 3));
     EXPECT_EQ(solution.time(k), 0.5 * static_cast<double>(k));
   }
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST_F(Solution, OfVeryManyTimesParaViewIsShownSome) {
+  const Problem one = oscillator({});
+  const HalvingSpace space(one.size());
+  SolutionFile solution(Folder(directory), one, space, {}, true);
+  for (Index k = 0; k < 2500; ++k) observe(solution, one, k);
+  solution.finish({});
+  EXPECT_EQ(solution.describe(), 3U);
+  const std::string shown = text("solution.xdmf");
+  EXPECT_EQ(count(shown, "<Time "), 1U + 833U);
+  for (const char* time : {"<Time Value=\"0\"/>", "<Time Value=\"1.5\"/>", "<Time Value=\"1249.5\"/>"})
+    EXPECT_EQ(count(shown, time), 1U) << time;
+  EXPECT_THAT(shown, HasSubstr("\"3 1\" Format=\"XML\">2499 1 1<")) << "the last one too";
+  EXPECT_EQ(write_xdmf(Folder(directory), "solution.h5", solution_layout(one), {.all_times = true}), 1U);
+  EXPECT_EQ(count(text("solution.xdmf"), "<Time "), 2500U);
 }
 
 TEST_F(Solution, ChunksOfLargeGridsArePiecesOfOneInstant) {
