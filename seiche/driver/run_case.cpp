@@ -56,7 +56,7 @@ SolutionDescription description(const RunSpec& spec, const Simulation& simulatio
                     {"equation", problem.equation},
                     {"method", std::string(method.name)},
                     {"backend", std::string(simulation.backend().name)},
-                    {"case", write_case(spec)},
+                    {"case", case_in_any_folder(spec)},
                     {"versions", nlohmann::json(versions).dump()}}};
 }
 
@@ -93,6 +93,10 @@ std::string write_for_readers(const Folder& folder, const RunSpec& spec, const S
                               const std::atomic<bool>* leave, const std::function<void(const std::string&)>& warn,
                               std::uint64_t& xdmf_every) {
   if (!folder.has_lock()) return "";  // the run has said so
+  try {
+    solution.settle(leave);
+  } catch (const Error&) {  // what it holds is the same
+  }
   try {
     xdmf_every = solution.describe(leave);
   } catch (const Error& error) {
@@ -216,13 +220,13 @@ class CaseRun {
     const Space& space = *simulation.system().space;
     const Schedule energy_steps{.every_steps = spec_.energy_every};
     const SnapshotTimes times{.schedule = {.every_steps = spec_.snapshot_every}, .interval = spec_.snapshot_interval};
+    const SolutionDescription about = description(spec_, simulation, versions_);
     if (from_ != nullptr) {
       trace_.emplace(folder, from_->run.energies, is_modified_, energy_steps, spec_.ledger);
-      solution_.emplace(folder, from_->run.solution, simulation.problem(), space, times, is_modified_);
+      solution_.emplace(folder, from_->run.solution, simulation.problem(), space, times, is_modified_, about);
     } else {
       trace_.emplace(folder, is_modified_, energy_steps, spec_.ledger);
-      solution_.emplace(folder, simulation.problem(), space, times, is_modified_,
-                        description(spec_, simulation, versions_));
+      solution_.emplace(folder, simulation.problem(), space, times, is_modified_, about);
     }
   }
 

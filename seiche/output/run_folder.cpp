@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/file/reserve_file.hpp>
 #include <seiche/output/run_folder.hpp>
+#include <seiche/output/solution_file.hpp>
 #include <seiche/output/solution_reader.hpp>
 
 #include <fmt/ranges.h>
@@ -160,7 +161,7 @@ void remove_earlier_results(const fs::path& directory) {
     if (!is_foreign(path, file.is_ours)) fs::remove(path, ignored);
     fs::remove(path.string() + ".partial", ignored);  // of a run that was killed
   }
-  fs::remove(directory / reserve_name, ignored);
+  for (const char* name : {reserve_name, settling_name}) fs::remove(directory / name, ignored);
 }
 
 }  // namespace seiche

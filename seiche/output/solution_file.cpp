@@ -4,7 +4,10 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace seiche {
@@ -21,6 +24,7 @@ std::chrono::duration<double> write_at_least_every() {
 }
 
 constexpr const char* file_name = "solution.h5";
+constexpr std::uintmax_t most_settled = 1U << 28U;                // bytes, in a few seconds
 constexpr const char* of_each_time[] = {"H", "H_modified", "t"};  // a number each
 
 // The checksum of t and the energies up to a row, behind what has the checksum `before`.
@@ -41,6 +45,7 @@ SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const S
                            bool has_modified_energy, const SolutionDescription& description)
     : path_(folder, file_name),
       layout_(solution_layout(problem)),
+      description_(description),
       file_(Hdf5File::create(path_.open(), path_.temporary())),
       space_(space),
       times_(times),
@@ -49,8 +54,27 @@ SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const S
       write_at_least_every_(write_at_least_every()),
       last_write_(std::chrono::steady_clock::now()),
       values_(space.physical_size()) {
+  begin();
+}
+
+SolutionFile::SolutionFile(const SolutionFile* settling)
+    : path_(settling->path_.folder(), file_name, settling_name),
+      layout_(settling->layout_),
+      description_(settling->description_),
+      file_(Hdf5File::create(path_.open(), path_.temporary())),
+      space_(settling->space_),
+      times_(settling->times_),
+      has_modified_(settling->has_modified_),
+      is_copy_(true),
+      most_waiting_(settling->most_waiting_),
+      write_at_least_every_(std::chrono::duration<double>::max()),
+      last_write_(std::chrono::steady_clock::now()) {
+  begin();
+}
+
+void SolutionFile::begin() {
   set_attribute(file_.id(), "Conventions", "CF-1.10");
-  for (const auto& [name, text] : description.texts) set_attribute(file_.id(), name, text);
+  for (const auto& [name, text] : description_.texts) set_attribute(file_.id(), name, text);
   set_attribute(file_.id(), "fields", fmt::format("{}", fmt::join(layout_.fields, " ")));
   write_unfinished();
 
@@ -61,7 +85,7 @@ SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const S
   const std::vector<Hdf5Dataset> axes = make_axes();
   const Hdf5Layout per_field{.row = layout_.shape(), .chunk = layout_.chunk()};
   for (std::size_t f = 0; f < layout_.fields.size(); ++f)
-    columns_.push_back({make(layout_.fields[f], meaning_of(description, f, layout_.fields[f]), per_field), {}});
+    columns_.push_back({make(layout_.fields[f], meaning_of(description_, f, layout_.fields[f]), per_field), {}});
   columns_.push_back({make("H", "energy H = ½zᵀMz + V(z), summed over points", per_time), {}});
   if (has_modified_)
     columns_.push_back({make("H_modified", "modified energy, whose law the method keeps", per_time), {}});
@@ -82,21 +106,26 @@ SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const S
 
 // The rows of a chunk that is not full are kept, as if they had just been observed.
 SolutionFile::SolutionFile(const Folder& folder, const Mark& mark, const Problem& problem, const Space& space,
-                           const SnapshotTimes& times, bool has_modified_energy)
+                           const SnapshotTimes& times, bool has_modified_energy, const SolutionDescription& description)
     : path_(folder, file_name),
       layout_(solution_layout(problem)),
+      description_(description),
       file_((path_.reopen(), Hdf5File::open_to_write(folder, path_.temporary().filename().string()))),
       space_(space),
       times_(times),
       shown_(mark.shown),
       last_t_(mark.last_t),
       has_modified_(has_modified_energy),
+      is_settled_(false),
       waiting_(mark.in_chunk),
       most_waiting_(layout_.chunk().front()),
       written_(mark.in_chunk),
       write_at_least_every_(write_at_least_every()),
       last_write_(std::chrono::steady_clock::now()),
       values_(space.physical_size()) {
+  for (auto& [name, text] : description_.texts)
+    if (std::string begun = text_attribute(file_.id(), name); !begun.empty() && name != "case")  // may end later now
+      text = std::move(begun);
   std::vector<std::string> names = layout_.fields;
   for (const char* name : of_each_time)
     if (file_.has(name)) names.emplace_back(name);
@@ -131,6 +160,7 @@ SolutionFile::Mark SolutionFile::mark() {
   if (waiting_ > written_) write_rows(false);
   path_.keep();
   file_.flush();
+  is_settled_ = false;
   Mark mark{.rows = columns_.back().data.rows(), .in_chunk = waiting_, .shown = shown_, .last_t = last_t_};
   for (std::size_t i = layout_.fields.size(); i < columns_.size(); ++i)
     mark.checksum = checksum_of_rows(columns_[i].data, 0, mark.rows, mark.checksum);
@@ -238,6 +268,7 @@ void SolutionFile::add(Column& column, std::span<const double> row) const {
 void SolutionFile::write_rows(bool last) {
   if (before_writing_) before_writing_();
   const bool is_full = waiting_ == most_waiting_;
+  is_settled_ = is_settled_ && (is_full || last);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     auto& [data, rows] = columns_[i];
     const bool is_field = i < layout_.fields.size();
@@ -251,12 +282,14 @@ void SolutionFile::write_rows(bool last) {
   written_ = is_full ? 0 : waiting_;
   if (is_full) waiting_ = 0;
   file_.flush();
-  path_.keep();
+  if (!is_copy_) path_.keep();
   last_write_ = std::chrono::steady_clock::now();
 }
 
 void SolutionFile::close(const RunReport& report) {
   if (waiting_ > written_) write_rows(true);
+  for (const auto& [name, text] : description_.texts)
+    if (text_attribute(file_.id(), name) != text) set_attribute(file_.id(), name, text);
   set_attribute(file_.id(), "message", report.message);
   set_attribute(file_.id(), "energy_law", to_string(report.law));
   set_attribute(file_.id(), "status", to_string(report.status));
@@ -265,6 +298,7 @@ void SolutionFile::close(const RunReport& report) {
 }
 
 void SolutionFile::finish(const RunReport& report) {
+  report_ = report;
   std::string failure;
   try {
     if (!broken_) close(report);  // else the disk is full, and the run has said so
@@ -275,6 +309,32 @@ void SolutionFile::finish(const RunReport& report) {
   file_.abandon();
   path_.commit();
   if (!failure.empty()) throw Error("{}", failure);
+}
+
+void SolutionFile::settle(const std::atomic<bool>* stop) const {
+  if (is_settled_ || report_.status != RunReport::Status::success) return;
+  std::error_code not_there;
+  if (std::filesystem::file_size(path_.path(), not_there) > most_settled || not_there) return;
+  const Hdf5File from = Hdf5File::open(path_.folder(), file_name);
+  SolutionFile to(this);
+  to.broken_ = true;  // until all of it is there
+  std::vector<Hdf5Dataset> columns;
+  for (const Column& column : to.columns_) columns.push_back(from.dataset(column.data.name()));
+  const std::uint64_t rows = columns.back().rows();
+  for (std::uint64_t first = 0; first < rows; first += to.most_waiting_) {
+    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
+    const std::uint64_t count = std::min<std::uint64_t>(to.most_waiting_, rows - first);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      std::vector<double> values(static_cast<std::size_t>(count * columns[i].row_size()));
+      columns[i].read(first, values);
+      to.add(to.columns_[i], values);
+    }
+    to.waiting_ = count;
+    if (count == to.most_waiting_) to.write_rows(false);
+  }
+  to.close(report_);
+  to.file_.abandon();
+  to.path_.commit();
 }
 
 SolutionFile::~SolutionFile() {

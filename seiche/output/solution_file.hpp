@@ -23,6 +23,8 @@
 
 namespace seiche {
 
+inline constexpr const char* settling_name = ".seiche.solution.h5";  // of a file that is to become solution.h5
+
 // What the file says about itself, as attributes.
 struct SolutionDescription {
   std::vector<std::string> meanings = {};         // of the fields, in their order: "displacement"
@@ -55,9 +57,9 @@ class SolutionFile : public Observer {
   // `space` outlives the observer. Throws Error where nothing can be written.
   SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
                bool has_modified_energy, const SolutionDescription& description = {});
-  // Goes on behind the mark in the file that an earlier run has left.
+  // Goes on behind the mark in the file that an earlier run has left, which stays as it has described itself.
   SolutionFile(const Folder& folder, const Mark& mark, const Problem& problem, const Space& space,
-               const SnapshotTimes& times, bool has_modified_energy);
+               const SnapshotTimes& times, bool has_modified_energy, const SolutionDescription& description = {});
   // Why that file does not begin as it was at the mark; "" where it does.
   static std::string complaint(const Folder& folder, const Mark& mark);
   ~SolutionFile() override;  // without finish, what was observed stays as solution.h5.partial
@@ -69,6 +71,10 @@ class SolutionFile : public Observer {
   // Called before rows go to the disk: what is written of the same run elsewhere goes first.
   void before_writing(std::function<void()> call) { before_writing_ = std::move(call); }
   Mark mark();  // with its rows on the disk
+  // After finish: the bytes that the file has where no row went to the disk before its chunk was full, so that they
+  // depend on the run and not on the clock, nor on whether it was stopped on its way. Not for a run that did not
+  // reach its end, one of more than 256 MB, and where `stop` is set meanwhile.
+  void settle(const std::atomic<bool>* stop = nullptr) const;
   // solution.xdmf, after finish, for which ParaView asks; not where `stop` is set meanwhile. It shows every n-th time:
   // returns n.
   std::uint64_t describe(const std::atomic<bool>* stop = nullptr) const;
@@ -78,6 +84,8 @@ class SolutionFile : public Observer {
     Hdf5Dataset data;
     std::vector<double> rows;
   };
+  explicit SolutionFile(const SolutionFile* settling);  // a new one, to take the place of that one
+  void begin();
   Hdf5Dataset make(const std::string& name, const std::string& meaning, const Hdf5Layout& layout);
   std::vector<Hdf5Dataset> make_axes();
   void write_mesh();
@@ -89,6 +97,7 @@ class SolutionFile : public Observer {
 
   PartialPath path_;
   SolutionLayout layout_;
+  SolutionDescription description_;
   Hdf5File file_;
   const Space& space_;
   SnapshotTimes times_;
@@ -96,6 +105,9 @@ class SolutionFile : public Observer {
   double last_t_ = -std::numeric_limits<double>::infinity();
   std::vector<Column> columns_;  // the fields, H, H_modified if there is one, t
   bool has_modified_;
+  bool is_copy_ = false;                    // without commit nothing is lost
+  bool is_settled_ = true;                  // all chunks were full when they were written
+  RunReport report_;                        // that of finish
   bool broken_ = false;                     // a row could not be written
   std::size_t waiting_ = 0, most_waiting_;  // rows of the chunk that is not yet full
   std::size_t written_ = 0;                 // of them

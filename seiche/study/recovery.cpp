@@ -6,6 +6,7 @@
 #include <seiche/output/file/reserve_file.hpp>
 #include <seiche/output/final_state.hpp>
 #include <seiche/output/run_folder.hpp>
+#include <seiche/output/solution_file.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/output/summary.hpp>
 #include <seiche/output/xdmf.hpp>
@@ -67,8 +68,8 @@ class Rescue {
     }
     if (has("energy.csv") && !has("summary.json")) summary();
     // These can be had again, or are no longer needed.
-    for (const char* name :
-         {"solution.xdmf.partial", "report.html.partial", "summary.json.partial", "case.toml.partial", reserve_name})
+    for (const char* name : {"solution.xdmf.partial", "report.html.partial", "summary.json.partial",
+                             "case.toml.partial", reserve_name, settling_name})
       remove_file(folder_, name);
     if (unfinished_files(directory_).empty())  // without a row
       for (const char* name : {"energy.csv.partial", "solution.h5.partial"}) remove_file(folder_, name);

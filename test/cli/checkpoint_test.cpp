@@ -45,7 +45,7 @@ class CheckpointCli : public test::Cli {
     if (!fs::exists(directory / "whole")) {
       ASSERT_EQ(seiche("run case.toml --quiet --out whole --set " + keys()).exit, 0);
     }
-    for (const char* name : {"energy.csv", "final.txt", "solution.xdmf"})
+    for (const char* name : {"energy.csv", "final.txt", "solution.xdmf", "solution.h5"})
       EXPECT_TRUE(text(fs::path("out") / name) == text(fs::path("whole") / name)) << name;
     const SolutionReader whole(directory / "whole/solution.h5"), out(directory / "out/solution.h5");
     ASSERT_EQ(whole.times(), out.times());
@@ -116,6 +116,8 @@ TEST_F(CheckpointCli, EndsARunThatHasUsedItsHours) {
   const Result farther = seiche("resume out --until 8001 --json");
   EXPECT_EQ(farther.exit, 0) << farther.err;
   EXPECT_EQ(json::parse(farther.out)["t"], 8001);
+  const Result audited = seiche("audit out");
+  EXPECT_EQ(audited.exit, 0) << audited.out;
 }
 
 TEST_F(CheckpointCli, RunsWithoutAReaderOfItsMessages) {

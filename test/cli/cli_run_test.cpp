@@ -73,6 +73,19 @@ TEST_F(Cli, TheCaseItLeavesRunsToTheSameBits) {
   for (Index k = 0; k < first.count(); ++k) EXPECT_EQ(state(first, k), state(second, k)) << first.time(k);
 }
 
+TEST_F(Cli, ARunLeavesTheSameBytesLaterAndInAnotherFolder) {
+  write_case();
+  fs::create_directory(directory / "there");
+  const std::string run = " --quiet --set time.end=20 output.snapshot_every=4";
+  ASSERT_EQ(seiche("run case.toml --out first --set problem.points=16" + run).exit, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5 counts its times in seconds
+  const Result later =
+      seiche("run ../case.toml --out second --set problem.points=16" + run, "cd there; SEICHE_FLUSH_SECONDS=0");
+  ASSERT_EQ(later.exit, 0) << later.err;
+  for (const char* name : {"energy.csv", "final.txt", "solution.xdmf", "solution.h5"})
+    EXPECT_TRUE(text(fs::path("first") / name) == text(fs::path("there/second") / name)) << name;
+}
+
 TEST_F(Cli, OneRunStartsWhereAnotherEnded) {
   write_case();
   ASSERT_EQ(seiche("run case.toml --out first --quiet").exit, 0);

@@ -79,7 +79,7 @@ class ResumeCase : public InTemporaryDirectory {
   }
 
   void expect_same_files(const std::string& one, const std::string& other) const {
-    for (const char* name : {"energy.csv", "final.txt", "solution.xdmf"})
+    for (const char* name : {"energy.csv", "final.txt", "solution.xdmf", "solution.h5"})
       EXPECT_TRUE(bytes_of(directory / one / name) == bytes_of(directory / other / name)) << other << " " << name;
     const Hdf5File a = Hdf5File::open(directory / one / "solution.h5");
     const Hdf5File b = Hdf5File::open(directory / other / "solution.h5");

@@ -258,6 +258,26 @@ TEST_F(Solution, AChunkThatIsWrittenBeforeItIsFullStaysWhereItIs) {
   EXPECT_EQ(back, all);
 }
 
+TEST_F(Solution, ItsBytesDoNotTellWhenItsRowsWereWritten) {
+  for (const Problem& problem : {oscillator({}), klein_gordon({.grid = {.points = {64}, .length = {2.0}}}), plane()}) {
+    const auto bytes_with = [&](const char* flush_seconds) {
+      if (flush_seconds != nullptr) ::setenv("SEICHE_FLUSH_SECONDS", flush_seconds, 1);
+      const HalvingSpace space(problem.size());
+      SolutionFile solution(Folder(directory), problem, space, {}, true, {.texts = {{"case", "of some kind"}}});
+      ::unsetenv("SEICHE_FLUSH_SECONDS");
+      for (Index k = 0; k < 1500; ++k) observe(solution, problem, k);
+      solution.finish({});
+      const std::string finished = text("solution.h5");
+      solution.settle();
+      const std::string settled = text("solution.h5");
+      EXPECT_EQ(finished == settled, flush_seconds == nullptr);
+      EXPECT_EQ(std::distance(fs::directory_iterator(directory), fs::directory_iterator()), 1);
+      return settled;
+    };
+    EXPECT_TRUE(bytes_with(nullptr) == bytes_with("0")) << problem.name;
+  }
+}
+
 // As a program leaves it that is killed between two of them.
 TEST_F(Solution, AReaderCountsTheTimesForWhichAllIsThere) {
   write(klein_gordon({.grid = {.points = {8}, .length = {2.0}}}), 6);

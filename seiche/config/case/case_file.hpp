@@ -27,6 +27,8 @@ RunSpec parse_case(std::string_view text, std::string_view name, const std::vect
 
 // The case as run, every default filled in; parse_case reads the same RunSpec from it.
 std::string write_case(const RunSpec& spec);
+// The same without what depends on where it is run: the output directory is ".", and files have no folders.
+std::string case_in_any_folder(RunSpec spec);
 
 // What `seiche new` prints: every key with its default, its meaning and its bounds.
 std::string example_case(const std::string& problem);

@@ -163,6 +163,18 @@ std::string write_case(const RunSpec& spec) {
   return text;
 }
 
+std::string case_in_any_folder(RunSpec spec) {
+  spec.output_directory = ".";
+  if (auto* data = std::get_if<FileData>(&spec.initial)) data->file = data->file.filename();
+  for (const Parameter& parameter : problem_entry(spec).parameters)
+    if (const auto text = spec.parameter_texts.find(parameter.name);
+        parameter.kind == ParameterKind::matrix && text != spec.parameter_texts.end())
+      text->second = std::filesystem::path(text->second).filename().string();
+  if (spec.ensemble)
+    for (std::filesystem::path& file : spec.ensemble->files) file = file.filename();
+  return write_case(spec);
+}
+
 std::string example_case(const std::string& problem) {
   if (problem == custom_name) return example_custom() + example_drives() + example_sections(custom_in_list());
   const std::vector<std::string> names = all_problem_names();

@@ -52,6 +52,9 @@ bool extend(FileMark& mark, std::uint64_t end, int file) {
 PartialPath::PartialPath(Folder folder, std::string name)
     : folder_(std::move(folder)), name_(std::move(name)), temporary_(name_ + ".partial") {}
 
+PartialPath::PartialPath(Folder folder, std::string name, std::string temporary)
+    : folder_(std::move(folder)), name_(std::move(name)), temporary_(std::move(temporary)) {}
+
 PartialPath::PartialPath(const std::filesystem::path& path)
     : PartialPath(Folder(path.parent_path()), path.filename().string()) {}
 

@@ -14,7 +14,8 @@ namespace seiche {
 // The temporary name, for whoever writes the file; without commit, the temporary is removed at the end.
 class PartialPath {
  public:
-  PartialPath(Folder folder, std::string name);
+  PartialPath(Folder folder, std::string name);  // NAME.partial
+  PartialPath(Folder folder, std::string name, std::string temporary);
   explicit PartialPath(const std::filesystem::path& path);
   ~PartialPath();
   PartialPath(const PartialPath&) = delete;
