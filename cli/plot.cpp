@@ -5,6 +5,7 @@
 #include <seiche/config/case/run_spec.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/figure/plot/rendering.hpp>
+#include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/run_folder.hpp>
@@ -87,6 +88,7 @@ ExitCode plot(const PlotArguments& arguments) {
     options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.directory / "solution.h5"));
   const FolderLock lock{Folder(run.directory)};
   require_own_report(run.directory);
+  require_own_figures(run.directory);
   try {
     const RunPictures pictures = draw_run(run, history, options);
     write_run_report(run, history, pictures);

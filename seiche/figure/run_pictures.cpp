@@ -1,3 +1,4 @@
+#include <seiche/core/error.hpp>
 #include <seiche/figure/bars_picture.hpp>
 #include <seiche/figure/drawing_folder.hpp>
 #include <seiche/figure/gnuplot.hpp>
@@ -47,7 +48,13 @@ bool is_frame(const fs::path& file) {
          stem.size() == end + 5;
 }
 
+bool is_link(const fs::path& path) {
+  std::error_code not_there;
+  return fs::is_symlink(path, not_there);
+}
+
 void remove_files(const fs::path& folder, bool (*is_ours)(const fs::path&)) {
+  if (is_link(folder)) return;  // to pictures of another run
   std::error_code ignored;
   std::vector<fs::path> ours;
   for (const auto& entry : fs::directory_iterator(folder, ignored))
@@ -59,13 +66,21 @@ void remove_files(const fs::path& folder, bool (*is_ours)(const fs::path&)) {
 
 void remove_pictures(const fs::path& directory) {
   const fs::path figures = directory / "figures";
+  if (is_link(figures)) return;
   remove_files(figures, is_picture);
   remove_files(figures / "film", is_frame);
   std::error_code still_holds_something;
   fs::remove(figures / "film", still_holds_something);
 }
 
+void require_own_figures(const fs::path& directory) {
+  for (const fs::path& folder : {directory / "figures", directory / "figures/film"})
+    if (is_link(folder))
+      throw Error("{} is a link, and pictures of this run go into no folder of another: remove it", folder.string());
+}
+
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options) {
+  require_own_figures(run.directory);
   RunPictures pictures;
   pictures.formats = options.formats;
   if (!is_one_of(pictures.formats, "png")) pictures.formats.insert(pictures.formats.begin(), "png");

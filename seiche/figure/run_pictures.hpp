@@ -26,8 +26,11 @@ struct PictureOptions {
   std::vector<std::string> film_fields = {};  // empty: the first
 };
 
-// Throws Error where gnuplot is missing or fails, or solution.h5 cannot be read; then what an earlier call drew stays,
-// and goes only where everything is drawn.
+// Throws Error where DIR/figures, or the folder of frames in it, is a link, through which pictures would get elsewhere.
+void require_own_figures(const std::filesystem::path& directory);
+
+// Throws Error where require_own_figures does, where gnuplot is missing or fails, and where solution.h5 cannot be read;
+// then what an earlier call drew stays, and goes only where everything is drawn.
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options = {});
 
 // What draw_run left in the figures of an earlier run, so that nothing old stands beside new data; other files stay.

@@ -82,7 +82,11 @@ class Rescue {
     if (!has("case.toml")) throw Error("{} holds no run: there is no case.toml in it", directory_.string());
     return directory_ / "case.toml";
   }
-  bool has(const char* name) const { return fs::is_regular_file(directory_ / name); }
+  // A link under such a name leads to a file that is none of the run.
+  bool has(const char* name) const {
+    std::error_code not_there;
+    return fs::is_regular_file(fs::symlink_status(directory_ / name, not_there));
+  }
 
   void tables() {
     if (!has("energy.csv.partial")) return;

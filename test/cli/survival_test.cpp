@@ -238,6 +238,48 @@ TEST_F(Survival, WhereALinkTakesThePlaceOfTheFolderNothingIsWrittenThroughIt) {
   EXPECT_GT(SolutionReader(directory / "moved/solution.h5").count(), 2);
 }
 
+TEST_F(Survival, LinksThatWaitForARunAreNotFollowed) {
+  write_case();
+  fs::create_directory(directory / "out");
+  write("victim", "");  // of what is empty nothing is lost: otherwise a link under the name of a result is refused
+  for (const char* name : {"energy.csv.partial", "solution.h5.partial", "solution.xdmf.partial", "final.txt.partial",
+                           "summary.json.partial", "case.toml.partial", "report.html.partial",
+                           "checkpoint.seiche.partial", ".seiche.reserve", ".seiche.solution.h5", "energy.csv"})
+    fs::create_symlink(directory / "victim", directory / "out" / name);
+  const Result ran = seiche("run case.toml --out out --quiet --set checkpoint.every_steps=16 output.snapshot_every=1",
+                            "SEICHE_FLUSH_SECONDS=0");
+  EXPECT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_EQ(text("victim"), "");
+  for (const auto& entry : fs::directory_iterator(directory / "out")) EXPECT_FALSE(entry.is_symlink()) << entry.path();
+}
+
+TEST_F(Survival, LinksThatWaitForARecoveryAreNotFollowed) {
+  write_case();
+  ASSERT_EQ(seiche("run case.toml --out out --quiet").exit, 0);
+  const std::string torn = "t,H,H_modified\n0,1,1\n0.1";
+  write("victim", torn);
+  for (const char* name : {"energy.csv", "solution.h5"}) {
+    fs::remove(directory / "out" / name);
+    fs::create_symlink(directory / "victim", directory / "out" / (std::string(name) + ".partial"));
+  }
+  seiche("recover out");
+  EXPECT_EQ(text("victim"), torn);
+}
+
+TEST_F(Survival, PicturesGoThroughNoLink) {
+  write_case();
+  ASSERT_EQ(seiche("run case.toml --out out --quiet").exit, 0);
+  fs::create_directory(directory / "victim");
+  write("victim/energy.png", "of another run");
+  fs::create_directory_symlink(directory / "victim", directory / "out/figures");
+  const Result drawn = seiche("plot out");
+  EXPECT_EQ(drawn.exit, 2);
+  EXPECT_THAT(drawn.err, HasSubstr("out/figures is a link"));
+  ASSERT_EQ(seiche("run case.toml --out out --quiet").exit, 0) << "which removes pictures of an earlier run";
+  EXPECT_EQ(text("victim/energy.png"), "of another run");
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory / "victim"), fs::directory_iterator()), 1);
+}
+
 // The loader takes an empty entry for the current folder, where anybody may have put a library.
 TEST_F(Survival, NoLibraryIsLookedForInTheCurrentFolder) {
   const std::string read =

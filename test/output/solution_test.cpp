@@ -336,7 +336,11 @@ TEST_F(Solution, WhatCannotBeWrittenOrReadIsSaidInOneSentence) {
   EXPECT_THAT(error_of([&] { SolutionReader solution(file()); }), HasSubstr("cannot read " + file().string()));
   std::ofstream(file()) << "no HDF5";
   EXPECT_THAT(error_of([&] { SolutionReader solution(file()); }), HasSubstr("cannot read " + file().string()));
-  Hdf5File::create(file()).close();
+  {
+    PartialPath empty(file());
+    Hdf5File::create(empty.open(), file()).close();
+    empty.commit();
+  }
   EXPECT_THAT(error_of([&] { SolutionReader solution(file()); }), HasSubstr("there is no t in"));
 }
 

@@ -144,12 +144,6 @@ Hdf5Handle creation() {
 
 }  // namespace
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path) {
-  const Hdf5Quiet quiet;
-  return Hdf5File(path, hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation().id(), H5P_DEFAULT), H5Fclose,
-                                    fmt::format("cannot write {}", path.string())));
-}
-
 Hdf5File Hdf5File::create(int file, const std::filesystem::path& path) {
   const Hdf5Quiet quiet;
   const Hdf5Handle access = ordered_file_access(file);

@@ -72,7 +72,6 @@ struct Hdf5Layout {
 
 class Hdf5File {
  public:
-  static Hdf5File create(const std::filesystem::path& path);  // in place of a file of this name
   // Into an open file, which can be read whenever the program ends, with the rows of the last flush (hdf5_driver.hpp).
   static Hdf5File create(int file, const std::filesystem::path& path);
   static Hdf5File open_to_write(const Folder& folder, const std::string& name);  // likewise
