@@ -5,7 +5,6 @@
 namespace seiche {
 namespace {
 
-constexpr auto flush_at_least_every = std::chrono::seconds(5);
 constexpr const char* file_name = "energy.csv";
 
 }  // namespace
@@ -48,12 +47,17 @@ void EnergyTrace::observe(const State& state, const EnergyReading& energy) {
   if (has_ledger_) add_ledger(energy);
   file_.write(row_.line());
   file_.keep_lines();
-  if (std::chrono::steady_clock::now() - last_flush_ > flush_at_least_every) flush();
+  clock_.waits(state.n);
+  if (clock_.is_overdue()) flush();
+}
+
+void EnergyTrace::pass(const State& state) {
+  if (clock_.is_overdue(state.n)) flush();
 }
 
 void EnergyTrace::flush() {
   file_.flush();
-  last_flush_ = std::chrono::steady_clock::now();
+  clock_.flushed();
 }
 
 void EnergyTrace::add_ledger(const EnergyReading& energy) {

@@ -7,8 +7,8 @@
 #include <seiche/core/observer.hpp>
 #include <seiche/output/csv_row.hpp>
 #include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/file/flush_clock.hpp>
 
-#include <chrono>
 #include <string>
 
 namespace seiche {
@@ -31,6 +31,7 @@ class EnergyTrace : public Observer {
 
   bool is_due(const State& state, bool last) const override { return schedule_.is_due(state.n, last); }
   void observe(const State& state, const EnergyReading& energy) override;
+  void pass(const State& state) override;
   void finish(const RunReport& report) override;
   void flush();
   Mark mark();  // with its rows on the disk
@@ -44,7 +45,7 @@ class EnergyTrace : public Observer {
   EnergyReading last_;  // shown
   bool is_first_ = true;
   CsvRow row_;
-  std::chrono::steady_clock::time_point last_flush_{};
+  FlushClock clock_{FlushClock::Clock::time_point{}};  // the first row goes to the disk at once
 };
 
 }  // namespace seiche

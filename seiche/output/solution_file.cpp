@@ -5,23 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 namespace seiche {
 namespace {
-
-// See solution_file.hpp.
-std::chrono::duration<double> write_at_least_every() {
-  constexpr double usual = 5;
-  const char* const given = std::getenv("SEICHE_FLUSH_SECONDS");
-  if (given == nullptr) return std::chrono::duration<double>(usual);
-  char* end = nullptr;
-  const double seconds = std::strtod(given, &end);
-  return std::chrono::duration<double>(end != given && *end == '\0' && seconds >= 0 ? seconds : usual);
-}
 
 constexpr const char* file_name = "solution.h5";
 constexpr std::uintmax_t most_settled = 1U << 28U;                // bytes, in a few seconds
@@ -51,8 +40,6 @@ SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const S
       times_(times),
       has_modified_(has_modified_energy),
       most_waiting_(layout_.chunk().front()),
-      write_at_least_every_(write_at_least_every()),
-      last_write_(std::chrono::steady_clock::now()),
       values_(space.physical_size()) {
   begin();
 }
@@ -66,9 +53,7 @@ SolutionFile::SolutionFile(const SolutionFile* settling)
       times_(settling->times_),
       has_modified_(settling->has_modified_),
       is_copy_(true),
-      most_waiting_(settling->most_waiting_),
-      write_at_least_every_(std::chrono::duration<double>::max()),
-      last_write_(std::chrono::steady_clock::now()) {
+      most_waiting_(settling->most_waiting_) {
   begin();
 }
 
@@ -120,8 +105,6 @@ SolutionFile::SolutionFile(const Folder& folder, const Mark& mark, const Problem
       waiting_(mark.in_chunk),
       most_waiting_(layout_.chunk().front()),
       written_(mark.in_chunk),
-      write_at_least_every_(write_at_least_every()),
-      last_write_(std::chrono::steady_clock::now()),
       values_(space.physical_size()) {
   for (auto& [name, text] : description_.texts)
     if (std::string begun = text_attribute(file_.id(), name); !begun.empty() && name != "case")  // may end later now
@@ -253,8 +236,15 @@ void SolutionFile::observe(const State& state, const EnergyReading& energy) {
   if (has_modified_) add(columns_[fields + 1], {&energy.modified, 1});
   add(columns_.back(), {&state.t, 1});
   ++waiting_;
-  const bool is_time = std::chrono::steady_clock::now() - last_write_ > write_at_least_every_;
-  if (waiting_ >= most_waiting_ || is_time) write_rows(false);
+  clock_.waits(state.n);
+  if (waiting_ >= most_waiting_ || clock_.is_overdue()) write_rows(false);
+  broken_ = false;
+}
+
+void SolutionFile::pass(const State& state) {
+  if (waiting_ == written_ || !clock_.is_overdue(state.n)) return;
+  broken_ = true;
+  write_rows(false);
   broken_ = false;
 }
 
@@ -283,7 +273,7 @@ void SolutionFile::write_rows(bool last) {
   if (is_full) waiting_ = 0;
   file_.flush();
   if (!is_copy_) path_.keep();
-  last_write_ = std::chrono::steady_clock::now();
+  clock_.flushed();
 }
 
 void SolutionFile::close(const RunReport& report) {

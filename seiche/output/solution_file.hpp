@@ -8,11 +8,11 @@
 #include <seiche/core/problem.hpp>
 #include <seiche/core/space.hpp>
 #include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/file/flush_clock.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/solution_layout.hpp>
 
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <map>
@@ -39,9 +39,6 @@ struct SnapshotTimes {
 // Rows go to the disk chunk by chunk, and at least every five seconds: memory does not grow with the run, and a
 // program that is killed leaves a readable solution.h5.partial behind. What is once in the file stays readable,
 // whatever fails later: then the file gets its name all the same, with the status "unfinished".
-//
-// For tests, the environment variable SEICHE_FLUSH_SECONDS replaces the five seconds: with 0 every row is written as
-// it comes, so that chunks are written again and again before they are full. Anything but a number ≥ 0 is ignored.
 class SolutionFile : public Observer {
  public:
   // As far as it had come at a checkpoint. The checksum is that of t and the energies: those of the fields would take
@@ -67,6 +64,7 @@ class SolutionFile : public Observer {
   bool is_due(const State& state, bool last) const override;
   double next_time() const override;
   void observe(const State& state, const EnergyReading& energy) override;
+  void pass(const State& state) override;
   void finish(const RunReport& report) override;  // solution.h5
   // Called before rows go to the disk: what is written of the same run elsewhere goes first.
   void before_writing(std::function<void()> call) { before_writing_ = std::move(call); }
@@ -111,8 +109,7 @@ class SolutionFile : public Observer {
   bool broken_ = false;                     // a row could not be written
   std::size_t waiting_ = 0, most_waiting_;  // rows of the chunk that is not yet full
   std::size_t written_ = 0;                 // of them
-  std::chrono::duration<double> write_at_least_every_;
-  std::chrono::steady_clock::time_point last_write_;
+  FlushClock clock_;
   Vector values_;
   std::function<void()> before_writing_;
 };

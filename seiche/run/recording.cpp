@@ -41,6 +41,8 @@ void Recording::enter(const StepReport& step) {
 bool Recording::anyone_due() const {
   bool due = false;
   for (const Observer* observer : observers_) due |= observer->is_due(state_, false);
+  if (!due)
+    for (Observer* observer : observers_) observer->pass(state_);
   return due;
 }
 
@@ -53,7 +55,11 @@ bool Recording::record(bool last) {
   }
   book_.add(reading, state_.t, state_.n);
   for (Observer* observer : observers_) {
-    if (observer->is_due(state_, last)) observer->observe(state_, reading);
+    if (observer->is_due(state_, last)) {
+      observer->observe(state_, reading);
+    } else {
+      observer->pass(state_);
+    }
   }
   good_ = state_;
   return true;

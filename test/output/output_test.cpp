@@ -15,6 +15,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -22,8 +23,10 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace seiche {
@@ -220,6 +223,33 @@ TEST_F(Output, TheEnergyTraceHasAColumnForTheModifiedEnergyOnlyWhereThereIsOne) 
               (modified ? std::vector<std::string>{"t,H,H_modified", "0.25,0.10000000000000001,0.33333333333333331"}
                         : std::vector<std::string>{"t,H", "0.25,0.10000000000000001"}));
   }
+}
+
+// Where one row comes at once, and the next after hours.
+TEST_F(Output, ARowReachesTheDiskSoonAlsoWhereNoOtherOneFollows) {
+  ::setenv("SEICHE_FLUSH_SECONDS", "0.05", 1);
+  EnergyTrace trace(Folder(directory), false);
+  ::unsetenv("SEICHE_FLUSH_SECONDS");
+  State state{.z = {}, .t = 0, .n = 0};
+  trace.observe(state, {.H = 1});
+  EXPECT_EQ(lines("energy.csv.partial").size(), 2U) << "the first at once";
+  state.n = 1;
+  trace.observe(state, {.H = 2});
+  trace.pass(state);
+  EXPECT_EQ(lines("energy.csv.partial").size(), 2U);
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  for (state.n = 2; state.n < 1000; ++state.n) trace.pass(state);
+  EXPECT_EQ(lines("energy.csv.partial").size(), 3U);
+}
+
+TEST_F(Output, ManyRowsGoToTheDiskInLargePieces) {
+  AtomicFile file(directory / "x");
+  std::set<std::uintmax_t> sizes;
+  for (int i = 0; i < 20000; ++i) {
+    file.write("0.1,0.2,0.3\n");
+    sizes.insert(fs::file_size(directory / "x.partial"));
+  }
+  EXPECT_EQ(sizes.size(), 1U + 20000 * 12 / (1U << 16U)) << "of 64 kB each";
 }
 
 TEST(Summary, HasTheKeysOfTheInterfaceInTheirOrder) {

@@ -17,9 +17,11 @@
 #include <seiche/study/audit.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 namespace seiche {
 namespace {
@@ -256,6 +258,19 @@ TEST_F(Solution, AChunkThatIsWrittenBeforeItIsFullStaysWhereItIs) {
   std::vector<double> back(all.size());
   Hdf5File::open(path.temporary()).dataset("u").read(0, back);
   EXPECT_EQ(back, all);
+}
+
+// Where one row comes at once, and the next after hours.
+TEST_F(Solution, ARowReachesTheDiskSoonAlsoWhereNoOtherOneFollows) {
+  const Problem problem = oscillator({});
+  const HalvingSpace space(problem.size());
+  ::setenv("SEICHE_FLUSH_SECONDS", "0.05", 1);
+  SolutionFile solution(Folder(directory), problem, space, {}, false);
+  ::unsetenv("SEICHE_FLUSH_SECONDS");
+  observe(solution, problem, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  for (Index n = 1; n < 1000; ++n) solution.pass({.z = {}, .t = 0, .n = n});
+  EXPECT_EQ(SolutionReader(file().string() + ".partial").count(), 1);
 }
 
 TEST_F(Solution, ItsBytesDoNotTellWhenItsRowsWereWritten) {
