@@ -14,6 +14,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,39 @@ TEST_F(Survival, WhicheverWriteFailsTheRowsBeforeItAreReadable) {
     }
   }
   EXPECT_GT(most, whole.count() / 2) << "late writes failed too";
+}
+
+// What has a name is whole after a power cut too: its bytes are on the disk before, and the name is after.
+TEST_F(Survival, WhatGetsItsNameIsOnTheDisk) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  const std::string preload = fmt::format("LD_PRELOAD='{}' ", failing_writes_path());
+  const Result ran =
+      seiche("run case.toml --out out --quiet --set checkpoint.every_steps=32", preload + "SEICHE_SYNC_LOG=log.txt");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  const std::vector<std::string> log = lines("log.txt");
+  std::set<std::string> named;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    if (!log[i].starts_with("name ")) continue;
+    const std::string name = log[i].substr(5);
+    named.insert(name);
+    const bool is_moved = name == "checkpoint_prev.seiche";  // on the disk before it had another name
+    const auto before =
+        std::find(log.begin(), log.begin() + static_cast<std::ptrdiff_t>(i), "sync " + name + ".partial");
+    EXPECT_TRUE(is_moved || before != log.begin() + static_cast<std::ptrdiff_t>(i)) << name;
+    EXPECT_TRUE(std::find(log.begin() + static_cast<std::ptrdiff_t>(i), log.end(), "sync out") != log.end()) << name;
+  }
+  for (const char* name : {"case.toml", "energy.csv", "solution.h5", "final.txt", "summary.json", "checkpoint.seiche"})
+    EXPECT_TRUE(named.contains(name)) << name;
+
+  fs::remove_all(directory / "out");
+  const Result failed = seiche("run case.toml --out out --quiet", preload + fmt::format("SEICHE_FAIL_SYNC={}", EIO));
+  EXPECT_EQ(failed.exit, 2) << "case.toml is the first";
+  EXPECT_THAT(failed.err, HasSubstr(std::strerror(EIO)));
+  EXPECT_EQ(seiche("run case.toml --out out --quiet", preload + fmt::format("SEICHE_FAIL_SYNC={}", EINVAL)).exit, 0)
+      << "a file system that cannot";
 }
 
 // Repeated, it would never end.

@@ -1,6 +1,9 @@
 // To be loaded before a program (LD_PRELOAD): the n-th write to a file that is no standard stream fails, as on a disk
 // that is full or broken. By the environment: SEICHE_FAIL_AT is n, from 1; SEICHE_FAIL_WITH the number of the error, or
 // 0 for a write that says it wrote nothing; with SEICHE_FAIL_ONCE the writes behind it succeed again.
+//
+// In the file SEICHE_SYNC_LOG each fdatasync, fsync and renameat leaves a line: "sync final.txt.partial", "sync out",
+// "name final.txt". With SEICHE_FAIL_SYNC every fdatasync fails with that error.
 #include <dlfcn.h>
 #include <sys/types.h>
 #include <sys/uio.h>
@@ -9,6 +12,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 namespace {
 
@@ -32,6 +36,23 @@ bool fails(int file) {
   if (once ? count != at : count < at) return false;
   errno = static_cast<int>(with);
   return true;
+}
+
+void log(const char* what, std::string name) {
+  const char* const file = std::getenv("SEICHE_SYNC_LOG");
+  if (file == nullptr) return;
+  name.erase(0, name.rfind('/') + 1);
+  if (std::FILE* const out = std::fopen(file, "a")) {
+    std::fprintf(out, "%s %s\n", what, name.c_str());
+    std::fclose(out);
+  }
+}
+
+std::string name_of(int file) {
+  std::string name(4096, '\0');
+  const ssize_t size = ::readlink(("/proc/self/fd/" + std::to_string(file)).c_str(), name.data(), name.size());
+  name.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  return name;
 }
 
 ssize_t nothing_written() { return errno == 0 ? 0 : -1; }
@@ -68,5 +89,27 @@ ssize_t pwritev(int file, const iovec* from, int count, off_t at) {
 size_t fwrite(const void* from, size_t size, size_t count, FILE* file) {
   static auto* const next = real<size_t(const void*, size_t, size_t, FILE*)>("fwrite");
   return fails(fileno(file)) ? 0 : next(from, size, count, file);
+}
+
+int fdatasync(int file) {
+  static auto* const next = real<int(int)>("fdatasync");
+  log("sync", name_of(file));
+  if (const long reason = number("SEICHE_FAIL_SYNC"); reason != 0) {
+    errno = static_cast<int>(reason);
+    return -1;
+  }
+  return next(file);
+}
+
+int fsync(int file) {
+  static auto* const next = real<int(int)>("fsync");
+  log("sync", name_of(file));
+  return next(file);
+}
+
+int renameat(int from_folder, const char* from, int to_folder, const char* to) {
+  static auto* const next = real<int(int, const char*, int, const char*)>("renameat");
+  log("name", to);
+  return next(from_folder, from, to_folder, to);
 }
 }

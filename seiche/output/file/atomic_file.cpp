@@ -47,6 +47,11 @@ bool extend(FileMark& mark, std::uint64_t end, int file) {
   return true;
 }
 
+// 0, or the number of the error, once what was written is on the disk. Some file systems cannot do that, and say so.
+int failure_to_sync(int result) {
+  return result == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS ? 0 : errno;
+}
+
 }  // namespace
 
 PartialPath::PartialPath(Folder folder, std::string name)
@@ -90,24 +95,29 @@ int PartialPath::reopen() {
 }
 
 void PartialPath::sync() {
-  if (::fdatasync(file_) != 0) throw cannot_write(path(), errno);
+  if (const int failure = failure_to_sync(::fdatasync(file_)); failure != 0) throw cannot_write(path(), failure);
 }
 
 void PartialPath::commit() {
   folder_.require_lock();
   int failure = 0;
+  // Written by another program, or by a run that was killed.
+  if (file_ < 0) file_ = ::openat(folder_.descriptor(), temporary_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
   if (file_ >= 0) {
     const FileIdentity ours(file_);
     if (ours != FileIdentity() && ours != FileIdentity(folder_.descriptor(), temporary_))
       throw Error("cannot write {}: {} was removed or replaced while it was being written", path().string(),
                   temporary_);
+    // Before the name: after a power cut there would be a file of this name without its bytes.
+    failure = failure_to_sync(::fdatasync(file_));
     // Some file systems tell only here that there was no room.
-    if (::close(std::exchange(file_, -1)) != 0) failure = errno;
+    if (::close(std::exchange(file_, -1)) != 0 && failure == 0) failure = errno;
     if (failure != 0 && !kept_) throw cannot_write(path(), failure);
   }
   if (::renameat(folder_.descriptor(), temporary_.c_str(), folder_.descriptor(), name_.c_str()) != 0)
     throw cannot_write(path(), errno);
   kept_ = true;
+  if (failure == 0) failure = failure_to_sync(::fsync(folder_.descriptor()));
   if (failure != 0) throw cannot_write(path(), failure);
 }
 

@@ -1,4 +1,5 @@
-// A file that appears whole or not at all: written under a temporary name beside the final one, renamed on commit.
+// A file that appears whole or not at all: written under a temporary name beside the final one, renamed on commit when
+// its bytes are on the disk.
 #pragma once
 
 #include <seiche/output/file/checksum.hpp>
