@@ -74,6 +74,12 @@ std::uint64_t SolutionReader::surplus() const {
   return more;
 }
 
+std::vector<double> SolutionReader::modified_energies() const {
+  return modified_ ? first_of(*modified_) : std::vector<double>();
+}
+
+void SolutionReader::require_whole() const { file_.require_whole(fields_); }
+
 std::vector<double> SolutionReader::first_of(const Hdf5Dataset& data) const {
   std::vector<double> values(static_cast<std::size_t>(count_));
   data.read(0, values);

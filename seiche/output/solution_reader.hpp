@@ -25,6 +25,9 @@ class SolutionReader {
   Index count() const { return count_; }  // of times for which everything is there
   std::vector<double> times() const { return first_of(t_); }
   std::vector<double> energies() const { return first_of(H_); }
+  std::vector<double> modified_energies() const;  // none where the method has none
+  // Throws Error where something else in the file than times, energies and fields cannot be read, or leads out of it.
+  void require_whole() const;
   // Values of an unfinished file that belong to no time, since others are missing for it; cut_solution takes them away.
   std::uint64_t surplus() const;
   const std::vector<std::string>& fields() const { return fields_; }

@@ -108,6 +108,12 @@ class Auditor {
       const bool is_any_time = spec_.tolerance || i + 1 == t_.size();
       return is_any_time || std::abs(t_[i] - spec_.t_start - static_cast<double>(i) * apart) <= 1e-9 * spec_.duration();
     };
+    for (const std::string& name : energy_.names) {
+      const std::vector<double> values = energy_.column(name);
+      const auto none = std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+      if (none != values.end())
+        return contradict(fmt::format("row {} has {} = {}", none - values.begin() + 1, name, *none));
+    }
     for (std::size_t i = 0; i < t_.size(); ++i)
       if (!is_expected(i))
         return contradict(fmt::format("row {} is at t = {:.17g}{}", i + 1, t_[i],
@@ -153,37 +159,67 @@ class Auditor {
   // H of every state in solution.h5 against the H beside it, and against energy.csv where that has the time too.
   void snapshots() {
     const SolutionReader solution(directory_ / "solution.h5");
+    solution.require_whole();
     if (static_cast<Index>(solution.fields().size()) * solution.points() != problem_.size())
       throw Error("solution.h5 has {} values at a time and the case {} unknowns",
                   static_cast<Index>(solution.fields().size()) * solution.points(), problem_.size());
     case_of(solution);
     const std::vector<double> times = solution.times();
     const std::vector<double> beside = solution.energies();
+    const std::vector<double> modified = solution.modified_energies();
+    const std::vector<double> modified_in_rows =
+        energy_.has("H_modified") ? energy_.column("H_modified") : std::vector<double>();
+    const std::string claim = "H of every state in solution.h5 is what it and energy.csv say";
+    if (times.empty()) return book_.add(claim, Verdict::not_checked, "it holds no state");
     std::size_t in_both = 0;
     double worst = 0;
     double at = 0;
     Vector z;
     for (std::size_t k = 0; k < times.size(); ++k) {
       solution.state(static_cast<Index>(k), z);
+      if (std::string wrong = no_number(times, beside, modified, z, k); !wrong.empty())
+        return book_.add(claim, Verdict::contradicted, std::move(wrong));
       const EnergyTerms terms = energies_.of(z);
       const double allowed = std::max({terms.round_off(), round_off_, std::numeric_limits<double>::min()});
       double ratio = std::abs(terms.sum() - beside[k]) / allowed;
       const auto found = std::lower_bound(t_.begin(), t_.end(), times[k]);
       if (found != t_.end() && *found == times[k]) {
-        ratio = std::max(ratio, std::abs(terms.sum() - H_[static_cast<std::size_t>(found - t_.begin())]) / allowed);
+        const auto row = static_cast<std::size_t>(found - t_.begin());
+        ratio = worse(ratio, std::abs(terms.sum() - H_[row]) / allowed);
+        if (!modified.empty() && !modified_in_rows.empty())
+          ratio = worse(ratio, std::abs(modified[k] - modified_in_rows[row]) /
+                                   std::max(allowed, 50 * epsilon * std::abs(modified[k])));
         ++in_both;
       }
-      if (ratio <= worst || std::isnan(worst)) continue;  // no number is the worst of all
+      if (worse(ratio, worst) == worst || std::isnan(worst)) continue;
       worst = ratio;
       at = times[k];
     }
-    const std::string claim = "H of every state in solution.h5 is what it and energy.csv say";
-    if (times.empty()) return book_.add(claim, Verdict::not_checked, "it holds no state");
+    if (in_both == 0)
+      return book_.add(claim, Verdict::contradicted,
+                       fmt::format("{} states, and none of them at a time of energy.csv", times.size()));
     book_.add(
         claim, worst <= 1 ? Verdict::confirmed : Verdict::contradicted,
         fmt::format("{} states, {} of them at times of energy.csv; the largest difference, at t = {:.6g}, is {:.2g} of "
                     "what round-off explains",
                     times.size(), in_both, at, worst));
+  }
+
+  // No number is the worst of all.
+  static double worse(double a, double b) { return std::isnan(a) ? a : std::isnan(b) ? b : std::max(a, b); }
+
+  // What of state k is no number, or no time behind the one before; else "".
+  static std::string no_number(const std::vector<double>& times, const std::vector<double>& energies,
+                               const std::vector<double>& modified, const Vector& z, std::size_t k) {
+    if (!std::isfinite(times[k]) || (k > 0 && !(times[k] > times[k - 1])))
+      return fmt::format("state {} is at t = {:.17g}{}", k + 1, times[k],
+                         k == 0 ? "" : fmt::format(", after {:.17g}", times[k - 1]));
+    if (!std::isfinite(energies[k])) return fmt::format("H at t = {:.6g} is {}", times[k], energies[k]);
+    if (!modified.empty() && !std::isfinite(modified[k]))
+      return fmt::format("the modified energy at t = {:.6g} is {}", times[k], modified[k]);
+    for (Index i = 0; i < z.size(); ++i)
+      if (!std::isfinite(z[i])) return fmt::format("value {} of the state at t = {:.6g} is {}", i + 1, times[k], z[i]);
+    return "";
   }
 
   void summary() {

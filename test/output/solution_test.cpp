@@ -21,7 +21,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
+#include <limits>
+#include <sstream>
 #include <thread>
+#include <vector>
 
 namespace seiche {
 namespace {
@@ -359,38 +363,152 @@ TEST_F(Solution, WhatCannotBeWrittenOrReadIsSaidInOneSentence) {
   EXPECT_THAT(error_of([&] { SolutionReader solution(file()); }), HasSubstr("there is no t in"));
 }
 
-// One digit of one value, changed behind our back.
-void change_a_value(const fs::path& file) {
+// Values changed behind our back.
+void change(const fs::path& file, const char* name, const std::function<void(std::vector<double>&)>& how) {
   const hid_t h5 = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   ASSERT_GE(h5, 0);
-  const hid_t data = H5Dopen2(h5, "v", H5P_DEFAULT);
+  const hid_t data = H5Dopen2(h5, name, H5P_DEFAULT);
   const hid_t space = H5Dget_space(data);
-  hsize_t size[2];
-  H5Sget_simple_extent_dims(space, size, nullptr);
-  std::vector<double> values(size[0] * size[1]);
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
   H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
-  double& changed = values[values.size() / 2];
-  changed *= 1 + 1e-8;
+  how(values);
   H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
   H5Sclose(space);
   H5Dclose(data);
   H5Fclose(h5);
 }
 
-TEST_F(Solution, AnAuditSeesAChangedDigit) {
-  std::ofstream(directory / "case.toml")
-      << "[problem]\nname = \"klein_gordon\"\npoints = 8\n[method]\nname = \"seisav\"\nh = \"1/64\"\n[time]\nend = 1.0\n";
-  const std::string run = "'" + test::program_path() + "' run '" + (directory / "case.toml").string() +
-                          "' --quiet --out '" + (directory / "out").string() + "' --set output.snapshot_every=16";
-  ASSERT_EQ(std::system(run.c_str()), 0);
-  EXPECT_TRUE(audit(directory / "out").confirms());
-  change_a_value(directory / "out" / "solution.h5");
-  const Audit after = audit(directory / "out");
+class AuditedSolution : public Solution {
+ protected:
+  void SetUp() override {
+    std::ofstream(directory / "case.toml") << "[problem]\nname = \"klein_gordon\"\npoints = 8\n[method]\nname = "
+                                              "\"seisav\"\nh = \"1/64\"\n[time]\nend = 1.0\n";
+    const std::string run = "'" + test::program_path() + "' run '" + (directory / "case.toml").string() +
+                            "' --quiet --out '" + out().string() + "' --set output.snapshot_every=16";
+    ASSERT_EQ(std::system(run.c_str()), 0);
+    ASSERT_TRUE(audit(out()).confirms());
+    whole_ = text("out/solution.h5");
+  }
+  fs::path out() const { return directory / "out"; }
+  fs::path solution() const { return out() / "solution.h5"; }
+  void restore() const { std::ofstream(solution(), std::ios::binary) << whole_; }
+  int exit_of_audit() const {
+    const std::string call =
+        "'" + test::program_path() + "' audit '" + out().string() + "' >'" + (directory / "said").string() + "' 2>&1";
+    return WEXITSTATUS(std::system(call.c_str()));
+  }
+
+ private:
+  std::string whole_;
+};
+
+TEST_F(AuditedSolution, AChangedDigitIsSeen) {
+  change(solution(), "v", [](std::vector<double>& values) { values[values.size() / 2] *= 1 + 1e-8; });
+  const Audit after = audit(out());
   EXPECT_FALSE(after.confirms());
   for (const AuditEntry& entry : after.entries)
     EXPECT_EQ(entry.verdict == AuditEntry::Verdict::contradicted,
               entry.claim.find("state in solution.h5") != std::string::npos)
         << entry.claim;
+}
+
+TEST_F(AuditedSolution, WhatIsNoNumberOrAtNoTimeOfTheRunIsRefuted) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const char* name : {"t", "u", "v", "H", "H_modified"}) {
+    change(solution(), name, [](std::vector<double>& values) { values.back() = nan; });
+    EXPECT_EQ(exit_of_audit(), 1) << name;
+    EXPECT_THAT(text("said"), HasSubstr("nan")) << name;
+    change(solution(), name, [](std::vector<double>& values) { std::fill(values.begin(), values.end(), nan); });
+    EXPECT_EQ(exit_of_audit(), 1) << "all of " << name;
+    restore();
+  }
+  change(solution(), "t", [](std::vector<double>& t) {
+    for (double& one : t) one += 1e-3;
+  });
+  EXPECT_EQ(exit_of_audit(), 1);
+  EXPECT_THAT(text("said"), HasSubstr("none of them at a time of energy.csv"));
+  restore();
+  change(solution(), "t", [](std::vector<double>& t) { std::swap(t[1], t[2]); });
+  EXPECT_EQ(exit_of_audit(), 1);
+  restore();
+  change(solution(), "H_modified", [](std::vector<double>& values) { values[2] *= 1 + 1e-8; });
+  EXPECT_EQ(exit_of_audit(), 1);
+  restore();
+  EXPECT_EQ(exit_of_audit(), 0);
+}
+
+TEST_F(AuditedSolution, WhatIsNoNumberInTheEnergiesIsRefuted) {
+  const std::string rows = text("out/energy.csv");
+  for (const std::size_t row : {std::size_t{1}, std::size_t{30}, std::size_t{65}}) {
+    for (const int column : {0, 1, 2}) {
+      std::istringstream in(rows);
+      std::ofstream changed(out() / "energy.csv");
+      std::string line;
+      for (std::size_t i = 0; std::getline(in, line); ++i) {
+        std::vector<std::string> cells;
+        std::istringstream parts(line);
+        for (std::string cell; std::getline(parts, cell, ',');) cells.push_back(cell);
+        if (i == row) cells[static_cast<std::size_t>(column)] = "nan";
+        changed << cells[0] << ',' << cells[1] << ',' << cells[2] << '\n';
+      }
+      changed.close();
+      EXPECT_EQ(exit_of_audit(), 1) << row << " " << column << text("said");
+    }
+  }
+}
+
+TEST_F(AuditedSolution, AFileThatLeadsElsewhereIsRefused) {
+  fs::copy(solution(), out() / "other.h5");
+  const auto with = [this](const std::function<void(hid_t)>& how) {
+    const hid_t h5 = H5Fopen(solution().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    how(h5);
+    H5Fclose(h5);
+    const int exit = exit_of_audit();
+    restore();
+    return exit;
+  };
+  for (const char* name : {"t", "u", "mesh"}) {
+    EXPECT_EQ(with([&](hid_t h5) {
+                if (H5Lexists(h5, name, H5P_DEFAULT) > 0) H5Ldelete(h5, name, H5P_DEFAULT);
+                H5Lcreate_external("other.h5", name, h5, name, H5P_DEFAULT, H5P_DEFAULT);
+              }),
+              2)
+        << name;
+    EXPECT_THAT(text("said"), HasSubstr(std::string(name) + " in ")) << name;
+    EXPECT_THAT(text("said"), HasSubstr("is a link")) << name;
+  }
+  EXPECT_EQ(with([](hid_t h5) {
+              H5Ldelete(h5, "v", H5P_DEFAULT);
+              H5Lcreate_soft("/u", h5, "v", H5P_DEFAULT, H5P_DEFAULT);
+            }),
+            2);
+  EXPECT_EQ(with([this](hid_t h5) {
+              H5Ldelete(h5, "H", H5P_DEFAULT);
+              const hsize_t rows = 5;
+              const hid_t space = H5Screate_simple(1, &rows, nullptr);
+              const hid_t options = H5Pcreate(H5P_DATASET_CREATE);
+              H5Pset_external(options, (out() / "energy.csv").c_str(), 0, rows * sizeof(double));
+              const hid_t data = H5Dcreate2(h5, "H", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, options, H5P_DEFAULT);
+              ASSERT_GE(data, 0);
+              H5Dclose(data);
+              H5Pclose(options);
+              H5Sclose(space);
+            }),
+            2);
+  EXPECT_THAT(text("said"), HasSubstr("H is stored in another file"));
+}
+
+// Whatever it hits: refused, refuted, or of no consequence to any reader.
+TEST_F(AuditedSolution, DamageThatHdf5CannotReadIsRefused) {
+  std::string damaged = text("out/solution.h5");
+  const std::size_t heap = damaged.find("GCOL");  // texts of attributes
+  ASSERT_NE(heap, std::string::npos);
+  damaged[heap] = 'X';
+  std::ofstream(solution(), std::ios::binary) << damaged;
+  EXPECT_EQ(exit_of_audit(), 2) << text("said");
+  restore();
+  fs::resize_file(solution(), fs::file_size(solution()) / 2);
+  EXPECT_EQ(exit_of_audit(), 2) << text("said");
 }
 
 // A disk that is full, by way of the largest size that the shell allows a file.

@@ -68,6 +68,9 @@ Hdf5Handle flat_space(std::size_t size) {
 Hdf5Dataset::Hdf5Dataset(Hdf5Handle handle, std::string name)
     : handle_(std::move(handle)), name_(std::move(name)), shape_(shape_of(handle_.id())) {
   if (shape_.empty()) throw Error("the HDF5 data set {} is a number and no array", name_);
+  const Hdf5Handle options = hdf5_handle(H5Dget_create_plist(id()), H5Pclose, "an HDF5 data set has no layout");
+  if (H5Pget_external_count(options.id()) != 0 || H5Pget_layout(options.id()) == H5D_VIRTUAL)
+    throw Error("the HDF5 data set {} is stored in another file, and those of a solution are not", name_);
 }
 
 std::uint64_t Hdf5Dataset::row_size() const {
@@ -205,8 +208,20 @@ Hdf5Dataset Hdf5File::make_dataset(const std::string& name, const Hdf5Layout& la
           name};
 }
 
+// A link in a file may lead to any other one that the user may read.
+void Hdf5File::refuse_link(const std::string& name) const {
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    const std::string part = name.substr(0, end);
+    H5L_info_t link = {};
+    if (H5Lget_info(id(), part.c_str(), &link, H5P_DEFAULT) >= 0 && link.type != H5L_TYPE_HARD)
+      throw Error("{} in {} is a link, and no solution has one", part, path_.string());
+    if (end == std::string::npos) return;
+  }
+}
+
 Hdf5Dataset Hdf5File::dataset(const std::string& name) const {
   const Hdf5Quiet quiet;
+  refuse_link(name);
   return {hdf5_handle(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose,
                       fmt::format("there is no {} in {}", name, path_.string())),
           name};
@@ -214,6 +229,7 @@ Hdf5Dataset Hdf5File::dataset(const std::string& name) const {
 
 bool Hdf5File::has(const std::string& name) const {
   const Hdf5Quiet quiet;
+  refuse_link(name);
   return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0;
 }
 

@@ -82,6 +82,9 @@ class Hdf5File {
   Hdf5Dataset make_dataset(const std::string& name, const Hdf5Layout& layout);  // with no row yet; "group/name" works
   Hdf5Dataset dataset(const std::string& name) const;
   bool has(const std::string& name) const;  // a data set or a group
+  // Reads every attribute, and the data sets but those in `elsewhere`, which others read. Throws Error where something
+  // cannot be read, or is a link or stored outside, so that the file is not all there is.
+  void require_whole(const std::vector<std::string>& elsewhere) const;
 
   Hdf5Handle::Id id() const { return handle_.id(); }
   void flush();
@@ -91,6 +94,7 @@ class Hdf5File {
  private:
   explicit Hdf5File(std::filesystem::path path, Hdf5Handle handle);
   static Hdf5File open(const Folder& folder, const std::string& name, bool to_write);
+  void refuse_link(const std::string& name) const;
 
   std::filesystem::path path_;
   Hdf5Handle handle_;
