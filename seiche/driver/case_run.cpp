@@ -1,0 +1,261 @@
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/config/data/initial_file.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/driver/case_run.hpp>
+#include <seiche/driver/last_words.hpp>
+#include <seiche/figure/run_report.hpp>
+#include <seiche/law/law.hpp>
+#include <seiche/output/summary.hpp>
+#include <seiche/version.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> lines_of(const std::map<std::string, std::string>& versions) {
+  std::vector<std::string> lines;
+  for (const auto& [name, version] : versions) lines.push_back(fmt::format("{} {}", name, version));
+  return lines;
+}
+
+// What solution.h5 says about itself: under the names of the CF conventions where these have one.
+SolutionDescription description(const RunSpec& spec, const Simulation& simulation,
+                                const std::map<std::string, std::string>& versions) {
+  const ProblemEntry& problem = problem_entry(spec);
+  const MethodEntry& method = simulation.method();
+  return {.meanings = problem.meanings,
+          .texts = {{"title", fmt::format("{} by {}", problem.name, method.name)},
+                    {"source", fmt::format("Seiche {} ({})", version_number, version_commit)},
+                    {"references", fmt::format("{}; {}", problem.reference, method.reference)},
+                    {"comment", "Numbers are in the units of the case, whose equation carries none."},
+                    {"problem", problem.name},
+                    {"equation", problem.equation},
+                    {"method", std::string(method.name)},
+                    {"backend", std::string(simulation.backend().name)},
+                    {"case", case_in_any_folder(spec)},
+                    {"versions", nlohmann::json(versions).dump()}}};
+}
+
+// Of the final.txt of a run, whose summary.json knows it; NaN of any other file.
+double time_of_final_state(const fs::path& file) {
+  nlohmann::json summary;
+  if (file.filename() == "final.txt") {
+    std::ifstream beside(file.parent_path() / "summary.json");
+    summary = nlohmann::json::parse(beside, nullptr, false);
+  }
+  if (!summary.is_object() || !summary.contains("t") || !summary["t"].is_number())
+    return std::numeric_limits<double>::quiet_NaN();
+  return summary["t"].get<double>();
+}
+
+RunPlan plan(const RunSpec& spec, int threads) {
+  RunPlan plan{.simulation = simulation_options(spec),
+               .h = spec.h,
+               .tolerance = spec.tolerance,
+               .h_max = spec.h_max,
+               .t_start = spec.t_start,
+               .t_end = spec.t_end};
+  plan.simulation.backend_options.threads = threads;
+  return plan;
+}
+
+// Drawing takes longer than many runs: the pictures are left to `seiche plot`.
+void write_page(const fs::path& directory, bool ledger) {
+  const EnergyHistory history = ledger ? read_energy_history(directory / "energy.csv") : EnergyHistory{};
+  write_run_report(read_run(directory), history, {});
+}
+
+// For ParaView and for people, unless nobody waits for it any more. Returns why the page could not be written, or "".
+std::string write_for_readers(const Folder& folder, const RunSpec& spec, const SolutionFile& solution,
+                              const std::atomic<bool>* leave, const std::function<void(const std::string&)>& warn,
+                              std::uint64_t& xdmf_every) {
+  if (!folder.has_lock()) return "";  // the run has said so
+  try {
+    solution.settle(leave);
+  } catch (const Error&) {  // what it holds is the same
+  }
+  try {
+    xdmf_every = solution.describe(leave);
+  } catch (const Error& error) {
+    warn(fmt::format("there is no solution.xdmf, and ParaView cannot open the solution: {}", error.what()));
+  }
+  if (!folder.is_at_its_path()) {
+    warn(fmt::format(
+        "there is no report.html, since {} leads to another folder by now; the files are where it led to at the start",
+        folder.path().string()));
+    return "";
+  }
+  if (leave != nullptr && *leave) {
+    warn("stopped before solution.xdmf and report.html were complete; everything else is there");
+    return "";
+  }
+  try {
+    if (spec.report) write_page(folder.path(), spec.ledger);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+CaseRun::CaseRun(RunSpec spec, const Problem& problem, const RunCaseOptions& options, CaseFolder* folder,
+                 Checkpoint* from)
+    : spec_(std::move(spec)),
+      options_(options),
+      versions_(all_versions(options)),
+      problem_(problem.name),
+      run_(problem, plan(spec_, options.threads)),
+      is_modified_(run_.simulation().stepper().has_modified_energy()),
+      from_(from),
+      folder_(folder) {
+  if (from_ != nullptr) {
+    go_on();
+  } else {
+    begin(problem);
+  }
+}
+
+CaseResult CaseRun::result() {
+  const Folder& folder = folder_->folder();
+  Simulation& simulation = run_.simulation();
+  const auto summary = [this](const RunReport& report) { return this->summary(report); };
+  LastWords last_words(folder, simulation, summary);
+  make_files();
+  EnergyTrace& trace = *trace_;
+  SolutionFile& solution = *solution_;
+  if (spec_.ledger) simulation.stepper().keep_ledger();
+  solution.before_writing([&] { trace.flush(); });
+  const auto warn = [this](const std::string& note) {
+    if (options_.warn) options_.warn(note);
+  };
+  keeper_.emplace(folder,
+                  CheckpointKeeper::Options{.when = spec_.checkpoint,
+                                            .asked = options_.save,
+                                            .seconds = 3600 * options_.max_hours,
+                                            .describe = [this](SavedRun& saved) { describe(saved); },
+                                            .warn = warn},
+                  from_ != nullptr ? from_->run.steps : 0);
+  const std::atomic<bool>* leave = nullptr;
+  AtTheEnd hold([&](const RunReport&) { leave = options_.ends ? options_.ends() : nullptr; });
+  AtTheEnd words([&](const RunReport& report) { last_words.write(with_way_on(report)); });
+  std::vector<Observer*> observers = {&hold, &trace, &words, &solution};
+  observers.insert(observers.end(), options_.observers.begin(), options_.observers.end());
+
+  const Resumption resumption{.checkpoints = &*keeper_, .from = from_ != nullptr ? &from_->rest : nullptr};
+  RunReport report = with_way_on(run_.integrate(*stop_, observers, resumption));
+  if (report.status == RunReport::Status::success) remove_checkpoints(folder);
+  last_words.correct(report);
+  // From here on nothing is lost: it can all be had again from the files that are there.
+  std::uint64_t xdmf_every = 1;
+  const std::string failure = write_for_readers(folder, spec_, solution, leave, warn, xdmf_every);
+  if (!failure.empty()) {
+    report.status = RunReport::Status::failed;
+    report.message += "; " + failure;
+    last_words.correct(report);
+  }
+  return {.report = report,
+          .message = with_notes(report).message,
+          .certificate = run_.certificate_after(report),
+          .feeds = simulation.problem().friction ? "" : negative_rate(simulation.problem()),
+          .summary = summary(report),
+          .xdmf_every = xdmf_every};
+}
+
+void CaseRun::begin(const Problem& problem) {
+  spec_.notes.insert(spec_.notes.end(), run_.notes().begin(), run_.notes().end());
+  if (const auto* data = std::get_if<FileData>(&spec_.initial)) {
+    const std::string lost = lost_between_runs(run_.simulation(), spec_.t_start, time_of_final_state(data->file));
+    if (!lost.empty()) spec_.notes.push_back(lost);
+  }
+  notes_ = case_notes(spec_, problem);
+  stop_ = begin_run(options_, notes_);
+  folder_ = &own_folder_.emplace(spec_.output_directory, RunKind::run, spec_, options_.restart);
+  if (spec_.measure_plans) write_file(folder_->folder(), wisdom_name, planning_wisdom());
+}
+
+void CaseRun::go_on() {
+  notes_ = from_->run.notes;
+  std::vector<std::string> said = {
+      fmt::format("going on from {}, t = {:.9g} (step {})", from_->name, from_->run.t, from_->run.steps)};
+  for (const std::string& version : lines_of(versions_))
+    if (std::find(from_->run.versions.begin(), from_->run.versions.end(), version) == from_->run.versions.end())
+      said.push_back(fmt::format("the checkpoint was not written by {}: last bits may differ", version));
+  notes_.insert(notes_.end(), said.begin() + 1, said.end());
+  stop_ = begin_run(options_, said);
+  // What they tell is of a run that had stopped.
+  for (const char* name : {"summary.json", "solution.xdmf"}) remove_file(folder_->folder(), name);
+}
+
+void CaseRun::make_files() {
+  const Folder& folder = folder_->folder();
+  const Simulation& simulation = run_.simulation();
+  const Space& space = *simulation.system().space;
+  const Schedule energy_steps{.every_steps = spec_.energy_every};
+  const SnapshotTimes times{.schedule = {.every_steps = spec_.snapshot_every}, .interval = spec_.snapshot_interval};
+  const SolutionDescription about = description(spec_, simulation, versions_);
+  if (from_ != nullptr) {
+    trace_.emplace(folder, from_->run.energies, is_modified_, energy_steps, spec_.ledger);
+    solution_.emplace(folder, from_->run.solution, simulation.problem(), space, times, is_modified_, about);
+  } else {
+    trace_.emplace(folder, is_modified_, energy_steps, spec_.ledger);
+    solution_.emplace(folder, simulation.problem(), space, times, is_modified_, about);
+  }
+}
+
+void CaseRun::describe(SavedRun& saved) {
+  const State& state = run_.simulation().state();
+  saved = {.versions = lines_of(versions_),
+           .case_text = write_case(spec_),
+           .notes = notes_,
+           .resumed_at = resumed_at(),
+           .t = state.t,
+           .steps = state.n,
+           .energies = trace_->mark(),
+           .solution = solution_->mark()};
+}
+
+RunReport CaseRun::with_way_on(RunReport report) const {
+  if (report.status != RunReport::Status::interrupted) return report;
+  if (keeper_->is_out_of_time()) report.message += fmt::format(", after {:.3g} hours as asked", options_.max_hours);
+  if (keeper_->has_saved())
+    report.message += fmt::format("; `seiche resume {}` goes on from there", folder_->folder().path().string());
+  return report;
+}
+
+RunReport CaseRun::with_notes(RunReport report) const {
+  for (const std::string& note : notes_) report.message += "; " + note;
+  return report;
+}
+
+std::string CaseRun::summary(const RunReport& report) {
+  const Simulation& simulation = run_.simulation();
+  return summary_json({.problem = problem_,
+                       .method = spec_.method,
+                       .backend = std::string(simulation.backend().name),
+                       .h = spec_.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec_.h,
+                       .tolerance = spec_.tolerance,
+                       .certificate = certificate_json(run_.certificate_after(report)),
+                       .versions = versions_,
+                       .resumed_at = resumed_at()},
+                      with_notes(report));
+}
+
+std::vector<double> CaseRun::resumed_at() const {
+  if (from_ == nullptr) return {};
+  std::vector<double> times = from_->run.resumed_at;
+  times.push_back(from_->run.t);
+  return times;
+}
+
+}  // namespace seiche
