@@ -68,6 +68,7 @@ const std::vector<ThirdParty> third_party = {
     {"cln/", {"formula", "config"}},
     {"nlohmann/", {"simulation", "output", "study", "driver", "paper", "cli"}},
     {"hdf5.h", {"output"}},
+    {"openssl/", {"output"}},
     {"CLI/", {"cli"}},
     {"pybind11/", {"python"}},
     {"boost/numeric/odeint", {"study"}},

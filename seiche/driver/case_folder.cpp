@@ -45,6 +45,12 @@ const std::atomic<bool>* begin_run(const RunCaseOptions& options, const std::vec
   return stop != nullptr ? stop : &never;
 }
 
+FileHashes hashes_of(const RunSpec& spec, const std::string& case_text) {
+  FileHashes hashes = {{"case.toml", sha256(case_text)}};
+  for (const std::filesystem::path& file : input_files(spec)) hashes[file.string()] = sha256_of_file(file);
+  return hashes;
+}
+
 std::map<std::string, std::string> all_versions(const RunCaseOptions& options) {
   std::map<std::string, std::string> all = versions_in_use();
   all.insert(options.versions.begin(), options.versions.end());

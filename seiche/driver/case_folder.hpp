@@ -4,6 +4,7 @@
 #include <seiche/driver/run_case.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/folder_lock.hpp>
+#include <seiche/output/file/sha256.hpp>
 #include <seiche/output/run_folder.hpp>
 
 #include <atomic>
@@ -34,6 +35,8 @@ void require_no_checkpoint(const std::filesystem::path& path);
 
 // Calls options.begins with the notes; its flag, or one that nobody sets.
 const std::atomic<bool>* begin_run(const RunCaseOptions& options, const std::vector<std::string>& notes);
+// Of the text of case.toml, and of the files that the case names.
+FileHashes hashes_of(const RunSpec& spec, const std::string& case_text);
 std::map<std::string, std::string> all_versions(const RunCaseOptions& options);
 
 }  // namespace seiche

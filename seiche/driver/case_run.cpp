@@ -179,6 +179,8 @@ void CaseRun::begin(const Problem& problem) {
     if (!lost.empty()) spec_.notes.push_back(lost);
   }
   notes_ = case_notes(spec_, problem);
+  case_text_ = write_case(spec_);
+  hashes_ = hashes_of(spec_, case_text_);
   stop_ = begin_run(options_, notes_);
   folder_ = &own_folder_.emplace(spec_.output_directory, RunKind::run, spec_, options_.restart);
   if (spec_.measure_plans) write_file(folder_->folder(), wisdom_name, planning_wisdom());
@@ -186,6 +188,8 @@ void CaseRun::begin(const Problem& problem) {
 
 void CaseRun::go_on() {
   notes_ = from_->run.notes;
+  case_text_ = from_->run.case_text;
+  hashes_ = from_->run.hashes;
   std::vector<std::string> said = {
       fmt::format("going on from {}, t = {:.9g} (step {})", from_->name, from_->run.t, from_->run.steps)};
   for (const std::string& version : lines_of(versions_))
@@ -216,7 +220,8 @@ void CaseRun::make_files() {
 void CaseRun::describe(SavedRun& saved) {
   const State& state = run_.simulation().state();
   saved = {.versions = lines_of(versions_),
-           .case_text = write_case(spec_),
+           .case_text = case_text_,
+           .hashes = hashes_,
            .notes = notes_,
            .resumed_at = resumed_at(),
            .t = state.t,
@@ -247,7 +252,9 @@ std::string CaseRun::summary(const RunReport& report) {
                        .tolerance = spec_.tolerance,
                        .certificate = certificate_json(run_.certificate_after(report)),
                        .versions = versions_,
-                       .resumed_at = resumed_at()},
+                       .resumed_at = resumed_at(),
+                       .threads = options_.threads,
+                       .hashes = hashes_},
                       with_notes(report));
 }
 

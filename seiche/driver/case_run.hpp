@@ -47,6 +47,8 @@ class CaseRun {
   PreparedRun run_;
   bool is_modified_;
   std::vector<std::string> notes_;
+  std::string case_text_;  // of case.toml
+  FileHashes hashes_;
   const std::atomic<bool>* stop_ = nullptr;
   Checkpoint* from_;  // null: from the start
   CaseFolder* folder_;

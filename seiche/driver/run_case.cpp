@@ -38,7 +38,11 @@ CaseResult resume_case(const fs::path& folder, std::optional<double> t_end, cons
   if (t_end) spec.t_end = *t_end;
   if (spec.t_end < from.run.t)
     throw Error("t = {:.9g} is before the checkpoint, which is at t = {:.9g}", spec.t_end, from.run.t);
-  if (t_end) write_file(case_folder.folder(), "case.toml", write_case(spec));
+  if (t_end) {  // a case of its own from here on
+    from.run.case_text = write_case(spec);
+    from.run.hashes["case.toml"] = sha256(from.run.case_text);
+    write_file(case_folder.folder(), "case.toml", from.run.case_text);
+  }
   if (spec.measure_plans) use_planning_wisdom(text_of(folder / CaseRun::wisdom_name));
   const Problem problem = make_problem(spec);
   return CaseRun(std::move(spec), problem, options, &case_folder, &from).result();

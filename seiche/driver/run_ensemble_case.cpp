@@ -1,3 +1,4 @@
+#include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/driver/case_folder.hpp>
@@ -29,7 +30,7 @@ Json statistics_json(const Statistics& s) {
 
 std::string summary(const RunSpec& spec, const std::string& backend, const EnsembleResult& result,
                     const EnsembleOutcome& outcome, const StatisticsFile& energies, bool has_modified,
-                    const Certificate& certificate, const std::map<std::string, std::string>& versions) {
+                    const Certificate& certificate, const RunCaseOptions& options, const FileHashes& hashes) {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::int64_t fallbacks = 0;
@@ -46,7 +47,7 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
                                     : Json(nullptr);
   energy["law"] = outcome.law().empty() ? Json(nullptr) : Json(outcome.law());
   Json about = Json::object();
-  for (const auto& [name, version] : versions) about[name] = version;
+  for (const auto& [name, version] : all_versions(options)) about[name] = version;
   const Json json = {
       {"status", to_string(outcome.status())},
       {"message", outcome.message},
@@ -64,7 +65,9 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
       {"counts", {{"scalar_iterations", iterations}, {"fallbacks", fallbacks}, {"replaced", replaced}}},
       {"wall_seconds", result.wall_seconds},
       {"certificate", Json::parse(certificate_json(certificate))},
-      {"versions", about}};
+      {"versions", about},
+      {"threads", options.threads},
+      {"sha256", hashes}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -116,6 +119,7 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
                                                     .sample_solution = false});
   std::vector<std::string> notes = notes_on(members, *simulation, spec);
   if (std::string note = note_on_threads(options.threads); !note.empty()) notes.push_back(std::move(note));
+  const FileHashes hashes = hashes_of(spec, write_case(spec));
   const std::atomic<bool>& stop = *begin_run(options, notes);
   const CaseFolder case_folder(directory, RunKind::ensemble, spec, options.restart);
   const Folder& folder = case_folder.folder();
@@ -149,7 +153,7 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
   const std::string backend =
       spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
   const auto summarised = [&] {
-    return summary(spec, backend, result, outcome, energies, has_modified, certificate, all_versions(options));
+    return summary(spec, backend, result, outcome, energies, has_modified, certificate, options, hashes);
   };
   reserve.release();
   attempt([&] { write_file(folder, "summary.json", summarised()); });

@@ -5,6 +5,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -28,7 +29,15 @@ std::string complaint(const Folder& folder, const SavedRun& run) {
 
 }  // namespace
 
-void SavedRun::archive(Archive& a) { a(versions, case_text, notes, resumed_at, t, steps, energies, solution); }
+void SavedRun::archive(Archive& a) {
+  std::vector<std::string> files, sums;
+  for (const auto& [file, sum] : hashes) {
+    files.push_back(file);
+    sums.push_back(sum);
+  }
+  a(versions, case_text, files, sums, notes, resumed_at, t, steps, energies, solution);
+  for (std::size_t i = 0; i < std::min(files.size(), sums.size()); ++i) hashes[files[i]] = sums[i];
+}
 
 std::string checkpoint_bytes(const Archive& archive) {
   const Head head{.length = archive.bytes().size(), .checksum = checksum(archive.bytes())};

@@ -4,6 +4,7 @@
 #include <seiche/core/control/archive.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/file/folder.hpp>
+#include <seiche/output/file/sha256.hpp>
 #include <seiche/output/solution_file.hpp>
 
 #include <cstdint>
@@ -20,6 +21,7 @@ inline constexpr const char* earlier_checkpoint_name = "checkpoint_prev.seiche";
 struct SavedRun {
   std::vector<std::string> versions;  // what computed it, "compiler GNU 12.2.0": others may round another way
   std::string case_text;              // as case.toml
+  FileHashes hashes;                  // of that, and of the files that it names
   std::vector<std::string> notes;     // what was said before the first step
   std::vector<double> resumed_at;     // times at which it had gone on from a checkpoint itself
   double t = 0.0;

@@ -47,6 +47,8 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                     {"halved", report.halved}}},
                   {"wall_seconds", number(report.wall_seconds)},
                   {"versions", versions}};
+  if (run.threads > 0) summary["threads"] = run.threads;
+  if (!run.hashes.empty()) summary["sha256"] = run.hashes;
   if (!run.resumed_at.empty()) summary["resumed_at"] = run.resumed_at;
   if (!run.certificate.empty()) summary["certificate"] = Json::parse(run.certificate);
   if (run.tolerance) {

@@ -3,6 +3,7 @@
 
 #include <seiche/core/run_report.hpp>
 #include <seiche/output/file/folder.hpp>
+#include <seiche/output/file/sha256.hpp>
 
 #include <map>
 #include <optional>
@@ -20,6 +21,8 @@ struct RunIdentity {
   std::string certificate = {};  // a JSON document: which hypotheses of the energy law are met, or "" for none
   std::map<std::string, std::string> versions = {};
   std::vector<double> resumed_at = {};  // times of checkpoints from which it went on
+  int threads = 0;                      // 0: not told
+  FileHashes hashes = {};               // of case.toml, and of the files that it names
 };
 
 // A number that is not finite becomes null, since JSON has no NaN; so does `modified` for a method that has none.

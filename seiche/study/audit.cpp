@@ -1,6 +1,8 @@
 #include <seiche/config/case/case_file.hpp>
+#include <seiche/config/case/case_value.hpp>
 #include <seiche/config/data/initial_file.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/output/csv_table.hpp>
 #include <seiche/output/run_folder.hpp>
@@ -38,7 +40,8 @@ Json summary_of(const std::filesystem::path& file) {
 
 class Auditor {
  public:
-  Auditor(const std::filesystem::path& directory, RunSpec spec)
+  // `lost`: the initial file, in whose place the spec has another one, where it is no longer there.
+  Auditor(const std::filesystem::path& directory, RunSpec spec, const std::string& lost)
       : directory_(directory),
         spec_(std::move(spec)),
         problem_(make_problem(spec_)),
@@ -48,10 +51,16 @@ class Auditor {
         t_(energy_.column("t")),
         H_(energy_.column("H")) {
     for (const double H : H_) largest_ = std::max(largest_, std::abs(H));
+    if (!lost.empty()) begin_with_first_state(lost);
     const EnergyTerms start = energies_.of(problem_.initial);
     round_off_ = std::max(start.round_off(), 50 * epsilon * largest_);  // H may grow, where it is driven
-    book_.compare("H at the start is that of the initial data in case.toml", start.sum(), H_.front(),
-                  start.round_off());
+    book_.compare_hashes(directory, hashes_in(directory / "summary.json"));
+    const std::string claim = "H at the start is that of the initial data in case.toml";
+    if (lost.empty()) {
+      book_.compare(claim, start.sum(), H_.front(), start.round_off());
+    } else {
+      book_.add(claim, Verdict::not_checked, fmt::format("{} is no longer there", shortened_path(lost)));
+    }
   }
 
   Audit run() {
@@ -66,6 +75,13 @@ class Auditor {
   }
 
  private:
+  void begin_with_first_state(const std::string& lost) {
+    spec_.initial = FileData{lost};
+    const SolutionReader solution(directory_ / "solution.h5");
+    if (static_cast<Index>(solution.fields().size()) * solution.points() == problem_.size() && solution.count() > 0)
+      solution.state(0, problem_.initial);
+  }
+
   // Files of two runs in one folder are no evidence of either.
   void origin() {
     std::vector<std::string> differences;
@@ -306,6 +322,19 @@ class Auditor {
   AuditBook book_;
 };
 
+// The case of a run; where its initial file is no longer there, `lost` is the name of that, and final.txt in its place.
+RunSpec case_of_run(const std::filesystem::path& directory, std::string& lost) {
+  try {
+    return read_case(directory / "case.toml");
+  } catch (const Error&) {
+    for (const auto& [file, hash] : hashes_in(directory / "summary.json"))
+      if (file != "case.toml" && !std::filesystem::exists(file)) lost = file;
+    if (lost.empty()) throw;
+  }
+  const std::string stand_in = toml_string(std::filesystem::absolute(directory / "final.txt").string());
+  return read_case(directory / "case.toml", {fmt::format("problem.initial={{file={}}}", stand_in)});
+}
+
 }  // namespace
 
 bool Audit::confirms() const {
@@ -320,8 +349,9 @@ bool Audit::confirms() const {
 Audit audit(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
   require_recovered(directory);
-  RunSpec spec = read_case(directory / "case.toml");
-  return spec.ensemble ? audit_ensemble(directory, spec) : Auditor(directory, std::move(spec)).run();
+  std::string lost;
+  RunSpec spec = case_of_run(directory, lost);
+  return spec.ensemble ? audit_ensemble(directory, spec) : Auditor(directory, std::move(spec), lost).run();
 }
 
 std::string to_string(AuditEntry::Verdict verdict) {

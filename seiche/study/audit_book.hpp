@@ -4,6 +4,7 @@
 #include <seiche/config/case/run_spec.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/system.hpp>
+#include <seiche/output/file/sha256.hpp>
 #include <seiche/study/audit.hpp>
 
 #include <filesystem>
@@ -22,11 +23,17 @@ class AuditBook {
   // Confirmed where two numbers lie no further apart than `allowed`; with evidence.
   void compare(std::string claim, double recomputed, double written, double allowed);
 
+  // case.toml, and the files that it names, against the SHA-256 in summary.json.
+  void compare_hashes(const std::filesystem::path& directory, const FileHashes& written);
+
   Audit audit() const { return audit_; }
 
  private:
   Audit audit_;
 };
+
+// "sha256" of the summary of a run, or of an ensemble; none where it has none, or cannot be read.
+FileHashes hashes_in(const std::filesystem::path& summary);
 
 // H of physical states, by a backend of its own.
 class RecomputedEnergy {

@@ -108,6 +108,7 @@ class EnsembleAuditor {
         finals_(read_finals(directory / "finals.csv")),
         energy_(CsvTable::read(directory / "energy.csv")),
         summary_(summary_of(directory / "summary.json")) {
+    book_.compare_hashes(directory, hashes_in(directory / "summary.json"));
     if (table_.rows() != members_.list.size())
       throw Error("{} has {} rows and case.toml {} members", (directory / "members.csv").string(), table_.rows(),
                   members_.list.size());

@@ -8,7 +8,22 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <fstream>
+
 namespace seiche {
+namespace {
+
+// As the system calls it; "unknown" where it does not.
+std::string processor() {
+  std::ifstream about("/proc/cpuinfo");
+  for (std::string line; std::getline(about, line);) {
+    const std::size_t value = line.find(": ");
+    if (line.starts_with("model name") && value != std::string::npos) return line.substr(value + 2);
+  }
+  return "unknown";
+}
+
+}  // namespace
 
 std::map<std::string, std::string> versions_in_use() {
   std::map<std::string, std::string> all = backend_library_versions();
@@ -17,6 +32,8 @@ std::map<std::string, std::string> versions_in_use() {
   all["seiche"] = version_number;
   all["git"] = version_commit;
   all["compiler"] = version_compiler;
+  all["compiler_flags"] = version_flags;
+  all["processor"] = processor();
   all["build_type"] = version_build_type;
   all["instruction_set"] = instruction_set();  // of the hot loops; FFTW chooses its own
   all["fmt"] = fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);

@@ -1,4 +1,5 @@
-// Which Seiche computes: its number and commit, what compiled it, its libraries, and the instruction set in use.
+// Which Seiche computes, and on what: its number and commit, what compiled it with which flags, its libraries, the
+// processor, and the instruction set in use.
 #pragma once
 
 #include <map>

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <seiche/output/file/sha256.hpp>
 
 #include <csignal>
 #include <filesystem>
@@ -107,6 +108,21 @@ TEST_F(CheckpointCli, IsNotRemovedByAnotherRun) {
   EXPECT_EQ(seiche("resume out --quiet").exit, 0);
   expect_whole();
   EXPECT_EQ(seiche("resume out").exit, 2) << "that run has come to its end";
+}
+
+TEST_F(CheckpointCli, KeepsTheHashesOfItsFirstFiles) {
+  const std::string first = "1 1 1 1 0 0 0 0\n0 0 0 0 0 0 0 0\n";
+  write("z.txt", first);
+  const std::string more = " 'problem.initial={file=\"z.txt\"}'";
+  ASSERT_EQ(seiche("run case.toml --out out --quiet --max-hours 1e-9 --set " + keys() + more).exit, 130)
+      << text("stderr.txt");
+  write("z.txt", "0.5 1 1 1 0 0 0 0\n0 0 0 0 0 0 0 0\n");
+  ASSERT_EQ(seiche("resume out --quiet").exit, 0) << text("stderr.txt");
+  const json summary = json::parse(text("out/summary.json"));
+  EXPECT_EQ(summary["sha256"][fs::canonical(directory / "z.txt").string()], sha256(first));
+  EXPECT_EQ(summary["sha256"]["case.toml"], sha256(text("out/case.toml")));
+  EXPECT_EQ(seiche("audit out").exit, 1);
+  EXPECT_THAT(text("stdout.txt"), HasSubstr("z.txt has changed"));
 }
 
 TEST_F(CheckpointCli, EndsARunThatHasUsedItsHours) {

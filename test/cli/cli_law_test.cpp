@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <seiche/output/file/sha256.hpp>
 #include <seiche/output/solution_reader.hpp>
 
 #include <algorithm>
@@ -24,6 +25,44 @@ using Result = Cli::Result;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
+
+TEST_F(Cli, ARunTellsWhatComputedItAndFromWhichBytes) {
+  write("z.txt", "0.5 0\n");
+  write(
+      "case.toml",
+      "[problem]\nname = \"oscillator\"\npoints = 1\ninitial = { file = \"z.txt\" }\n[method]\nname = \"seisav\"\nh = \"1/64\"\n"
+      "[time]\nend = 1.0\n");
+  for (const std::string more : {"", "[ensemble]\nmembers = 2\nperturb_initial = 0.1\n"}) {
+    write("case.toml", text("case.toml") + more);
+    ASSERT_EQ(seiche("run case.toml --out out --quiet --threads 2").exit, 0) << text("stderr.txt");
+    const json summary = json::parse(text("out/summary.json"));
+    EXPECT_EQ(summary["threads"], 2);
+    EXPECT_FALSE(summary["versions"]["processor"].get<std::string>().empty());
+    EXPECT_TRUE(summary["versions"].contains("compiler_flags"));
+    const std::string z = fs::canonical(directory / "z.txt").string();
+    EXPECT_EQ(summary["sha256"]["case.toml"], sha256(text("out/case.toml")));
+    EXPECT_EQ(summary["sha256"][z], sha256("0.5 0\n")) << summary["sha256"].dump();
+    EXPECT_EQ(summary["sha256"].size(), 2U);
+    EXPECT_EQ(seiche("audit out").exit, 0) << text("stdout.txt");
+
+    write("z.txt", "0.5 0 \n");  // the same numbers
+    const Result changed = seiche("audit out");
+    EXPECT_EQ(changed.exit, 1);
+    EXPECT_THAT(changed.out, HasSubstr("z.txt has changed"));
+    if (more.empty()) {
+      fs::remove(directory / "z.txt");
+      const Result missing = seiche("audit out");
+      EXPECT_EQ(missing.exit, 0) << missing.out << missing.err;
+      EXPECT_THAT(missing.out, HasSubstr("no longer there"));
+    }
+    write("z.txt", "0.5 0\n");
+    write("out/case.toml", text("out/case.toml") + "# a comment\n");
+    const Result edited = seiche("audit out");
+    EXPECT_EQ(edited.exit, 1);
+    EXPECT_THAT(edited.out, HasSubstr("case.toml has changed"));
+    write("out/case.toml", text("out/case.toml").substr(0, text("out/case.toml").size() - 12));
+  }
+}
 
 TEST_F(Cli, ALawThatIsNotPromisedIsSaidWithTheReason) {
   write_case("gamma = -0.1");

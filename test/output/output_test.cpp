@@ -6,6 +6,7 @@
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/file/reserve_file.hpp>
+#include <seiche/output/file/sha256.hpp>
 #include <seiche/output/final_state.hpp>
 #include <seiche/output/progress.hpp>
 #include <seiche/output/summary.hpp>
@@ -271,6 +272,20 @@ TEST(Summary, HasTheKeysOfTheInterfaceInTheirOrder) {
       R"({"gradients":0,"potentials":0,"scalar_iterations":0,"fallbacks":0,"replaced":0,"widened":0,"halved":0})");
   EXPECT_EQ(json["h"], 0.00390625);
   EXPECT_EQ(json["message"], "said \"so\"\n");
+}
+
+TEST_F(Output, ASha256IsThatOfSha256sum) {
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");  // FIPS 180-4
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  std::string bytes;
+  for (int i = 0; i < 300000; ++i) bytes.push_back(static_cast<char>(i * i % 251));
+  write_file(directory / "bytes", bytes);
+  EXPECT_EQ(sha256_of_file(directory / "bytes"), sha256(bytes));
+  const std::string call =
+      "cd '" + directory.string() + "' && command -v sha256sum >where && sha256sum bytes >sum 2>/dev/null";
+  if (std::system(call.c_str()) != 0) GTEST_SKIP() << "no sha256sum";
+  EXPECT_EQ(lines("sum").front(), sha256(bytes) + "  bytes");
+  EXPECT_THAT(error_of([&] { sha256_of_file(directory / "none"); }), HasSubstr("none cannot be read"));
 }
 
 TEST(Summary, NotANumberBecomesNullSoThatEveryReaderOfJsonAcceptsIt) {

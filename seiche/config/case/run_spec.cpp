@@ -110,6 +110,20 @@ SimulationOptions simulation_options(const RunSpec& spec) {
           .duration = spec.duration()};
 }
 
+std::vector<std::filesystem::path> input_files(const RunSpec& spec) {
+  std::vector<std::filesystem::path> all;
+  if (const auto* data = std::get_if<FileData>(&spec.initial)) all.push_back(data->file);
+  for (const Parameter& parameter : problem_entry(spec).parameters) {
+    if (parameter.kind != ParameterKind::matrix) continue;
+    const auto text = spec.parameter_texts.find(parameter.name);
+    if (text != spec.parameter_texts.end() && !text->second.empty()) all.emplace_back(text->second);
+  }
+  if (spec.ensemble) all.insert(all.end(), spec.ensemble->files.begin(), spec.ensemble->files.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 std::vector<std::string> case_notes(const RunSpec& spec, const Problem& problem) {
   std::vector<std::string> all = spec.notes;
   if (spec.h_is_default) all.insert(all.begin(), fmt::format("h = {} (default)", problem_entry(spec).default_h));

@@ -91,6 +91,9 @@ Problem make_problem(const RunSpec& spec);
 
 SimulationOptions simulation_options(const RunSpec& spec);
 
+// Those that the case names: initial states and matrices, each once.
+std::vector<std::filesystem::path> input_files(const RunSpec& spec);
+
 // What the case and the problem have to say before a run, and a step size that nobody asked for.
 std::vector<std::string> case_notes(const RunSpec& spec, const Problem& problem);
 
