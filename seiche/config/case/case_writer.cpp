@@ -164,7 +164,7 @@ std::string write_case(const RunSpec& spec) {
 }
 
 std::string case_in_any_folder(RunSpec spec) {
-  spec.output_directory = ".";
+  spec.output_directory = std::string(".");  // GCC 12 sees an overflow in the assignment of a literal
   if (auto* data = std::get_if<FileData>(&spec.initial)) data->file = data->file.filename();
   for (const Parameter& parameter : problem_entry(spec).parameters)
     if (const auto text = spec.parameter_texts.find(parameter.name);
