@@ -72,8 +72,9 @@ void print(const RunArguments& arguments, const std::string& directory, const Ca
       print_lines(fmt::format("{:<10} {}\n", "theorem", result.certificate.theorem));
     print_lines(fmt::format("{:<10} {}\n", "files", directory));
     if (result.xdmf_every > 1)
-      print_lines(fmt::format("{:<10} one of {} times, so that it stays small: `seiche plot {} --xdmf` shows all\n",
-                              "ParaView", result.xdmf_every, directory));
+      print_lines(
+          fmt::format("{:<10} one time in {}, so that the file stays small: `seiche plot {} --xdmf` shows all\n",
+                      "ParaView", result.xdmf_every, directory));
     // Again, where a reader's eye ends.
     if (report.drift) print_note(fmt::format("{}, and what came out may be inaccurate", report.drift->text()));
     if (report.replaced.count > 0)

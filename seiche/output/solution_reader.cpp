@@ -1,7 +1,13 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/solution_reader.hpp>
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <iterator>
 #include <sstream>
 
@@ -128,6 +134,28 @@ void SolutionReader::field(Index field, Index k, Vector& values) const {
   values.resize(points_);
   data_[static_cast<std::size_t>(field)].read(static_cast<std::uint64_t>(k),
                                               {values.data(), static_cast<std::size_t>(points_)});
+}
+
+void require_readable(const std::filesystem::path& solution) {
+  constexpr int whole = 0, damaged = 3;
+  const ::pid_t child = ::fork();
+  if (child < 0) return;  // then without
+  if (child == 0) {
+    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
+    const ::rlimit no_core = {0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    try {
+      SolutionReader(solution).require_whole();
+    } catch (...) {
+      ::_exit(damaged);
+    }
+    ::_exit(whole);
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return;
+  if (!WIFEXITED(status) || (WEXITSTATUS(status) != whole && WEXITSTATUS(status) != damaged))
+    throw Error("{} is damaged: HDF5 itself breaks down over it", solution.string());
 }
 
 void cut_solution(const Folder& folder, const std::string& name) {

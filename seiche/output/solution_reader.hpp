@@ -61,6 +61,10 @@ class SolutionReader {
   Index count_ = 0;
 };
 
+// Damage of a kind that HDF5 does not expect, such as a text of endless length, ends the program that reads it: another
+// one does so first. Throws Error where it ended; what HDF5 finds to be wrong by itself, it says again.
+void require_readable(const std::filesystem::path& solution);
+
 // So that readers that know nothing of this find the same number of rows everywhere.
 void cut_solution(const Folder& folder, const std::string& name);
 

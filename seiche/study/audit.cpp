@@ -349,6 +349,7 @@ bool Audit::confirms() const {
 Audit audit(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
   require_recovered(directory);
+  if (std::filesystem::exists(directory / "solution.h5")) require_readable(directory / "solution.h5");
   std::string lost;
   RunSpec spec = case_of_run(directory, lost);
   return spec.ensemble ? audit_ensemble(directory, spec) : Auditor(directory, std::move(spec), lost).run();
