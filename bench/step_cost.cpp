@@ -57,8 +57,8 @@ void step_cost(benchmark::State& state, const Problem& problem, const std::strin
   state.counters["step/own"] = cost.step / cost.transforms;
 }
 
-// A step of seisav, four transforms and a triad in turns, on a grid that is periodic along every axis: nanoseconds per
-// point, and the ratio of the step to its own transforms and to those of FFTW.
+// A step of seisav by both predictors, four transforms and a triad in turns, on a grid that is periodic along every axis:
+// nanoseconds per point, and the ratios to the transforms that a step takes, and to four.
 void floor_cost(benchmark::State& state, const Problem& problem, int threads) {
   const double per_point = 1e9 / static_cast<double>(problem.grid.unknowns());
   seiche::bench::Floor floor;
@@ -70,8 +70,11 @@ void floor_cost(benchmark::State& state, const Problem& problem, int threads) {
   state.counters["own_FFTs"] = floor.transforms * per_point;
   state.counters["FFTW"] = floor.fftw * per_point;
   state.counters["triad"] = floor.triad * per_point;
-  state.counters["step/own"] = floor.step / floor.transforms;
-  state.counters["step/FFTW"] = floor.step / floor.fftw;
+  state.counters["by_gradient"] = floor.by_gradient * per_point;
+  state.counters["step/two"] = 2 * floor.step / floor.transforms;
+  state.counters["step/four"] = floor.step / floor.transforms;
+  state.counters["by_gradient/four"] = floor.by_gradient / floor.transforms;
+  state.counters["step/by_gradient"] = floor.step / floor.by_gradient;
 }
 
 std::string joined(const Points& points, const char* separator) {

@@ -60,6 +60,7 @@ double transforms_per_step(const Problem& problem, const std::string& method, do
   Problem counted = problem;
   counted.potential = std::make_shared<CountingPotential>(problem.potential, points);
   Simulation simulation(counted, {.method = method, .backend = "modal"});
+  for (int n = 0; n <= MidpointMemory::depth; ++n) simulation.step(h);
   points = 0;  // what it took to begin
   for (int n = 0; n < steps; ++n)
     if (!simulation.step(h).solved()) throw Error("a step of {} failed", method);

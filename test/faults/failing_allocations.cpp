@@ -1,5 +1,5 @@
-// To be loaded before a program (LD_PRELOAD): from main on, the n-th allocation of memory fails, as where there is no more
-// of it. By the environment: SEICHE_FAIL_ALLOCATION is n, from 1; with SEICHE_FAIL_FOREVER all behind it fail too;
+// To be loaded before a program (LD_PRELOAD): from main on, the n-th allocation of memory fails, as where there is no
+// more of it. By the environment: SEICHE_FAIL_ALLOCATION is n, from 1; with SEICHE_FAIL_FOREVER all behind it fail too;
 // SEICHE_ALLOCATIONS names a file that gets the number of allocations when the program ends.
 #include <dlfcn.h>
 #include <unistd.h>
