@@ -29,8 +29,9 @@ KrylovTrajectory::KrylovTrajectory(const SparseMatrix& L)
 
 void KrylovTrajectory::reserve(Index forces, std::size_t outputs) {
   if (passed_.size() < outputs) passed_.resize(outputs, Vector(most_columns + 1));
-  if (V_.rows() >= unknowns() + forces) return;
-  V_.resize(unknowns() + forces, most_columns + 1);
+  if (tail_.size() >= forces && V_.rows() > 0) return;
+  constexpr Index aligned = 8;  // so that sums over columns are made the same way, whatever was reserved before
+  V_.resize((unknowns() + forces + aligned - 1) / aligned * aligned, most_columns + 1);
   w_.resize(unknowns() + forces);
   tail_.resize(forces);
 }
@@ -38,14 +39,14 @@ void KrylovTrajectory::reserve(Index forces, std::size_t outputs) {
 // The first vector of the basis: w at σ, whose tail is known exactly. Returns its norm.
 double KrylovTrajectory::begin(const Equation& equation, double sigma) {
   double power = equation.unit;  // unit · σᵏ/k!
-  w_.tail(w_.size() - unknowns()).setZero();
+  rows_ = unknowns() + equation.B.cols();
   for (Index k = 0; k < equation.B.cols(); ++k) {
     w_[unknowns() + k] = power;
     power *= sigma / static_cast<double>(k + 1);
   }
   flow_.clear();
-  const double norm = w_.norm();
-  if (norm > 0) V_.col(0) = w_ / norm;
+  const double norm = w_.head(rows_).norm();
+  if (norm > 0) V_.col(0).head(rows_) = w_.head(rows_) / norm;
   return norm;
 }
 
@@ -54,8 +55,8 @@ double KrylovTrajectory::begin(const Equation& equation, double sigma) {
 double KrylovTrajectory::append(const Equation& equation) {
   const Index n = unknowns();
   const Index m = flow_.columns() + 1;
-  const auto last = V_.col(m - 1);
-  auto next = V_.col(m);
+  const auto last = V_.col(m - 1).head(rows_);
+  auto next = V_.col(m).head(rows_);
   next.head(n).noalias() = L_ * last.head(n);
   next.head(n) *= equation.x;
   next.tail(next.size() - n).setZero();
@@ -71,8 +72,8 @@ double KrylovTrajectory::append(const Equation& equation) {
   double rest = whole;
   for (int pass = 0; pass == 0 || (pass == 1 && rest < before / 2); ++pass) {  // twice is enough
     before = rest;
-    products_.head(m).noalias() = V_.leftCols(m).transpose() * next;
-    next.noalias() -= V_.leftCols(m) * products_.head(m);
+    products_.head(m).noalias() = V_.topLeftCorner(rows_, m).transpose() * next;
+    next.noalias() -= V_.topLeftCorner(rows_, m) * products_.head(m);
     column_.head(m) += products_.head(m);
     rest = next.norm();
   }
@@ -150,7 +151,7 @@ void KrylovTrajectory::integrate(double x, const Vector* z, const Eigen::MatrixX
     outputs = outputs.subspan(walked.outputs);
     if (outputs.empty()) return;
     sigma += walked.length;
-    w_.noalias() = norm * (V_.leftCols(flow_.columns() + 1) * end_.head(flow_.columns() + 1));
+    w_.head(rows_).noalias() = norm * (V_.topLeftCorner(rows_, flow_.columns() + 1) * end_.head(flow_.columns() + 1));
   }
 }
 

@@ -52,7 +52,8 @@ class KrylovTrajectory {
   Eigen::SparseMatrix<double, Eigen::RowMajor> L_;
   Vector scales_;
   HessenbergFlow flow_;
-  Eigen::MatrixXd V_;           // the basis
+  Eigen::MatrixXd V_;           // the basis, in the first rows_
+  Index rows_ = 0;              // of the equation at hand: one more for each power of σ of the force
   std::vector<Vector> passed_;  // coordinates of outputs
   Vector w_, end_, column_, products_, tail_;
 };
