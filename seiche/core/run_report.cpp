@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace seiche {
 namespace {
 
@@ -103,6 +105,15 @@ std::vector<std::string> RunReport::remarks() const {
   std::vector<std::string> all = {remark_on_replaced(), remark_on_halved(), remark_on_drift()};
   std::erase(all, "");
   return all;
+}
+
+std::string RunReport::remark_on_parting() const {
+  if (!has_modified_energy || drift) return "";
+  const double apart = energy.final - modified.final;
+  const double share = std::abs(apart) / std::abs(energy.initial);
+  if (!(share > 1e-3)) return "";
+  return fmt::format("at the end H is {:.3g} {} the modified energy that the law is about, {:.2g} % of where H began",
+                     std::abs(apart), apart > 0 ? "above" : "below", 100 * share);
 }
 
 std::string RunReport::brief() const {

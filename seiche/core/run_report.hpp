@@ -72,6 +72,7 @@ struct RunReport {
   std::int64_t rejected = 0;        // steps tried and taken back, with variable steps
   std::vector<double> events = {};  // times at which events were met
   double wall_seconds = 0.0;
+  bool step_failed = false;  // what ended the run: a step, or a state that is not finite, and no file
 
   // Steps that were replaced: how many, why, what that means and what helps; "" where there are none.
   std::string remark_on_replaced() const;
@@ -82,6 +83,9 @@ struct RunReport {
   std::string remark_on_widened() const;  // what h does not resolve of the linear flow, which costs no accuracy; or ""
   std::string remark_on_halved() const;   // what it does not resolve of the rest; or ""
   std::string remark_on_drift() const;    // what H did that no solution does, and what helps; "" where it did not
+  // How far the auxiliary variable has taken H from the modified energy, where that is more than a thousandth and less
+  // than a drift; else "".
+  std::string remark_on_parting() const;
   std::vector<std::string> remarks() const;  // but for the widened: what nobody should miss
   std::string brief() const;                 // one line
   std::string full() const;                  // a paragraph for a terminal

@@ -231,6 +231,11 @@ void CaseRun::describe(SavedRun& saved) {
 }
 
 RunReport CaseRun::with_way_on(RunReport report) const {
+  // With the same settings it would fail again: those of another run are to be others.
+  if (report.step_failed && report.t > spec_.t_start)
+    report.message += fmt::format(
+        "; another run goes on from there, with other settings, by initial = {{ file = \"{}\" }} and start = {} in [time]",
+        (folder_->folder().path() / "final.txt").string(), report.t);
   if (report.status != RunReport::Status::interrupted) return report;
   if (keeper_->is_out_of_time()) report.message += fmt::format(", after {:.3g} hours as asked", options_.max_hours);
   if (keeper_->has_saved())

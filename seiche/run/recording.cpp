@@ -104,6 +104,7 @@ void Recording::fail(std::string message) {
 
 void Recording::fail_step(const std::string& reason) {
   fail(fmt::format("step {} failed after t = {:.9g}: {}", state_.n + 1, state_.t, reason));
+  report_.step_failed = true;
 }
 
 void Recording::fail_not_finite(const char* what) {
@@ -112,6 +113,7 @@ void Recording::fail_not_finite(const char* what) {
            : fmt::format("the {} is no longer finite at t = {:.9g} (step {}); the data end at the last good record, "
                          "t = {:.9g} (step {})",
                          what, state_.t, state_.n, good_.t, good_.n));
+  report_.step_failed = true;
   state_ = good_;
 }
 
@@ -209,7 +211,8 @@ void Recording::complete_message(const std::string& remark) {
         state_.shift, state_.shift / state_.energy_scale);
   for (const std::string& unresolved : {report_.remark_on_widened(), report_.remark_on_halved()})
     if (!unresolved.empty()) report_.message += "; " + unresolved;
-  if (report_.drift) report_.message += "; " + report_.remark_on_drift();
+  for (const std::string& energies : {report_.remark_on_drift(), report_.remark_on_parting()})
+    if (!energies.empty()) report_.message += "; " + energies;
   if (report_.unresolved > 0)
     report_.message += fmt::format("; {} scalar equations were not resolved", report_.unresolved);
   if (report_.law == LawVerdict::not_promised) report_.message += "; no energy law is promised: " + report_.law_reason;

@@ -92,6 +92,10 @@ TEST_F(Cli, AFailedRunKeepsWhatItComputedAndExitsWithOne) {
   EXPECT_EQ(solution.text("status"), "failed");
   EXPECT_EQ(solution.times().back(), summary["t"].get<double>()) << "the last good state";
   for (Index k = 0; k < solution.count(); ++k) EXPECT_TRUE(state(solution, k).allFinite()) << solution.time(k);
+
+  const std::string start = fmt::format("{}", summary["t"].get<double>());
+  EXPECT_THAT(summary["message"].get<std::string>(),
+              HasSubstr("by initial = { file = \"out/final.txt\" } and start = " + start + " in [time]"));
 }
 
 TEST_F(Cli, AShiftThatDrownsTheModifiedEnergyIsSaidWithWhatHelps) {
@@ -166,7 +170,7 @@ TEST_F(Cli, ADampingThatFeedsEnergyIsSaidAlsoWhenQuiet) {
 TEST_F(Cli, ALawThatRoundOffDrownsExitsWithThreeAndWholeFiles) {
   write("case.toml",
         "[problem]\nname = \"custom\"\nfields = [\"q\", \"p\"]\nH = \"p^2/2 - q^4/4\"\nD = { p = 0.05 }\n"
-        "initial = { q = 2, p = 0 }\n[method]\nname = \"seisav\"\n[time]\nend = 10.0\n");
+        "initial = { q = 2, p = 0 }\n[method]\nname = \"seisav\"\npredictor = \"gradient\"\n[time]\nend = 10.0\n");
   const Result result = seiche("run case.toml --out out --json");
   EXPECT_EQ(result.exit, 3) << result.err;
   EXPECT_THAT(result.err,

@@ -137,6 +137,21 @@ TEST(EnergyBook, SaysWhereHRoseThoughNoSolutionLetsItRise) {
   EXPECT_EQ(booked(damped, {1, 2, 3}, false).remarks().size(), 0U) << "the law that is violated says it";
 }
 
+// A per cent in 10⁷ steps is no drift that anybody has to act on, and yet it should be known.
+TEST(RunReport, TellsHowFarTheAuxiliaryHasTakenHFromItsModifiedEnergy) {
+  RunReport report;
+  report.has_modified_energy = true;
+  report.energy = {.initial = 2.0, .final = 0.984};
+  report.modified = {.initial = 2.0, .final = 1.0};
+  EXPECT_EQ(report.remark_on_parting(),
+            "at the end H is 0.016 below the modified energy that the law is about, 0.8 % of where H began");
+  report.energy.final = 0.9995;
+  EXPECT_EQ(report.remark_on_parting(), "");
+  report.has_modified_energy = false;
+  report.energy.final = 0.9;
+  EXPECT_EQ(report.remark_on_parting(), "");
+}
+
 TEST(RunReport, OneReplacedStepIsSaidInWords) {
   RunReport report;
   report.steps = 12'801;
