@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/simd/thread_count.hpp>
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/output/progress.hpp>
@@ -148,7 +149,7 @@ void add_options(CLI::App& command, RunArguments& arguments) {
       .add_option("--threads", arguments.threads,
                   "Threads, over a large grid or the members of an ensemble; results do not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(1, 65536));
+      ->check(CLI::Range(1, most_threads));
   command
       .add_option("--max-hours", arguments.max_hours,
                   "Write a checkpoint and stop after so much time, as a queue allows")

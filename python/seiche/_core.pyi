@@ -31,6 +31,7 @@ class Case:
     tolerance: float | None
     h_max: float
     backend: str
+    t_start: float
     t_end: float
     ledger: bool
     output_directory: str

@@ -87,12 +87,12 @@ def whole_number(name: str, value: Any, most: int = 2**62) -> int:
     except TypeError:
         raise ValueError(f"{name} = {value!r} must be a whole number") from None
     if not 1 <= count <= most:
-        raise ValueError(f"{name} = {count} must be ≥ 1" + (f" and ≤ {most}" if count > most else ""))
+        raise ValueError(f"{name} = {count} must be " + (f"≤ {most}" if count > most else "≥ 1"))
     return count
 
 
 def thread_count(threads: Any) -> int:
-    return 1 if threads is None else whole_number("threads", threads, 2**20)
+    return 1 if threads is None else whole_number("threads", threads, 1024)
 
 
 def truth(name: str, value: Any) -> bool:

@@ -94,7 +94,8 @@ HeldSolution run(const HeldProblem& problem, const RunSpec& spec, double t_start
                        .method = solution->method,
                        .backend = solution->backend,
                        .h = h,
-                       .tolerance = spec.tolerance};
+                       .tolerance = spec.tolerance,
+                       .threads = threads};
   return {std::move(solution), std::move(identity)};
 }
 

@@ -193,7 +193,7 @@ class DamagedCheckpoint : public ResumeCase {
   void SetUp() override {
     ResumeCase::SetUp();
     run(text_, "whole");
-    run(text_ + "[checkpoint]\nevery_steps = 50\n", "out", 120);
+    run(text_, "out", 120);
     ASSERT_TRUE(fs::exists(directory / "out" / earlier_checkpoint_name));
   }
   void overwrite(const std::string& name, std::size_t at, char value) const {
@@ -201,7 +201,7 @@ class DamagedCheckpoint : public ResumeCase {
     file.seekp(static_cast<std::streamoff>(at));
     file.put(value);
   }
-  const std::string& text_ = some_cases().front().text;
+  const std::string text_ = some_cases().front().text + "[checkpoint]\nevery_steps = 50\n";
 };
 
 TEST_F(DamagedCheckpoint, IsReplacedByTheOneBefore) {

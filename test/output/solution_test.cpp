@@ -413,7 +413,7 @@ TEST_F(AuditedSolution, AChangedDigitIsSeen) {
 }
 
 TEST_F(AuditedSolution, WhatIsNoNumberOrAtNoTimeOfTheRunIsRefuted) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (const char* name : {"t", "u", "v", "H", "H_modified"}) {
     change(solution(), name, [](std::vector<double>& values) { values.back() = nan; });
     EXPECT_EQ(exit_of_audit(), 1) << name;

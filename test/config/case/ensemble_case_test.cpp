@@ -170,7 +170,7 @@ TEST_F(EnsembleProgram, IsAuditedFromItsFilesWhichShowWhatWasChanged) {
               0);
     EXPECT_TRUE(audit_out().confirms()) << verdicts();
     EXPECT_THAT(verdicts(), testing::Not(testing::HasSubstr("not checked"))) << method;
-    EXPECT_EQ(audit_out().entries.size(), 8U);
+    EXPECT_EQ(audit_out().entries.size(), 9U);
   }
   // a digit of the last number of a row, and of the file
   for (const std::string file : {"members.csv", "finals.csv", "energy.csv", "summary.json", "case.toml"}) {
@@ -196,7 +196,7 @@ TEST_F(EnsembleProgram, IsAuditedWithMembersThatFailed) {
   EXPECT_EQ(run_case("members = 40\nperturb_initial = 0.6\n", "C = 1\n"), 1);
   const Audit result = audit(directory / "out");
   EXPECT_TRUE(result.confirms());
-  EXPECT_EQ(result.entries.size(), 8U);
+  EXPECT_EQ(result.entries.size(), 9U);
 }
 
 TEST_F(EnsembleProgram, SaysWhichMembersFailedAndKeepsTheOthers) {
