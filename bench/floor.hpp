@@ -17,8 +17,8 @@ struct FloorOptions {
 };
 
 // step: one of seisav on the modal backend, which takes two transforms. by_gradient: the same with the paper's
-// predictor, which takes four. transforms: four, by the backend's own code. fftw: the same four by one plan of FFTW for the whole grid (periodic grids; else 0). triad: a = b + s c over the unknowns of one
-// field.
+// predictor, which takes four. transforms: four, by the backend's own code. fftw: the same four by one plan of FFTW for
+// the whole grid (periodic grids; else 0). triad: a = b + s c over the unknowns of one field.
 Floor measure_floor(const Problem& problem, const FloorOptions& options);
 
 }  // namespace seiche::bench

@@ -57,8 +57,8 @@ void step_cost(benchmark::State& state, const Problem& problem, const std::strin
   state.counters["step/own"] = cost.step / cost.transforms;
 }
 
-// A step of seisav by both predictors, four transforms and a triad in turns, on a grid that is periodic along every axis:
-// nanoseconds per point, and the ratios to the transforms that a step takes, and to four.
+// A step of seisav by both predictors, four transforms and a triad in turns, on a grid that is periodic along every
+// axis: nanoseconds per point, and the ratios to the transforms that a step takes, and to four.
 void floor_cost(benchmark::State& state, const Problem& problem, int threads) {
   const double per_point = 1e9 / static_cast<double>(problem.grid.unknowns());
   seiche::bench::Floor floor;

@@ -14,8 +14,8 @@ class PanelPredictor {
  public:
   PanelPredictor(const PanelSystem& system, Predictor kind);  // which outlives it
 
-  // ẑ of a step h, on the support. `z` is followed by the rows of `g`, which is written over: with the remembered ḡ, and
-  // with ∇V(z) by `take_gradient` where a member needs that.
+  // ẑ of a step h, on the support. `z` is followed by the rows of `g`, which is written over: with the remembered ḡ,
+  // and with ∇V(z) by `take_gradient` where a member needs that.
   void predict(const double* z, double* g, const PanelStep& maps, double h, double* z_mid,
                FunctionRef<void()> take_gradient);
   // ĝ of the step, which counts from `accept` on.

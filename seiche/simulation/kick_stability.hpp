@@ -12,8 +12,8 @@ namespace seiche {
 // of the scheme at the fastest rate of the linear part (which is known from below); else "".
 std::string beyond_stability(const Simulation& simulation, double h);
 
-// The same where a rate γ(t) rises during the run so far above what the exponential of the method holds, its value at the
-// start, that steps of h do not resolve it.
+// The same where a rate γ(t) rises during the run so far above what the exponential of the method holds, its value at
+// the start, that steps of h do not resolve it.
 std::string beyond_rate(const Simulation& simulation, double h, TimeSpan run);
 
 // The same where the method splits the damping from the forces, and at the rate with which it takes what they give the

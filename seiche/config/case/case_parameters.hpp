@@ -13,8 +13,8 @@
 
 namespace seiche {
 
-// Needs spec.t_start and t_end: a rate must be finite, and within its bounds, between them. A relative file name starts at `folder`,
-// or else at the current one.
+// Needs spec.t_start and t_end: a rate must be finite, and within its bounds, between them. A relative file name starts
+// at `folder`, or else at the current one.
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
                    const std::filesystem::path& folder = {});
 
