@@ -7,7 +7,7 @@ VERIFY ?=
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps configure build paper docs test verify python bench install format tidy asan fuzz clean
+.PHONY: help deps configure build paper docs test verify python bench install format tidy asan tsan valgrind instructions soak fuzz clean
 
 help:  ## this list
 	@echo "Seiche: energy-stable integrators for damped Hamiltonian systems"
@@ -69,7 +69,23 @@ tidy:  ## read every C++ file with clang-tidy
 asan: deps  ## build and run the tests under sanitizers
 	@bash scripts/ci-asan
 
-fuzz:  ## feed formulas and case files to a fuzzer (SECONDS=900)
+tsan: deps  ## build and run what starts threads under the thread sanitizer
+	@bash scripts/install-deps --soak
+	@bash scripts/ci-tsan
+
+valgrind: build  ## run the program under valgrind
+	@bash scripts/install-deps --soak
+	@bash scripts/valgrind
+
+instructions: build  ## count the instructions of a step and compare them (ARGS=--renew)
+	@bash scripts/install-deps --soak
+	@/usr/bin/python3 scripts/ci-instructions $(ARGS)
+
+soak: configure  ## ten million steps, ten thousand random systems (STEPS, SYSTEMS, FIRST)
+	@cmake --build --preset release --parallel $(JOBS) --target seiche_tests
+	@bash scripts/soak $(or $(STEPS),10000000) $(or $(SYSTEMS),10000) $(or $(FIRST),1)
+
+fuzz:  ## feed what users write and what lies on disks to fuzzers (SECONDS=900)
 	@bash scripts/install-deps --fuzz
 	@bash scripts/fuzz $(or $(SECONDS),900)
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/study/audit.hpp>
 
 #include <memory>
@@ -16,6 +17,7 @@ struct AuditArguments {
 };
 
 ExitCode run_audit(const AuditArguments& arguments) {
+  hdf5_without_cleanup_at_exit();  // which of a damaged file says that it does not end
   const Audit result = audit(arguments.directory);
   if (arguments.json) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();

@@ -8,6 +8,7 @@
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/folder_lock.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_layout.hpp>
 #include <seiche/output/solution_reader.hpp>
@@ -77,6 +78,7 @@ ExitCode write_all_times(const std::filesystem::path& directory) {
 }
 
 ExitCode plot(const PlotArguments& arguments) {
+  hdf5_without_cleanup_at_exit();  // which of a damaged file says that it does not end
   if (arguments.xdmf) return write_all_times(arguments.directory);
   PictureOptions options{.formats = parsed_formats(arguments.formats), .film = !arguments.no_film};
   require_recovered(arguments.directory);

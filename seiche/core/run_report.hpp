@@ -1,6 +1,7 @@
 // What came of a run.
 #pragma once
 
+#include <seiche/core/control/archive.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/replaced_steps.hpp>
 
@@ -47,6 +48,7 @@ struct EnergyDrift {
   // Of a modified energy, `from` and `to` being it and H at the same time.
   bool is_parting = false;
   std::string text() const;  // "H itself rose from 1 to 300 at t = 2"
+  void archive(Archive& a) { a(from, to, t, is_damped, is_parting); }
 };
 
 struct RunReport {

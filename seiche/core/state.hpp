@@ -4,6 +4,8 @@
 #include <seiche/core/control/archive.hpp>
 #include <seiche/core/vector.hpp>
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,7 +21,11 @@ struct MidpointMemory {
   int known = 0;    // of them; 0 after a start or restart
   int resting = 0;  // steps that are not to use them
 
-  void archive(Archive& a) { a(gradients, lengths, known, resting); }
+  void archive(Archive& a) {
+    a(gradients, lengths, known, resting);
+    a.require(lengths.size() == gradients.size() && known >= 0 && known <= depth && resting >= 0 && resting <= depth);
+    if (gradients.empty()) a.require(known == 0);
+  }
 };
 
 struct State {
@@ -40,8 +46,16 @@ struct State {
 
   MidpointMemory midpoints = {};  // of closures
 
+  // Read into a state of the same problem and method.
   void archive(Archive& a) {
+    const Index size = z.size();
+    const std::size_t nodes = history.size(), remembered = midpoints.gradients.size();
     a(z, t, n, r_squared, shift, energy_scale, energy, energy_terms, history, history_h, midpoints);
+    if (!a.reads()) return;
+    a.require(z.size() == size && history.size() == nodes && midpoints.gradients.size() == remembered);
+    for (const std::vector<Vector>* vectors : {&history, &midpoints.gradients})
+      for (const Vector& force : *vectors) a.require(force.size() == size);
+    a.require(n >= 0 && n < (std::int64_t{1} << 60) && std::isfinite(t) && z.allFinite());
   }
 };
 

@@ -50,8 +50,10 @@ void CheckpointKeeper::plan_next_look(std::int64_t n, Clock::time_point now) {
 }
 
 void CheckpointKeeper::save(FunctionRef<void(Archive&)> run) {
+  SavedRun saved;
+  options_.describe(saved);  // brings the rows so far to the disk: where that fails, the run does
   try {
-    write(run);
+    write(saved, run);
     has_saved_ = true;
   } catch (const Error& error) {
     has_saved_ = false;
@@ -61,9 +63,7 @@ void CheckpointKeeper::save(FunctionRef<void(Archive&)> run) {
   last_save_ = Clock::now();
 }
 
-void CheckpointKeeper::write(FunctionRef<void(Archive&)> run) const {
-  SavedRun saved;
-  options_.describe(saved);
+void CheckpointKeeper::write(SavedRun& saved, FunctionRef<void(Archive&)> run) const {
   Archive archive;
   archive(saved);
   run(archive);

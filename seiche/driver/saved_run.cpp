@@ -37,6 +37,7 @@ void SavedRun::archive(Archive& a) {
   }
   a(versions, case_text, files, sums, notes, resumed_at, t, steps, energies, solution);
   for (std::size_t i = 0; i < std::min(files.size(), sums.size()); ++i) hashes[files[i]] = sums[i];
+  a.require(solution.in_chunk <= solution.rows && files.size() == sums.size());
 }
 
 std::string checkpoint_bytes(const Archive& archive) {

@@ -91,7 +91,7 @@ void PanelSav::modified_energy(const PanelState& s, const PanelValues& quadratic
                                std::array<EnergyReading, panel_members>& readings) {
   for (std::size_t l = 0; l < readings.size(); ++l) {
     readings[l].modified = quadratic[l] + (s.r_squared[l] - s.shift[l]);
-    readings[l].modified_round_off = 50 * epsilon * (quadratic[l] + s.r_squared[l] + std::abs(s.shift[l]));
+    readings[l].modified_round_off = 50 * epsilon * (quadratic[l] + std::abs(s.r_squared[l]) + std::abs(s.shift[l]));
   }
 }
 

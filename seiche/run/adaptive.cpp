@@ -88,7 +88,9 @@ class AdaptiveLoop {
     a.section("steps of variable size");
     a(controller_, pace_, time_, size_, h_, first_of_all_, rejections_, smallest_, largest_);
     recording_.archive(a, options_.objection);
-    if (a.reads()) backup_ = state_;
+    if (!a.reads()) return;
+    a.require(h_ > 0 && std::isfinite(h_));
+    backup_ = state_;
   }
 
   void take_back_first() {

@@ -16,6 +16,8 @@ void advance(EnergySummary& summary, double increase, double value, bool first_i
   summary.max_increase = first_increase ? increase : std::max(summary.max_increase, increase);
 }
 
+constexpr int first_records = 100;  // that may give H a size
+
 // By how much no solution multiplies the terms of an energy in so many steps.
 double grossest_growth(double steps) { return std::min(std::pow(1e6, steps), 1e30); }
 
@@ -68,20 +70,16 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
 
 void EnergyBook::archive(Archive& a) {
   a(empty_, reopened_, has_increase_, last_n_, records_, size_, rests_, H_at_start_, largest_terms_);
-  a.numbers(rise_);
-  a.numbers(fall_);
-  a.numbers(parting_);
+  a(rise_, fall_, parting_, violation_, drowned_);
   a.numbers(last_);
   a.numbers(energy_);
   a.numbers(modified_);
-  a.numbers(violation_);
-  a.numbers(drowned_);
+  a.require(records_ >= 0 && records_ <= first_records);
 }
 
 // At rest where V = 0 nothing has a size yet: the largest of the first records then stands for the start. Below the
 // squares of what is next to the least number, terms are no more than at rest.
 void EnergyBook::take_size(const EnergyReading& reading) {
-  constexpr int first_records = 100;
   constexpr double nothing = 1e-290;
   if (records_ == first_records) return;
   const double size = (has_modified_energy_ ? reading.modified_round_off : reading.round_off) / (50 * epsilon);

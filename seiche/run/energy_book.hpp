@@ -48,10 +48,12 @@ class EnergyBook {
   struct Violation {
     double t = 0.0, increase = 0.0, round_off = 0.0;
     bool found = false;
+    void archive(Archive& a) { a(t, increase, round_off, found); }
   } violation_;  // the first
   struct Drowned {
     double t = 0.0, round_off = 0.0, size = 0.0;
     bool found = false;
+    void archive(Archive& a) { a(t, round_off, size, found); }
   } drowned_;  // where that happened first
 };
 

@@ -63,7 +63,9 @@ class FixedLoop {
     a.section("steps of one size");
     a(grid_.start, k_);
     recording_.archive(a, options_.objection);
-    if (a.reads()) grid_ = TimeGrid(grid_.start, grid_.h, grid_.end);
+    if (!a.reads()) return;
+    grid_ = TimeGrid(grid_.start, grid_.h, grid_.end);
+    a.require(k_ >= 1 && k_ <= grid_.steps + 1);
   }
 
   // Step k of the grid and what happens in it; false: the run is over.

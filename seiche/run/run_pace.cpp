@@ -43,7 +43,11 @@ std::string RunPace::objection(double t, double h, FunctionRef<double()> size) {
   return static_cast<double>(attempts_) < least_attempts ? "" : judge(h);
 }
 
-void RunPace::archive(Archive& a) { a(attempts_, next_, marks_, usual_size_); }
+void RunPace::archive(Archive& a) {
+  a(attempts_, next_, marks_, usual_size_);
+  const std::size_t doublings = marks_.size();  // and one mark at 0
+  a.require(doublings >= 1 && doublings < 62 && next_ == std::int64_t{1} << (doublings - 1) && attempts_ < next_);
+}
 
 double RunPace::way(std::size_t ago, std::size_t doublings) const {
   const std::size_t last = marks_.size() - 1 - ago;

@@ -18,7 +18,8 @@ struct TimeGrid {
 
   TimeGrid(double t_start, double step_size, double t_end) : start(t_start), h(step_size), end(t_end) {
     if (!std::isfinite(h) || h <= 0) throw Error("the step size h must be finite and > 0, but it is {}", h);
-    if (!std::isfinite(end) || end < start) throw Error("t_end = {} must not lie before the start t = {}", end, start);
+    if (!std::isfinite(end) || !(end >= start))
+      throw Error("t_end = {} must not lie before the start t = {}", end, start);
     const double quotient = (end - start) / h;
     if (quotient > 1e15) throw Error("h = {} would take {:.3g} steps to t = {}", h, quotient, end);
     const double nearest = std::round(quotient);

@@ -38,6 +38,25 @@ TEST_F(HostileInput, DamagedRunsAreRefusedByPlotAsByAudit) {
   with("case.toml", [](const fs::path& file) { std::ofstream(file) << "a" << repeated(".a", deep) << " = 1\n"; });
 }
 
+// HDF5 itself said on stderr that it could not close some of these files.
+TEST_F(HostileInput, OneBitOfASolutionIsWorthALineAtMost) {
+  write_case();
+  ASSERT_EQ(seiche("run case.toml --quiet --out run").exit, 0);
+  const std::string whole = text("run/solution.h5");
+  int refused = 0;
+  for (std::size_t at = 8; at < whole.size(); at += whole.size() / 40) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    write("run/solution.h5", damaged);
+    const Result result = seiche("audit run");
+    if (result.exit == 2) expect_one_line(result.err, std::to_string(at));
+    EXPECT_THAT(result.err, Not(HasSubstr("HDF5:"))) << at;
+    EXPECT_THAT(result.exit, testing::AnyOf(0, 1, 2)) << at;
+    refused += result.exit == 2 ? 1 : 0;
+  }
+  EXPECT_GT(refused, 3);
+}
+
 TEST_F(HostileInput, ASummaryWithTextsForNumbersIsNoErrorOfALibrary) {
   write_case();
   ASSERT_EQ(seiche("run case.toml --quiet --out run").exit, 0);

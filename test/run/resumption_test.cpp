@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,11 +22,14 @@ class Energies : public Observer {
   void observe(const State& state, const EnergyReading& energy) override {
     while (next_time() <= state.t) ++shown;
     rows.insert(rows.end(), {state.t, energy.H, energy.modified, energy.ledger.sum()});
+    constexpr std::size_t endless = 10'000;  // no run here is as long, unless its checkpoint says so
+    stop = rows.size() > endless;
   }
   double next_time() const override { return 0.1 * static_cast<double>(1 + shown); }
   void finish(const RunReport&) override {}
   std::vector<double> rows;
   std::int64_t shown = 0;  // multiples of 0.1
+  std::atomic<bool> stop = false;
 };
 
 // One checkpoint, after n steps, and on.
@@ -84,6 +88,7 @@ Outcome run(const Problem& problem, const Kind& kind, AfterSteps* keeper, Archiv
                                      .first_h = kind.tolerance ? 0.0 : 1.0 / 64,
                                      .law = promise_energy_law(simulation, 0.35),
                                      .objection = [&] { return objection; },
+                                     .stop = &energies.stop,
                                      .resumption = {.checkpoints = keeper, .from = from}},
                                     observers);
   outcome.z = simulation.state().z;
@@ -207,6 +212,40 @@ TEST(Resumption, RefusesBytesThatAreNoCheckpoint) {
   const Outcome outcome =
       run(problem, {.method = "seisav", .backend = "dense", .tolerance = 1e-3}, nullptr, &of_other_steps);
   EXPECT_EQ(outcome.report.status, RunReport::Status::failed);
+}
+
+// Whole and with a checksum that fits, but not what a run writes: by hand, or of another problem.
+TEST(Resumption, RefusesACheckpointOfAnotherProblem) {
+  for (const std::string method : {"seisav", "egc4"}) {
+    const Kind kind{.method = method, .backend = "dense", .tolerance = {}};
+    AfterSteps keeper(3);
+    run(klein_gordon_case(), kind, &keeper);
+    Archive archive(*keeper.bytes);
+    const Outcome outcome = run(duffing_case(), kind, nullptr, &archive);
+    EXPECT_EQ(outcome.report.status, RunReport::Status::failed);
+    EXPECT_NE(outcome.report.message.find("damaged"), std::string::npos) << outcome.report.message;
+  }
+}
+
+// −1 and NaN, wherever a number, a size or a truth may stand.
+TEST(Resumption, SurvivesAnyEightBytesOfACheckpoint) {
+  const Problem problem = duffing_case();
+  for (const Kind& kind : {Kind{.method = "seisav", .backend = "dense", .tolerance = {}},
+                           Kind{.method = "egc4", .backend = "dense", .tolerance = {}, .ledger = true},
+                           Kind{.method = "egc4", .backend = "dense", .tolerance = 1e-6}}) {
+    AfterSteps keeper(3);
+    run(problem, kind, &keeper);
+    ASSERT_TRUE(keeper.bytes);
+    int refused = 0;
+    for (std::size_t at = 0; at + 8 <= keeper.bytes->size(); at += 3) {
+      std::string bytes = *keeper.bytes;
+      bytes.replace(at, 8, 8, '\xff');
+      Archive archive(bytes);
+      const Outcome outcome = run(problem, kind, nullptr, &archive, keeper.shown);
+      refused += outcome.report.status == RunReport::Status::failed ? 1 : 0;
+    }
+    EXPECT_GT(refused, 20) << kind.method;
+  }
 }
 
 }  // namespace

@@ -33,6 +33,17 @@ std::size_t Archive::count(std::size_t size) {
   return static_cast<std::size_t>(written);
 }
 
+void Archive::operator()(bool& value) {
+  auto byte = static_cast<unsigned char>(value);
+  raw(&byte, 1);
+  require(byte <= 1);
+  value = byte == 1;
+}
+
+void Archive::require(bool is_possible) const {
+  if (reads_ && !is_possible) throw damaged();
+}
+
 void Archive::operator()(Vector& vector) {
   const std::size_t size = count(static_cast<std::size_t>(vector.size()));
   if (reads_ && size > (bytes_.size() - at_) / sizeof(double)) throw damaged();

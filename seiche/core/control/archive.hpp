@@ -44,7 +44,9 @@ class Archive {
   template <class T>
     requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
   void operator()(T& value) { raw(&value, sizeof(T)); }
-  // Structures of numbers alone, which say so: a view of a text would come back as a wild pointer.
+  void operator()(bool& value);  // 0 or 1, and nothing else a byte can be
+  // Structures of numbers of one type, which say so: a view of a text would come back as a wild pointer, a bool as
+  // neither true nor false, and gaps between members hold whatever was there.
   template <class T>
   void numbers(T& structure) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -69,6 +71,9 @@ class Archive {
   }
   // A word between two parts: reading throws Error where another one stands there.
   void section(std::string_view name);
+  // Reading throws Error where what was read is nothing that a run writes: a checksum says that nothing was damaged on
+  // the way, and not who has made it.
+  void require(bool is_possible) const;
 
  private:
   void raw(void* data, std::size_t size);

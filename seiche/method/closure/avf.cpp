@@ -49,7 +49,8 @@ bool AvfClosure::sweep_to_fixed_point(const Vector& z, const Propagator& propaga
     const double update = sweep(z, start_.z_plus, propagator, next_);
     start_.z_plus.swap(next_);
     ++report.scalar_iterations;
-    if (update <= 1 || (update <= stagnation && update >= previous)) return true;
+    // Beside infinite numbers every update is small.
+    if (update <= 1 || (update <= stagnation && update >= previous)) return space().is_finite(start_.z_plus);
     if (!(update < 1e3 * previous)) return false;  // diverges, or is not a number
     previous = update;
   }

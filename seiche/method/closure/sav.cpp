@@ -147,7 +147,7 @@ StepReport SavClosure::advance_damped(State& s, Propagators& propagators, double
 
 void SavClosure::read_modified(const State& s, const ValueAndMagnitude& quadratic, EnergyReading& reading) const {
   reading.modified = quadratic.value + (s.r_squared - s.shift);
-  reading.modified_round_off = 50 * epsilon * (2 * quadratic.magnitude + s.r_squared + std::abs(s.shift));
+  reading.modified_round_off = 50 * epsilon * (2 * quadratic.magnitude + std::abs(s.r_squared) + std::abs(s.shift));
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+// Whatever stands in a Matrix Market file, a problem is made of it, or it is refused with a sentence. Files that need
+// more than the 256 MB that scripts/fuzz-program gives to such a run, by their header, are left out.
+#include "bars.hpp"
+#include "own_folder.hpp"
+
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/config/data/matrix_market.hpp>
+#include <seiche/simulation/simulation.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace seiche::fuzz {
+namespace {
+
+constexpr double memory = 256e6, bytes_per_row = 270;
+constexpr Index most_rows = 64;  // with which a step is taken
+
+void read(const std::string& text) {
+  static const OwnFolder folder;
+  write(folder.path / "M.mtx", text);
+  const MatrixSizes sizes = matrix_market_sizes(folder.path / "M.mtx");
+  if (static_cast<double>(std::max(sizes.rows, sizes.columns)) * bytes_per_row > memory) return;
+  for (const char* matrices : {"M = \"M.mtx\"\n", "M = \"M.mtx\"\nS = \"M.mtx\"\nfields = 1\n"}) {
+    const RunSpec spec =
+        parse_case(std::string("[problem]\nname = \"sparse\"\n") + matrices, "case.toml", {}, folder.path);
+    const Problem problem = make_problem(spec);
+    if (problem.size() > most_rows) continue;
+    Simulation simulation(problem);
+    simulation.step(1.0 / 64);
+  }
+}
+
+}  // namespace
+}  // namespace seiche::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  seiche::fuzz::within_bars([&] { seiche::fuzz::read({reinterpret_cast<const char*>(data), size}); });
+  return 0;
+}
