@@ -89,7 +89,7 @@ class AdaptiveLoop {
     a(controller_, pace_, time_, size_, h_, first_of_all_, rejections_, smallest_, largest_);
     recording_.archive(a, options_.objection);
     if (!a.reads()) return;
-    a.require(h_ > 0 && std::isfinite(h_));
+    a.require(h_ > 0 && std::isfinite(h_) && state_.t <= options_.t_end);
     backup_ = state_;
   }
 

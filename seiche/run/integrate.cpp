@@ -65,7 +65,7 @@ class FixedLoop {
     recording_.archive(a, options_.objection);
     if (!a.reads()) return;
     grid_ = TimeGrid(grid_.start, grid_.h, grid_.end);
-    a.require(k_ >= 1 && k_ <= grid_.steps + 1);
+    a.require(k_ >= 1 && k_ <= grid_.steps + 1 && state_.t >= grid_.start && state_.t <= grid_.end);
   }
 
   // Step k of the grid and what happens in it; false: the run is over.

@@ -39,7 +39,7 @@ std::uint64_t number_from(const char* name, std::uint64_t otherwise) {
 struct Counts {
   std::int64_t systems = 0, runs = 0, steps = 0, failed_steps = 0, refused = 0, comparisons = 0, wrong = 0;
   double worst_rise = 0, worst_ledger = 0, worst_drift = 0;  // in units of round-off
-  std::int64_t followed = 0;
+  std::int64_t followed = 0, chosen_otherwise = 0;
   double worst_difference = 0, worst_direction = 0;  // in units of what is allowed
 };
 
@@ -135,7 +135,7 @@ class Systems {
   // the agreement of backends would not see a method that damps twice.
   void follow(const RandomSystem& system, const MethodEntry& method, const BackendEntry& backend, Random& random) try {
     constexpr double share = 1e-4,
-                     allowed = 1e-6;  // of the time in which something happens; of what it changes in that
+                     allowed = 1e-8;  // of the time in which something happens; of what it changes in that
     Simulation simulation(system.problem, {.method = std::string(method.name), .backend = std::string(backend.name)});
     const Vector z = simulation.state().z;
     Vector f(z.size()), moved(z.size()), direction(z.size());
@@ -158,13 +158,10 @@ class Systems {
     ++counts_.refused;
   }
 
-  // The state at the end, and nothing where a step was not what the formula of the method says. Without its projection:
-  // the interval for H comes from quadratures, of which backends may take one or another.
+  // The state at the end, and nothing where a step was not what the formula of the method says.
   static std::optional<Vector> end(const Problem& problem, const MethodEntry& method, std::string_view backend,
                                    double h) try {
-    SimulationOptions options{.method = std::string(method.name), .backend = std::string(backend)};
-    if (method.projects()) options.method_options.law = EnergyLaw::none;
-    Simulation simulation(problem, options);
+    Simulation simulation(problem, {.method = std::string(method.name), .backend = std::string(backend)});
     for (int n = 0; n < steps; ++n) {
       if (!is_by_formula(simulation.step(h))) return std::nullopt;
     }
@@ -176,7 +173,7 @@ class Systems {
   // Backends may differ by what a change of the system, of z₀, of h and of each entry of hL by some hundred ε does.
   void compare(const RandomSystem& system, const MethodEntry& method, const std::vector<BackendEntry>& all, double rate,
                Random& random) {
-    constexpr double change = 1e-9, units = 1e4 * epsilon, by_krylov = 4;
+    constexpr double change = 1e-9, units = 1e4 * epsilon, by_krylov = 20, choice = 1e-4;
     const Problem& p = system.problem;
     const auto expected = end(p, method, "reference", system.h);
     if (!expected) return;
@@ -198,6 +195,12 @@ class Systems {
       ++counts_.comparisons;
       const double difference =
           largest(*found - *expected) / (allowed * (backend.exponentials_by_krylov ? by_krylov : 1));
+      // Projections choose: between two quadratures, or how many sweeps are enough. What round-off decides there is a
+      // small part of the error of the step.
+      if (difference > 1 && method.projects() && largest(*found - *expected) < choice * size) {
+        ++counts_.chosen_otherwise;
+        continue;
+      }
       counts_.worst_difference = worse(counts_.worst_difference, difference);
       expect(difference <= 1, fmt::format("{}, {} {}", system.text, method.name, backend.name),
              [&] { return fmt::format("differs from the reference by {:.3g} of what is allowed", difference); });
@@ -236,6 +239,7 @@ TEST(RandomSystemsSlow, KeepTheLawsOfTheirMethodsOnEveryBackend) {
   EXPECT_EQ(counts.wrong, 0);
   EXPECT_GE(counts.runs, 10 * counts.systems);
   EXPECT_GE(counts.comparisons, counts.systems / 2);
+  EXPECT_LE(counts.chosen_otherwise, 1 + counts.comparisons / 1000);
   EXPECT_LE(counts.failed_steps + counts.refused, counts.runs / 10);
 }
 
