@@ -32,7 +32,7 @@ std::string changed(std::string input, const std::vector<std::string>& corpus, s
     const std::size_t length = below(std::min<std::size_t>(input.size() - at, 16) + 1);
     switch (below(4)) {
       case 0:
-        if (at < input.size()) input[at] = static_cast<char>(random() % 256);
+        if (at < input.size()) input[at] = static_cast<char>(random() % 128);
         break;
       case 1: input.erase(at, length); break;
       case 2: input.insert(at, input.substr(at, length)); break;

@@ -233,8 +233,8 @@ TEST(Resumption, RefusesACheckpointOfAnotherProblem) {
 TEST(Resumption, SurvivesAnyEightBytesOfACheckpoint) {
   const Problem problem = duffing_case();
   for (Kind kind : {Kind{.method = "seisav", .backend = "dense", .tolerance = {}},
-                           Kind{.method = "egc4", .backend = "dense", .tolerance = {}, .ledger = true},
-                           Kind{.method = "egc4", .backend = "dense", .tolerance = 1e-6}}) {
+                    Kind{.method = "egc4", .backend = "dense", .tolerance = {}, .ledger = true},
+                    Kind{.method = "egc4", .backend = "dense", .tolerance = 1e-6}}) {
     kind.most_numbers = 800;
     AfterSteps keeper(3);
     run(problem, kind, &keeper);
