@@ -16,7 +16,7 @@ namespace {
 const std::vector<std::string> closures = {"seisav", "seilm", "seidm", "seavf"};
 
 SimulationOptions by(const std::string& method, Predictor predictor, const std::string& backend = "auto") {
-  return {.method = method, .backend = backend, .method_options = {.predictor = predictor}};
+  return {.method = method, .backend = backend, .method_options = {.C = {}, .predictor = predictor}};
 }
 
 double gradients_per_step(const Problem& problem, Predictor predictor) {
