@@ -23,7 +23,6 @@ void PanelPredictor::predict(const double* z, double* g, const PanelStep& maps, 
   };
   if (!remembers_) return by_gradient(z_mid);
   const double weight = midpoint_memory::weight(lengths_, h);
-  ratio_ = midpoint_memory::ratio(lengths_);
   find_unable(weight);
   if (std::none_of(unable_.begin(), unable_.end(), [](double member) { return member == 0; }))
     return by_gradient(z_mid);
@@ -46,7 +45,8 @@ void PanelPredictor::find_unable(double weight) {
 
 void PanelPredictor::find_missed(const double* z_mid, const PanelStep& maps) {
   const Index rows = system_.support_size();
-  second_difference(gradients_[0].row(0), gradients_[1].row(0), gradients_[2].row(0), ratio_, rows, difference_.row(0));
+  second_difference(gradients_[0].row(0), gradients_[1].row(0), gradients_[2].row(0), midpoint_memory::ratio(lengths_),
+                    rows, difference_.row(0));
   PanelValues missed, size;
   maps.missed(difference_.row(0), missed);
   sum_squares(z_mid, rows, size);

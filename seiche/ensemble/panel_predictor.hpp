@@ -39,7 +39,7 @@ class PanelPredictor {
   Panel kept_, difference_, by_gradient_;
   PanelValues known_{}, resting_{}, kept_known_{}, kept_resting_{};  // whole numbers
   PanelValues unable_{}, has_missed_{};
-  double kept_length_ = 0, ratio_ = 1;
+  double kept_length_ = 0;
 };
 
 }  // namespace seiche

@@ -54,27 +54,22 @@ class FusedPropagator final : public Propagator {
     middle_.weight = g.weight;
     middle_.ratio = g.ratio;
     for_blocks(blocks_, threads_, [&](Index block) {
-      recalled_[static_cast<std::size_t>(block)] = mode_kernels::recall<S>(middle_, begin(block), end(block));
+      recalled_[static_cast<std::size_t>(block)] =
+          mode_kernels::sums_of<RecallLanes, S>(middle_, begin(block), end(block));
     });
-    recalled = {};
-    for (const RecallSums& part : recalled_) {
-      recalled.missed += part.missed;
-      recalled.size += part.size;
-    }
+    RecallSums total;
+    for (const RecallSums& part : recalled_) total += part;
+    recalled = {total.missed, total.size};
     return true;
   }
 
   Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
     point(step_, z, &f, nullptr, before);
     for_blocks(blocks_, threads_, [&](Index block) {
-      sums_[static_cast<std::size_t>(block)] = mode_kernels::powers<S>(step_, begin(block), end(block));
+      sums_[static_cast<std::size_t>(block)] = mode_kernels::sums_of<PowerLanes, S>(step_, begin(block), end(block));
     });
     PowerSums total;
-    for (const PowerSums& part : sums_) {
-      total.of_increment += part.of_increment;
-      total.of_force += part.of_force;
-      total.twice_energy += part.twice_energy;
-    }
+    for (const PowerSums& part : sums_) total += part;
     return {total.of_increment, total.of_force, total.twice_energy / 2};
   }
   void update(Vector& z, const Vector& f, double c, FieldFactors before, FieldFactors after) const override {

@@ -123,6 +123,12 @@ struct Force {
 
 struct PowerSums {
   double of_increment = 0, of_force = 0, twice_energy = 0;
+  PowerSums& operator+=(const PowerSums& other) {
+    of_increment += other.of_increment;
+    of_force += other.of_force;
+    twice_energy += other.twice_energy;
+    return *this;
+  }
 };
 
 // fᵀFMz⁻, fᵀFf and z⁻ᵀMz⁻ of one chunk, lane by lane.
@@ -147,6 +153,11 @@ struct PowerLanes {
 
 struct RecallSums {
   double missed = 0, size = 0;
+  RecallSums& operator+=(const RecallSums& other) {
+    missed += other.missed;
+    size += other.size;
+    return *this;
+  }
 };
 
 // ẑ = z⁻ + Q(Mz⁻ + ḡ) with ḡ = f + weight·(f − f₁), on the support, and the squares of ẑ and of Qd with
@@ -155,7 +166,7 @@ template <class S, class V>
 struct RecallLanes {
   V missed{}, size{};
 
-  [[gnu::always_inline]] inline void at(const Operands<S>& o, Index slot) {
+  [[gnu::always_inline]] inline void add(const Operands<S>& o, Index slot) {
     const Point<S, V> p(o, slot);
     std::array<V, S::fields> w = p.Mz, d{};
     for (int j = S::first; j < S::first + S::count; ++j) {
@@ -186,30 +197,17 @@ SEICHE_MULTIVERSION void run(const Operands<S>& operands, Index begin, Index end
   for (; slot < end; slot += slots_per_mode(S::layout)) Verb::template at<S, Last<S>>(o, slot);
 }
 
-template <class S>
-SEICHE_MULTIVERSION PowerSums powers(const Operands<S>& operands, Index begin, Index end) {
+// What LanesOf adds up, over these slots.
+template <template <class, class> class LanesOf, class S>
+SEICHE_MULTIVERSION auto sums_of(const Operands<S>& operands, Index begin, Index end) {
   const Operands<S> o = operands;
-  PowerLanes<S, Lanes> lanes;
-  PowerLanes<S, Last<S>> last;
+  LanesOf<S, Lanes> lanes;
+  LanesOf<S, Last<S>> last;
   Index slot = begin;
   for (; slot + lane_count <= end; slot += lane_count) lanes.add(o, slot);
   for (; slot < end; slot += slots_per_mode(S::layout)) last.add(o, slot);
-  const PowerSums a = lanes.sums();
-  const PowerSums b = last.sums();
-  return {a.of_increment + b.of_increment, a.of_force + b.of_force, a.twice_energy + b.twice_energy};
-}
-
-template <class S>
-SEICHE_MULTIVERSION RecallSums recall(const Operands<S>& operands, Index begin, Index end) {
-  const Operands<S> o = operands;
-  RecallLanes<S, Lanes> lanes;
-  RecallLanes<S, Last<S>> last;
-  Index slot = begin;
-  for (; slot + lane_count <= end; slot += lane_count) lanes.at(o, slot);
-  for (; slot < end; slot += slots_per_mode(S::layout)) last.at(o, slot);
-  const RecallSums a = lanes.sums();
-  const RecallSums b = last.sums();
-  return {a.missed + b.missed, a.size + b.size};
+  auto sums = lanes.sums();
+  return sums += last.sums();
 }
 
 }  // namespace seiche::mode_kernels
