@@ -52,7 +52,7 @@ RunCaseOptions ended_by(Stop& stop) {
 class StoppedRun {
  public:
   explicit StoppedRun(const std::string& method) {
-    Stop stop(12);
+    Stop stop(5);
     run_case(parse_case("[problem]\nname = \"klein_gordon\"\npoints = 4\n[method]\n" + method +
                             "[time]\nend = 2\n[output]\nledger = \"on\"\nsnapshot_every = 4\nreport = \"off\"\n",
                         "case.toml"),

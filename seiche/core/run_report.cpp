@@ -43,7 +43,7 @@ std::string RunReport::remark_on_replaced() const {
                                    : counted_steps(count);
   const char* it = count == 1 ? "it" : "them";
   const std::string replacement =
-      1000 * count < steps
+      1e3 * static_cast<double>(count) < static_cast<double>(steps)
           ? fmt::format("{} {} replaced, because {}; what stands for {} keeps the energy law, but", of_steps,
                         count == 1 ? "was" : "were", replaced.why, it)
           : fmt::format("in {} no solution was found, because {}; what stands for {} keeps the energy law, and",

@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/solution_file.hpp>
+#include <seiche/output/solution_reader.hpp>
 #include <seiche/output/xdmf.hpp>
 
 #include <fmt/ranges.h>
@@ -126,6 +127,7 @@ SolutionFile::SolutionFile(const Folder& folder, const Mark& mark, const Problem
 
 std::string SolutionFile::complaint(const Folder& folder, const Mark& mark) {
   const std::string left = name_left_behind(folder, file_name);
+  require_readable(folder.path() / left);
   const Hdf5File file = Hdf5File::open(folder, left);
   std::uint32_t found = checksum_of_nothing;
   for (const char* name : of_each_time) {

@@ -7,12 +7,21 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 
 namespace seiche {
 namespace {
+
+template <class Call>
+auto unless_interrupted(Call call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
 
 std::vector<std::string> words(const std::string& text) {
   std::istringstream input(text);
@@ -138,23 +147,31 @@ void SolutionReader::field(Index field, Index k, Vector& values) const {
 
 void require_readable(const std::filesystem::path& solution) {
   constexpr int whole = 0, damaged = 3;
+  std::array<int, 2> pipe{};
+  if (::pipe(pipe.data()) != 0) return;  // then without
   const ::pid_t child = ::fork();
-  if (child < 0) return;  // then without
   if (child == 0) {
     for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
     const ::rlimit no_core = {0, 0};
     ::setrlimit(RLIMIT_CORE, &no_core);
     try {
       SolutionReader(solution).require_whole();
-    } catch (...) {
-      ::_exit(damaged);
+    } catch (const std::exception& error) {
+      const std::string_view said = error.what();
+      ::_exit(::write(pipe[1], said.data(), std::min<std::size_t>(said.size(), PIPE_BUF)) < 0 ? whole : damaged);
     }
     ::_exit(whole);
   }
+  ::close(pipe[1]);
+  std::array<char, PIPE_BUF> said{};
+  const ::ssize_t length =
+      child < 0 ? 0 : unless_interrupted([&] { return ::read(pipe[0], said.data(), said.size()); });
+  ::close(pipe[0]);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return;
-  if (!WIFEXITED(status) || (WEXITSTATUS(status) != whole && WEXITSTATUS(status) != damaged))
+  if (child < 0 || unless_interrupted([&] { return ::waitpid(child, &status, 0); }) < 0) return;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == damaged && length > 0)
+    throw Error(std::string(said.data(), static_cast<std::size_t>(length)));
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != whole)
     throw Error("{} is damaged: HDF5 itself breaks down over it", solution.string());
 }
 

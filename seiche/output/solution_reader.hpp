@@ -61,8 +61,9 @@ class SolutionReader {
   Index count_ = 0;
 };
 
-// Damage of a kind that HDF5 does not expect, such as a text of endless length, ends the program that reads it: another
-// one does so first. Throws Error where it ended; what HDF5 finds to be wrong by itself, it says again.
+// Damage of a kind that HDF5 does not expect, such as a text of endless length, ends the program that reads it, or
+// leaves objects open that it complains about when the program ends: another process reads first. Throws Error where
+// that one ended, and with what it found wrong.
 void require_readable(const std::filesystem::path& solution);
 
 // So that readers that know nothing of this find the same number of rows everywhere.

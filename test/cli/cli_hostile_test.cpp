@@ -126,7 +126,9 @@ TEST_F(HostileInput, NamesThatAreNoUtf8AreRefusedBeforeTheRun) {
               AllOf(HasSubstr("case file"), HasSubstr("UTF-8")));
   write("z" + byte, repeated("1\n", 16));
   EXPECT_THAT(refused_in_a_line("run case.toml --out out --set 'problem.initial={file=\"z" + byte + "\"}'"),
-              HasSubstr("initial"));
+              AllOf(HasSubstr("initial"), HasSubstr("UTF-8")));
+  EXPECT_THAT(refused_in_a_line("check case.toml --set 'output.directory=bad" + byte + "'"),
+              AllOf(HasSubstr("output.directory"), HasSubstr("UTF-8")));
   EXPECT_EQ(seiche("run case.toml --quiet --out größe").exit, 0);
   EXPECT_EQ(seiche("audit größe").exit, 0);
 }

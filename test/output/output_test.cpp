@@ -278,7 +278,7 @@ TEST_F(Output, ASha256IsThatOfSha256sum) {
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");  // FIPS 180-4
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   std::string bytes;
-  for (int i = 0; i < 300000; ++i) bytes.push_back(static_cast<char>(i * i % 251));
+  for (unsigned i = 0; i < 300000; ++i) bytes.push_back(static_cast<char>(i * i % 251));
   write_file(directory / "bytes", bytes);
   EXPECT_EQ(sha256_of_file(directory / "bytes"), sha256(bytes));
   const std::string call =

@@ -107,7 +107,7 @@ CaseTable convert(const toml::table& root, const Source& source) {
 // Before `text` is parsed.
 void require_bounded(std::string_view text, const Source& source) {
   if (text.size() > largest_case)
-    throw Error("{} is no case: it has more than {} MB", source.name, largest_case >> 20U);
+    throw Error("it is no case: it has more than {} MB", largest_case >> 20U).at(source.name);
   if (const TomlComplaint complaint = toml_depth_complaint(text); !complaint.sentence.empty())
     throw Error(complaint.sentence).at(source.place(complaint.line, complaint.column));
 }
@@ -175,8 +175,9 @@ void apply_override(CaseTable& table, const std::string& given, std::size_t numb
   const Source source{.name = "--set " + shortened(given, longest_place),
                       .is_override = true,
                       .override_number = number};
+  if (!is_utf8(given)) throw Error("it is not in UTF-8, as case files are").at(source.name);
   if (std::count(path.begin(), path.end(), '.') >= most_key_parts)
-    throw Error("{}: a key has more than {} parts", source.name, most_key_parts);
+    throw Error("a key has more than {} parts", most_key_parts).at(source.name);
   const std::string name = path.substr(0, dot);
   const std::size_t inner_dot = path.find('.', dot + 1);  // of a key inside a table: problem.D.v
   CaseEntry entry{.key = path.substr(dot + 1, inner_dot == std::string::npos ? inner_dot : inner_dot - dot - 1),
