@@ -1,7 +1,7 @@
 #include <seiche/config/case/case_parameters.hpp>
 #include <seiche/config/data/initial_file.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/physical_memory.hpp>
+#include <seiche/core/memory_limit.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/problem/problems.hpp>
 #include <seiche/simulation/run_memory.hpp>
@@ -72,9 +72,10 @@ std::shared_ptr<const Problem> problem_of(RunSpec spec, const Members& members, 
 
 void require_memory(const RunSpec& spec) {
   const double bytes = ensemble_bytes(spec);
-  if (bytes > physical_memory())
-    throw Error("an ensemble of {} members needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer members",
-                spec.ensemble->count(), bytes, physical_memory());
+  if (bytes > memory_limit())
+    throw Error(
+        "an ensemble of {} members needs about {:.3g} bytes, but only {:.3g} are available; choose fewer members",
+        spec.ensemble->count(), bytes, memory_limit());
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct Members {
 // is added to z₀. More members with the same seed begin with the same ones. Ranges of several parameters run together.
 // Uniform and normal numbers are made here, since the standard leaves the distributions of its library open.
 // Throws Error with the member where a sample is out of bounds or a file does not fit, and before any is made where
-// their ensemble_bytes are more than this machine has.
+// their ensemble_bytes are more than there are.
 Members make_members(const RunSpec& spec);
 
 // What the ensemble takes in memory: states for every member, and a simulation for every one where parameters vary.

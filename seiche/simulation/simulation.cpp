@@ -1,5 +1,5 @@
 #include <seiche/core/error.hpp>
-#include <seiche/core/physical_memory.hpp>
+#include <seiche/core/memory_limit.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/simulation/auto_method.hpp>
@@ -43,9 +43,9 @@ bool may_choose_kicks(const SimulationOptions& options, const Problem& problem, 
 void require_memory(const MethodEntry& method, const Problem& problem, bool variable_steps,
                     const BackendEntry& backend) {
   const double bytes = run_bytes(method, backend, problem, variable_steps);
-  if (bytes > physical_memory())
-    throw Error("{} on {} unknowns needs about {:.3g} bytes, and this machine has {:.3g}; choose fewer points{}",
-                method.name, problem.size(), bytes, physical_memory(),
+  if (bytes > memory_limit())
+    throw Error("{} on {} unknowns needs about {:.3g} bytes, but only {:.3g} are available; choose fewer points{}",
+                method.name, problem.size(), bytes, memory_limit(),
                 method.kind.takes_C ? "" : ", or seisav, which needs the least");
 }
 

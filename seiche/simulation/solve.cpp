@@ -1,5 +1,5 @@
 #include <seiche/core/error.hpp>
-#include <seiche/core/physical_memory.hpp>
+#include <seiche/core/memory_limit.hpp>
 #include <seiche/simulation/prepared_run.hpp>
 #include <seiche/simulation/solution_recorder.hpp>
 #include <seiche/simulation/solve.hpp>
@@ -43,10 +43,10 @@ void require_memory(const Problem& problem, const SolveOptions& o) {
       o.t_eval ? static_cast<double>(o.t_eval->size()) : steps / static_cast<double>(o.record_every);
   const double bytes =
       (recorded + (o.dense_output ? steps : 0.0)) * static_cast<double>(problem.size() * sizeof(double));
-  if (bytes > physical_memory())
+  if (bytes > memory_limit())
     throw Error(
-        "the solution would take {:.3g} bytes, and this machine has {:.3g}; give t_eval, or a larger record_every{}",
-        bytes, physical_memory(), o.dense_output ? ", and no dense_output" : "");
+        "the solution would take {:.3g} bytes, but only {:.3g} are available; give t_eval, or a larger record_every{}",
+        bytes, memory_limit(), o.dense_output ? ", and no dense_output" : "");
 }
 
 RunPlan plan(const SolveOptions& o) {

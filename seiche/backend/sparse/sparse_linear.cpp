@@ -3,7 +3,7 @@
 #include <seiche/backend/sparse/pade.hpp>
 #include <seiche/backend/sparse/sparse_linear.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/physical_memory.hpp>
+#include <seiche/core/memory_limit.hpp>
 
 #include <cmath>
 
@@ -130,11 +130,11 @@ class SparseLinear final : public LinearPart {
   void require_memory(int degrees) const {
     if (factor_bytes_ < 0) factor_bytes_ = factory().factor_bytes();
     const double bytes = factor_bytes_ * degrees / 2;  // two degrees share a complex pole, and a real one takes half
-    if (bytes > physical_memory())
+    if (bytes > memory_limit())
       throw Error(
-          "the factors of the sparse backend need about {:.3g} bytes, and this machine has {:.3g}; a method with the "
+          "the factors of the sparse backend need about {:.3g} bytes, but only {:.3g} are available; a method with the "
           "Cayley propagator needs {:.3g}, and [backend] exponential = \"lanczos\" factorises M alone",
-          bytes, physical_memory(), factor_bytes_ / 2);
+          bytes, memory_limit(), factor_bytes_ / 2);
   }
 
   Operators operators_;

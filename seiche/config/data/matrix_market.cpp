@@ -1,6 +1,6 @@
 #include <seiche/config/data/matrix_market.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/core/physical_memory.hpp>
+#include <seiche/core/memory_limit.hpp>
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/core/text/shortened.hpp>
 
@@ -137,9 +137,9 @@ class Reader {
   void require_memory() const {
     constexpr double bytes_per_row = 3 * 90;  // measured
     const double needed = bytes_per_row * static_cast<double>(std::max(rows_, columns_));
-    if (needed > physical_memory())
-      complain("a matrix of {} × {} needs at least {:.3g} bytes, and this machine has {:.3g}", rows_, columns_, needed,
-               physical_memory());
+    if (needed > memory_limit())
+      complain("a matrix of {} × {} needs at least {:.3g} bytes, but only {:.3g} are available", rows_, columns_,
+               needed, memory_limit());
   }
 
   void add(Index i, Index j, double x) {

@@ -1,7 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/grid/line_modes.hpp>
 #include <seiche/core/grid/stencil.hpp>
-#include <seiche/core/physical_memory.hpp>
+#include <seiche/core/memory_limit.hpp>
 #include <seiche/core/text/axis_names.hpp>
 
 #include <algorithm>
@@ -74,10 +74,10 @@ void require_entries(double entries) {
   if (entries > most)
     throw Error("a sparse matrix of {:.0f} entries is not possible: at most {:.0f}; choose fewer points", entries,
                 most);
-  if (entries * bytes_per_entry > physical_memory())
+  if (entries * bytes_per_entry > memory_limit())
     throw Error(
-        "a sparse matrix of {:.0f} entries needs {:.3g} bytes, and this machine has {:.3g}; choose fewer points",
-        entries, entries * bytes_per_entry, physical_memory());
+        "a sparse matrix of {:.0f} entries needs {:.3g} bytes, but only {:.3g} are available; choose fewer points",
+        entries, entries * bytes_per_entry, memory_limit());
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/grid/truncated_potential.hpp>
-#include <seiche/core/physical_memory.hpp>
+#include <seiche/core/memory_limit.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/problem/common/grid_options.hpp>
 
@@ -27,9 +27,10 @@ void require_memory(const Grid& grid) {
   double points = 1;
   for (const GridAxis& axis : grid.axes) points *= static_cast<double>(axis.unknowns());
   const double needed = bytes_per_point * points;
-  if (needed > physical_memory())
-    throw Error("a grid of {:.0f} points needs at least {:.3g} bytes, and this machine has {:.3g}; choose fewer points",
-                points, needed, physical_memory());
+  if (needed > memory_limit())
+    throw Error(
+        "a grid of {:.0f} points needs at least {:.3g} bytes, but only {:.3g} are available; choose fewer points",
+        points, needed, memory_limit());
 }
 
 }  // namespace

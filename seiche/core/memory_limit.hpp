@@ -1,0 +1,23 @@
+// How much memory there is, so that what would not fit is refused before anything is allocated.
+#pragma once
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace seiche {
+
+// Bytes: what the machine has, or what is left of a limit that the shell has set (ulimit -v).
+inline double memory_limit() {
+  const auto page = static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  const double of_machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * page;
+  ::rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return of_machine;
+  double pages = 0;  // that this process has already
+  std::ifstream("/proc/self/statm") >> pages;
+  return std::min(of_machine, std::max(static_cast<double>(limit.rlim_cur) - pages * page, 0.0));
+}
+
+}  // namespace seiche
