@@ -1,26 +1,17 @@
 // Loops over blocks of work, shared among threads.
 #pragma once
 
+#include <seiche/core/simd/thread_team.hpp>
 #include <seiche/core/vector.hpp>
-
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 namespace seiche {
 
 // Blocks are cut by the caller and never by the number of threads, so that sums taken block by block, in order, do not
-// depend on it. body(block, thread): thread is 0 … threads − 1 among those of this loop, whatever region of the
-// caller's own it stands in.
+// depend on it. body(block, thread): thread is 0 … threads − 1 among those of this loop.
 template <class Body>
-void for_blocks_by_thread(Index blocks, [[maybe_unused]] int threads, const Body& body) {
-#ifdef _OPENMP
-  if (threads > 1 && blocks > 1) {
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (Index block = 0; block < blocks; ++block) body(block, omp_get_thread_num());
-    return;
-  }
-#endif
+void for_blocks_by_thread(Index blocks, int threads, const Body& body) {
+  if (threads > 1 && blocks > 1 && blocks <= ThreadTeam::most_blocks && !ThreadTeam::is_in_a_block())
+    return ThreadTeam::of_caller(threads).run(blocks, body);
   for (Index block = 0; block < blocks; ++block) body(block, 0);
 }
 

@@ -5,7 +5,7 @@
 
 namespace seiche {
 
-inline constexpr int most_threads = 1024;  // each takes a stack, and where none is left the program ends
+inline constexpr int most_threads = 1024;  // each takes a stack
 
 // Throws Error above most_threads.
 void require_thread_count(int threads);
