@@ -63,6 +63,7 @@ const std::vector<ThirdParty> third_party = {
     {"Eigen/", {"core", "law", "backend", "method", "ensemble"}},
     {"unsupported/Eigen/", {}},
     {"fftw3.h", {"backend"}},
+    {"sleef.h", {"core"}},
     {"toml++/", {"config"}},
     {"ginac/", {"formula", "config"}},
     {"cln/", {"formula", "config"}},

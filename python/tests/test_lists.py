@@ -30,7 +30,7 @@ def test_the_lists_name_what_the_other_calls_take():
 
 def test_a_report_has_the_versions_of_summary_json(tmp_path):
     ours = seiche.solve("oscillator", 1.0, method="seisav", h=0.125).report
-    assert {"hdf5", "compiler", "instruction_set", "fftw", "ginac"} <= set(ours["versions"])
+    assert {"hdf5", "compiler", "instruction_set", "fftw", "ginac", "sleef"} <= set(ours["versions"])
     (tmp_path / "case.toml").write_text('[problem]\nname = "oscillator"\n[method]\nname = "seisav"\nh = 0.125\n[time]\nend = 1\n')
     subprocess.run([program(), "run", "case.toml", "--quiet", "--out", "out"], cwd=tmp_path, check=True)
     theirs = json.loads((tmp_path / "out/summary.json").read_text())

@@ -53,6 +53,7 @@ SEICHE_MULTIVERSION void negate(const double* x, double* out, std::size_t points
 }
 
 void call(const FormulaFunction& function, const double* x, const double* y, double* out, std::size_t points) {
+  if (function.of_many != nullptr) return (vector_functions().*function.of_many)(x, out, points);
   if (function.arity == 1) {
     double (*const f)(double) = function.one;
     for (std::size_t j = 0; j < points; ++j) out[j] = f(x[j]);
@@ -71,6 +72,22 @@ ExpressionGraph::ExpressionGraph(int variables, std::span<const std::span<const 
   for (const std::span<const Instruction> program : programs) {
     outputs_.push_back(static_cast<std::size_t>(add_program(program, known)));
     if (outputs_.size() == 1) first_end_ = nodes_.size();
+  }
+  find_partners();
+}
+
+void ExpressionGraph::find_partners() {
+  const FormulaFunction* const sine = find_formula_function("sin");
+  const FormulaFunction* const cosine = find_formula_function("cos");
+  std::map<int, int> sines;  // by their operand
+  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i)
+    if (const Node& node = nodes_[static_cast<std::size_t>(i)]; node.function == sine) sines[node.a] = i;
+  for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
+    Node& node = nodes_[static_cast<std::size_t>(i)];
+    const auto same = node.function == cosine ? sines.find(node.a) : sines.end();
+    if (same == sines.end()) continue;
+    node.partner = same->second;
+    nodes_[static_cast<std::size_t>(same->second)].partner = i;
   }
 }
 
@@ -136,11 +153,18 @@ void ExpressionGraph::evaluate_nodes(double* table, std::size_t points, std::siz
       case Kind::multiply: multiply(row(node.a), row(node.b), out, points); break;
       case Kind::divide: divide(row(node.a), row(node.b), out, points); break;
       case Kind::negate: negate(row(node.a), out, points); break;
-      case Kind::power:
-        for (std::size_t j = 0; j < points; ++j) out[j] = std::pow(row(node.a)[j], row(node.b)[j]);
-        break;
+      case Kind::power: vector_functions().pow(row(node.a), row(node.b), out, points); break;
       case Kind::whole_power: raise(row(node.a), node.index, out, points); break;
-      case Kind::call: call(*node.function, row(node.a), node.b < 0 ? nullptr : row(node.b), out, points); break;
+      case Kind::call:
+        // Sine and cosine of one number come together, where the first of them stands.
+        if (const int partner = node.partner; partner >= 0 && static_cast<std::size_t>(partner) < end) {
+          if (static_cast<std::size_t>(partner) < i) break;
+          const bool is_sine = node.function->of_many == &VectorFunctions::sin;
+          vector_functions().sincos(row(node.a), is_sine ? out : row(partner), is_sine ? row(partner) : out, points);
+          break;
+        }
+        call(*node.function, row(node.a), node.b < 0 ? nullptr : row(node.b), out, points);
+        break;
     }
   }
 }

@@ -19,9 +19,10 @@ class ExpressionGraph {
     double number = 0.0;  // of `number`
     int index = 0;        // of `whole_power`: the exponent
     const FormulaFunction* function = nullptr;
+    int partner = -1;  // of a sine: the cosine of the same operand, if there is one, and the other way round
   };
 
-  static constexpr std::size_t block = 64;  // points
+  static constexpr std::size_t block = 128;  // points
 
   // Node v is variable v.
   ExpressionGraph(int variables, std::span<const std::span<const Instruction>> programs);
@@ -42,6 +43,7 @@ class ExpressionGraph {
   using Known = std::map<Key, int>;  // which node an operation already is
   int add(const Node& node, Known& known);
   int add_program(std::span<const Instruction> program, Known& known);
+  void find_partners();
   void evaluate_nodes(double* table, std::size_t points, std::size_t end) const;
 
   int variables_;

@@ -1,6 +1,7 @@
 #include <seiche/formula/expression_slopes.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -46,6 +47,7 @@ void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b,
         out[d + j] = y < 0 ? fx * of_x[d + j] : fx * of_x[d + j] + gy * of_y[d + j];
     }
   };
+  std::array<double, block> of_call;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
   const auto none = [](std::size_t) { return 0.0; };
   const auto one = [](std::size_t) { return 1.0; };
   const auto minus_one = [](std::size_t) { return -1.0; };
@@ -88,6 +90,13 @@ void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b,
         break;
       case Kind::call: {
         const auto slope = node.function->mean_slope;
+        if (node.function->mean_slopes != nullptr) {
+          const auto row = static_cast<std::size_t>(x) * block;
+          node.function->mean_slopes(a + row, b + row, of_call.data(), points);
+          combine(
+              i, x, -1, [&](std::size_t j) { return of_call[j]; }, none);
+          break;
+        }
         combine(
             i, x, -1,
             [&](std::size_t j) {

@@ -99,22 +99,51 @@ double slope_of_atanh(double a, double b) {
   return std::atanh((b - a) / ((1 - a) + a * (1 - b))) / (b - a);
 }
 
+// f'((a + b)/2) · s(d)/d with d = (b − a)/2, where s is sin or sinh, and s(d)/d = 1 + sign·d²/6 near 0.
+template <VectorFunctions::One VectorFunctions::*derivative, VectorFunctions::One VectorFunctions::*s, int sign>
+void slopes_by_addition(const double* a, const double* b, double* slopes, std::size_t n) {
+  constexpr std::size_t block = 64;
+  std::array<double, block> d{}, of_d{};
+  for (std::size_t begin = 0; begin < n; begin += block) {
+    const std::size_t count = std::min(block, n - begin);
+    double* const out = slopes + begin;
+    for (std::size_t j = 0; j < count; ++j) {
+      d[j] = (b[begin + j] - a[begin + j]) / 2;
+      out[j] = (a[begin + j] + b[begin + j]) / 2;
+    }
+    (vector_functions().*s)(d.data(), of_d.data(), count);
+    (vector_functions().*derivative)(out, out, count);
+    for (std::size_t j = 0; j < count; ++j)
+      out[j] *= std::abs(d[j]) < 1e-4 ? 1 + sign * d[j] * d[j] / 6 : of_d[j] / d[j];
+  }
+}
+constexpr auto slopes_of_sin = slopes_by_addition<&VectorFunctions::cos, &VectorFunctions::sin, -1>;
+void slopes_of_cos(const double* a, const double* b, double* slopes, std::size_t n) {
+  slopes_by_addition<&VectorFunctions::sin, &VectorFunctions::sin, -1>(a, b, slopes, n);
+  for (std::size_t j = 0; j < n; ++j) slopes[j] = -slopes[j];
+}
+void slopes_of_exp(const double* a, const double* b, double* slopes, std::size_t n) {
+  slopes_by_addition<&VectorFunctions::exp, &VectorFunctions::sinh, 1>(a, b, slopes, n);
+  for (std::size_t j = 0; j < n; ++j)
+    if (!(std::abs(b[j] - a[j]) <= 1)) slopes[j] = slope_of_exp(a[j], b[j]);
+}
+
 constexpr std::array<FormulaFunction, 20> function_table = {{
-    {"sin", 1, [](double x) { return std::sin(x); }, nullptr, slope_of_sin},
-    {"cos", 1, [](double x) { return std::cos(x); }, nullptr, slope_of_cos},
-    {"tan", 1, [](double x) { return std::tan(x); }, nullptr, slope_of_tan},
-    {"asin", 1, [](double x) { return std::asin(x); }, nullptr, slope_of_asin},
-    {"acos", 1, [](double x) { return std::acos(x); }, nullptr, slope_of_acos},
-    {"atan", 1, [](double x) { return std::atan(x); }, nullptr, slope_of_atan},
-    {"sinh", 1, [](double x) { return std::sinh(x); }, nullptr, slope_of_sinh},
-    {"cosh", 1, [](double x) { return std::cosh(x); }, nullptr, slope_of_cosh},
-    {"tanh", 1, [](double x) { return std::tanh(x); }, nullptr, slope_of_tanh},
-    {"asinh", 1, [](double x) { return std::asinh(x); }, nullptr, slope_of_asinh},
-    {"acosh", 1, [](double x) { return std::acosh(x); }, nullptr, slope_of_acosh},
-    {"atanh", 1, [](double x) { return std::atanh(x); }, nullptr, slope_of_atanh},
-    {"exp", 1, [](double x) { return std::exp(x); }, nullptr, slope_of_exp},
-    {"log", 1, [](double x) { return std::log(x); }, nullptr, slope_of_log},
-    {"sqrt", 1, [](double x) { return std::sqrt(x); }, nullptr, slope_of_sqrt},
+    {"sin", 1, [](double x) { return std::sin(x); }, nullptr, slope_of_sin, true, &VectorFunctions::sin, slopes_of_sin},
+    {"cos", 1, [](double x) { return std::cos(x); }, nullptr, slope_of_cos, true, &VectorFunctions::cos, slopes_of_cos},
+    {"tan", 1, [](double x) { return std::tan(x); }, nullptr, slope_of_tan, true, &VectorFunctions::tan},
+    {"asin", 1, [](double x) { return std::asin(x); }, nullptr, slope_of_asin, true, &VectorFunctions::asin},
+    {"acos", 1, [](double x) { return std::acos(x); }, nullptr, slope_of_acos, true, &VectorFunctions::acos},
+    {"atan", 1, [](double x) { return std::atan(x); }, nullptr, slope_of_atan, true, &VectorFunctions::atan},
+    {"sinh", 1, [](double x) { return std::sinh(x); }, nullptr, slope_of_sinh, true, &VectorFunctions::sinh},
+    {"cosh", 1, [](double x) { return std::cosh(x); }, nullptr, slope_of_cosh, true, &VectorFunctions::cosh},
+    {"tanh", 1, [](double x) { return std::tanh(x); }, nullptr, slope_of_tanh, true, &VectorFunctions::tanh},
+    {"asinh", 1, [](double x) { return std::asinh(x); }, nullptr, slope_of_asinh, true, &VectorFunctions::asinh},
+    {"acosh", 1, [](double x) { return std::acosh(x); }, nullptr, slope_of_acosh, true, &VectorFunctions::acosh},
+    {"atanh", 1, [](double x) { return std::atanh(x); }, nullptr, slope_of_atanh, true, &VectorFunctions::atanh},
+    {"exp", 1, [](double x) { return std::exp(x); }, nullptr, slope_of_exp, true, &VectorFunctions::exp, slopes_of_exp},
+    {"log", 1, [](double x) { return std::log(x); }, nullptr, slope_of_log, true, &VectorFunctions::log},
+    {"sqrt", 1, [](double x) { return std::sqrt(x); }, nullptr, slope_of_sqrt, true, &VectorFunctions::sqrt},
     {"abs", 1, [](double x) { return std::fabs(x); }, nullptr, slope_of_abs},
     {"sign", 1, sign, nullptr, slope_of_sign, false},
     {"sech", 1, sech, nullptr, slope_of_sech},

@@ -1,6 +1,9 @@
 // The functions that a formula may name.
 #pragma once
 
+#include <seiche/core/simd/vector_functions.hpp>
+
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -15,6 +18,9 @@ struct FormulaFunction {
   // 1.
   double (*mean_slope)(double a, double b);
   bool differentiable = true;  // but for kinks, as that of abs at 0
+  // The same of many points, to 1 ulp; null: one after the other.
+  VectorFunctions::One VectorFunctions::*of_many = nullptr;
+  void (*mean_slopes)(const double* a, const double* b, double* slopes, std::size_t n) = nullptr;
 };
 
 std::span<const FormulaFunction> formula_functions();

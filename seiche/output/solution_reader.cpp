@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/solution_reader.hpp>
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -148,7 +149,7 @@ void SolutionReader::field(Index field, Index k, Vector& values) const {
 void require_readable(const std::filesystem::path& solution) {
   constexpr int whole = 0, damaged = 3;
   std::array<int, 2> pipe{};
-  if (::pipe(pipe.data()) != 0) return;  // then without
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return;  // then without
   const ::pid_t child = ::fork();
   if (child == 0) {
     for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);

@@ -125,10 +125,10 @@ class FormulaPotential final : public PointwisePotential {
     return sum;
   }
 
-  static double total(const double* values, std::size_t points) {
-    double sum = 0;
-    for (std::size_t j = 0; j < points; ++j) sum += values[j];
-    return sum;
+  SEICHE_MULTIVERSION static double total(const double* values, std::size_t points) {
+    LaneSums sums;
+    for_points(0, points, [&](std::size_t j, std::size_t lane) { sums[lane] += values[j]; });
+    return sums.total();
   }
 
   // Fields in the order of u, times `factor`, and the place, into the rows of the variables.
@@ -136,21 +136,20 @@ class FormulaPotential final : public PointwisePotential {
     const std::size_t n = u.size() / fields_;
     for (std::size_t f = 0; f < fields_; ++f)
       for (std::size_t j = 0; j < points; ++j) table[f * block + j] = factor * u[f * n + begin + j];
-    for (std::size_t a = 0; a < axes; ++a) {
-      double* const row = table + (fields_ + a) * block;
-      if (a < places_.size()) {
-        std::copy_n(places_[a].data() + begin, points, row);
-      } else {
-        std::fill_n(row, points, 0.0);
-      }
-    }
+    for (std::size_t a = 0; a < places_.size(); ++a)
+      std::copy_n(places_[a].data() + begin, points, table + (fields_ + a) * block);
+  }
+  // What stays from block to block.
+  void begin_table(double* table) const {
+    graph_.set_numbers(table);
+    for (std::size_t a = places_.size(); a < axes; ++a) std::fill_n(table + (fields_ + a) * block, block, 0.0);
   }
 
   // Σ visit(table, first point, points) over the blocks, with u in the first of 2 + fields_ tables.
   template <class Visit>
   double sum(std::span<const double> u, const Visit& visit, double factor = 1) const {
     double* const table = scratch_of(scratch_size_).data();
-    graph_.set_numbers(table);
+    begin_table(table);
     const std::size_t n = u.size() / fields_;
     LongSum all;
     for (std::size_t begin = 0; begin < n; begin += block) {
@@ -176,10 +175,10 @@ class FormulaPotential final : public PointwisePotential {
 
   void mean_by_slopes(std::span<const double> a, std::span<const double> b, std::span<double> mean) const {
     const std::size_t n = a.size() / fields_;
+    begin_table(scratch_of(scratch_size_).data() + graph_.table_size());
     sum(a, [&](double* at_a, std::size_t begin, std::size_t points) {
       double* const at_b = at_a + graph_.table_size();
       double* const slopes = at_b + graph_.table_size();
-      graph_.set_numbers(at_b);
       put_in(at_b, b, 1, begin, points);
       graph_.evaluate_first(at_a, points);
       graph_.evaluate_first(at_b, points);

@@ -23,6 +23,18 @@ concept TakesLanes = requires(const W w, Lanes u) {
   { w.slope(u) } -> std::same_as<Lanes>;
 };
 
+// Is W made of elementary functions, and evaluated at a block of points by vector functions?
+template <class W>
+concept TakesBlocks = requires(const W w, const double* u, double* out, std::size_t n) {
+  w.values(u, out, n);
+  w.values_and_slopes(u, out, out, n);
+  w.values_and_sizes(u, out, out, n);
+  w.mean_slopes(u, u, out, out, n);
+};
+
+// Numbers of one block, for what is computed on the way.
+using BlockOfPoints = std::array<double, LongSum::block>;
+
 // Sums that do not wait for one another.
 class LaneSums {
  public:
@@ -128,9 +140,28 @@ template <class W, class F>
   }
 }
 
+// Σ_j of the numbers that compute(begin, count, into) puts into the blocks.
+template <class Compute>
+[[gnu::always_inline]] inline double sum_blocks(std::size_t n, const Compute& compute) {
+  BlockOfPoints of_block;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
+  LongSum all;
+  for_blocks(
+      n, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+        compute(begin, end - begin, of_block.data());
+        LaneSums sums;
+        for_points(0, end - begin, [&](std::size_t j, std::size_t lane) { sums[lane] += of_block[j]; });
+        all.add(sums.total());
+      });
+  return all.total();
+}
+
 template <class W>
 SEICHE_MULTIVERSION double sum_values(const W& w, const double* u, std::size_t n) {
   const W local = w;
+  if constexpr (TakesBlocks<W>)
+    return sum_blocks(
+        n, [&](std::size_t begin, std::size_t count, double* values)
+               __attribute__((always_inline)) { local.values(u + begin, values, count); });
   return sum_lanes<W>(
       n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) { return local.value(load<X>(u + j)); });
 }
@@ -138,6 +169,18 @@ SEICHE_MULTIVERSION double sum_values(const W& w, const double* u, std::size_t n
 template <class W>
 SEICHE_MULTIVERSION ValueAndMagnitude sum_values_and_magnitudes(const W& w, const double* u, std::size_t n) {
   const W local = w;
+  if constexpr (TakesBlocks<W>) {
+    LongSum sizes;
+    BlockOfPoints of_block;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
+    const double value = sum_blocks(
+        n, [&](std::size_t begin, std::size_t count, double* values) __attribute__((always_inline)) {
+          local.values_and_sizes(u + begin, values, of_block.data(), count);
+          LaneSums sums;
+          for_points(0, count, [&](std::size_t j, std::size_t lane) { sums[lane] += of_block[j]; });
+          sizes.add(sums.total());
+        });
+    return {value, sizes.total()};
+  }
   return sum_points_and_sizes(
       n, [&](std::size_t j) __attribute__((always_inline)) { return local.value(u[j]); },
       [&](std::size_t j, double value) __attribute__((always_inline)) { return size_of(local, u[j], value); });
@@ -146,6 +189,10 @@ SEICHE_MULTIVERSION ValueAndMagnitude sum_values_and_magnitudes(const W& w, cons
 template <class W>
 SEICHE_MULTIVERSION double sum_values_and_slopes(const W& w, const double* u, double* slope, std::size_t n) {
   const W local = w;
+  if constexpr (TakesBlocks<W>)
+    return sum_blocks(
+        n, [&](std::size_t begin, std::size_t count, double* values)
+               __attribute__((always_inline)) { local.values_and_slopes(u + begin, values, slope + begin, count); });
   return sum_lanes<W>(
       n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
         const X x = load<X>(u + j);
@@ -157,6 +204,10 @@ SEICHE_MULTIVERSION double sum_values_and_slopes(const W& w, const double* u, do
 template <class W>
 SEICHE_MULTIVERSION void slopes(const W& w, const double* u, double* slope, std::size_t n) {
   const W local = w;
+  if constexpr (TakesBlocks<W>) {
+    sum_values_and_slopes(w, u, slope, n);
+    return;
+  }
   for (std::size_t j = 0; j < n; ++j) slope[j] = local.slope(u[j]);
 }
 
@@ -164,6 +215,16 @@ SEICHE_MULTIVERSION void slopes(const W& w, const double* u, double* slope, std:
 template <class W>
 SEICHE_MULTIVERSION double slopes_in_place(const W& w, double in, double out, double* values, std::size_t n) {
   const W local = w;
+  if constexpr (TakesBlocks<W>) {
+    BlockOfPoints u;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
+    return sum_blocks(
+        n, [&](std::size_t begin, std::size_t count, double* at) __attribute__((always_inline)) {
+          double* const here = values + begin;
+          for (std::size_t j = 0; j < count; ++j) u[j] = in * here[j];
+          local.values_and_slopes(u.data(), at, here, count);
+          for (std::size_t j = 0; j < count; ++j) here[j] *= out;
+        });
+  }
   return sum_lanes<W>(
       n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
         const X x = in * load<X>(values + j);
@@ -175,6 +236,14 @@ SEICHE_MULTIVERSION double slopes_in_place(const W& w, double in, double out, do
 template <class W>
 SEICHE_MULTIVERSION void mean_slopes(const W& w, const double* a, const double* b, double* mean, std::size_t n) {
   const W local = w;
+  if constexpr (TakesBlocks<W>) {
+    std::array<double, 2 * LongSum::block> scratch;  // NOLINT(cppcoreguidelines-pro-type-member-init): as above
+    for_blocks(
+        n, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+          local.mean_slopes(a + begin, b + begin, mean + begin, scratch.data(), end - begin);
+        });
+    return;
+  }
   for (std::size_t j = 0; j < n; ++j) mean[j] = local.mean_slope(a[j], b[j]);
 }
 

@@ -1,6 +1,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/config/library_versions.hpp>
 #include <seiche/core/simd/multiversion.hpp>
+#include <seiche/core/simd/vector_functions.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/study/versions.hpp>
 #include <seiche/version.hpp>
@@ -36,6 +37,7 @@ std::map<std::string, std::string> versions_in_use() {
   all["processor"] = processor();
   all["build_type"] = version_build_type;
   all["instruction_set"] = instruction_set();  // of the hot loops; FFTW chooses its own
+  all["sleef"] = fmt::format("{} ({})", sleef_version(), vector_functions().instructions);
   all["fmt"] = fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
   all["json"] =
       fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);

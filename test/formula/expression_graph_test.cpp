@@ -170,6 +170,18 @@ TEST(ExpressionGraph, MeanSlopesOfFunctionsLoseNoDigits) {
       EXPECT_NEAR(function.mean_slope(found->a, b), expected, 3e-14 + 4e-19 / length) << function.name << " " << length;
       EXPECT_NEAR(function.mean_slope(b, found->a), expected, 3e-14 + 4e-19 / length) << function.name << " " << length;
     }
+    if (function.mean_slopes == nullptr) continue;
+    std::vector<double> a, b, slopes;
+    for (int i = 0; i < 300; ++i) {
+      a.push_back(found->a + 0.01 * (i - 150));
+      b.push_back(a.back() + (i % 3 - 1) * std::pow(10.0, -18 + i / 15.0));
+    }
+    slopes.resize(a.size());
+    function.mean_slopes(a.data(), b.data(), slopes.data(), a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const double alone = function.mean_slope(a[i], b[i]);
+      EXPECT_NEAR(slopes[i], alone, 6 * epsilon * (1 + std::abs(alone))) << function.name << " " << a[i] << " " << b[i];
+    }
   }
 }
 

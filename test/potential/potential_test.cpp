@@ -6,7 +6,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/potential/bond.hpp>
-#include <seiche/potential/cosine.hpp>
+#include <seiche/potential/cosine_panel.hpp>
 #include <seiche/potential/formula_potential.hpp>
 #include <seiche/potential/modulus.hpp>
 #include <seiche/potential/nodal.hpp>
@@ -191,6 +191,80 @@ TEST(Potential, SumsOfEqualTermsKeepTheirDigits) {
     V->along(origin, all, along);
     V->along(std::vector<double>(one.size(), 0.0), one, along_one);
     is_sum(along.back(), along_one.back());
+  }
+}
+
+// Phases of all sizes, more of them than a block of points has.
+std::vector<double> phases() {
+  std::vector<double> u;
+  for (int i = 0; i < 1500; ++i) u.push_back((i % 2 == 0 ? 1 : -1) * std::pow(10.0, -12 + 15.0 * i / 1500));
+  u.push_back(0);
+  return u;
+}
+
+TEST(Potential, CosinesByVectorFunctionsAreThoseOfThePointFormula) {
+  const Cosine w{1.3};
+  const NodalPotential<Cosine> V(w);
+  const std::vector<double> u = phases();
+  std::vector<double> slopes(u.size());
+  for (std::size_t j = 0; j < u.size(); ++j)
+    EXPECT_NEAR(V.value({&u[j], 1}), w.value(u[j]), 6 * epsilon * w.value(u[j])) << u[j];
+  V.gradient(u, slopes);
+  for (std::size_t j = 0; j < u.size(); ++j)
+    EXPECT_NEAR(slopes[j], w.slope(u[j]), 4 * epsilon * std::abs(w.slope(u[j])) + epsilon * w.alpha * 1e-3) << u[j];
+}
+
+// (b − a)·mean slope is W(b) − W(a) to the last digits of the difference, however near b is to a: that of two values
+// would have none of them. W(b) − W(a) = 2α sin((a + b)/2) sin((b − a)/2), here in long double.
+TEST(Potential, MeanSlopesOfCosinesKeepTheirDigitsHoweverNearTheEnds) {
+  const Cosine w{0.7};
+  const NodalPotential<Cosine> V(w);
+  const std::vector<double> a = phases();
+  for (const double distance : {1e-15, 1e-9, 1e-5, 1e-4, 2e-4, 1e-2, 1.0, 7.0}) {
+    std::vector<double> b(a.size()), mean(a.size());
+    for (std::size_t j = 0; j < a.size(); ++j) b[j] = a[j] + distance;
+    V.mean_gradient(a, b, mean);
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      const long double d = (static_cast<long double>(b[j]) - a[j]) / 2;
+      const long double middle = a[j] + d;
+      const long double sinc = d == 0 ? 1 : std::sin(d) / d;
+      const auto exact = static_cast<double>(w.alpha * std::sin(middle) * sinc);
+      const double of_argument = 2 * epsilon * w.alpha * std::abs(static_cast<double>(middle));
+      ASSERT_NEAR(mean[j], exact, 6 * epsilon * std::abs(exact) + of_argument) << a[j] << " + " << distance;
+      ASSERT_NEAR(mean[j], w.mean_slope(a[j], b[j]), 4 * epsilon * std::abs(exact) + of_argument);
+    }
+  }
+}
+
+TEST(Potential, CosinesOfManyMembersAreThoseOfEach) {
+  constexpr Index rows = 77;  // more than a block, and no multiple of one
+  std::vector<std::shared_ptr<const PointwisePotential>> members;
+  for (Index l = 0; l < panel_members; ++l)
+    members.push_back(std::make_shared<NodalPotential<Cosine>>(Cosine{0.5 - 0.1 * static_cast<double>(l)}));
+  const auto panel = members.front()->for_members(members, rows);
+  Panel u(rows), b(rows), slopes(rows), means(rows);
+  for (Index j = 0; j < rows; ++j)
+    for (Index l = 0; l < panel_members; ++l) {
+      u(j, l) = std::sin(static_cast<double>(3 * j + 7 * l)) * static_cast<double>(1 + j);
+      b(j, l) = u(j, l) + 0.1 * static_cast<double>(l);
+    }
+  PanelValues values{}, again{}, sizes{};
+  panel->value_and_gradient(u.row(0), slopes.row(0), values);
+  panel->value_and_magnitude(u.row(0), again, sizes);
+  panel->mean_gradient(u.row(0), b.row(0), means.row(0));
+  for (Index l = 0; l < panel_members; ++l) {
+    const auto member = static_cast<std::size_t>(l);
+    std::vector<double> of_u, of_b, gradient(rows), mean(rows);
+    for (Index j = 0; j < rows; ++j) of_u.push_back(u(j, l)), of_b.push_back(b(j, l));
+    const double value = members[member]->value_and_gradient(of_u, gradient);
+    members[member]->mean_gradient(of_u, of_b, mean);
+    EXPECT_NEAR(values[member], value, 1e-14 * std::abs(value));
+    EXPECT_NEAR(again[member], value, 1e-14 * std::abs(value));
+    EXPECT_NEAR(sizes[member], members[member]->magnitude(of_u), 1e-14 * sizes[member]);
+    for (Index j = 0; j < rows; ++j) {
+      EXPECT_NEAR(slopes(j, l), gradient[static_cast<std::size_t>(j)], 2 * epsilon);
+      EXPECT_NEAR(means(j, l), mean[static_cast<std::size_t>(j)], 2 * epsilon);
+    }
   }
 }
 
