@@ -14,7 +14,9 @@ namespace seiche {
 // By blocks of rows with α = 1, whose numbers are then multiplied by the α of their members.
 struct CosineRows {
   static constexpr Index rows_of_block = 32;
-  using Block = std::array<double, static_cast<std::size_t>(rows_of_block* panel_members)>;
+  static constexpr std::size_t in_block = rows_of_block * panel_members;
+  using Block = std::array<double, in_block>;
+  using Scratch = std::array<double, 2 * in_block>;
 
   // visit(first number, how many) for each block.
   template <class Visit>
@@ -53,8 +55,7 @@ struct CosineRows {
   }
   SEICHE_MULTIVERSION static void mean_slopes(const double* alpha, const double* a, const double* b, double* mean,
                                               Index rows) {
-    std::array<double, 2 * std::tuple_size_v<Block>>
-        scratch;  // NOLINT(cppcoreguidelines-pro-type-member-init): as above
+    Scratch scratch;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
     for_blocks(
         rows, [&](Index at, std::size_t n) __attribute__((always_inline)) {
           Cosine{}.mean_slopes(a + at, b + at, mean + at, scratch.data(), n);

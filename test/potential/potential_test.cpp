@@ -207,8 +207,7 @@ TEST(Potential, CosinesByVectorFunctionsAreThoseOfThePointFormula) {
   const NodalPotential<Cosine> V(w);
   const std::vector<double> u = phases();
   std::vector<double> slopes(u.size());
-  for (std::size_t j = 0; j < u.size(); ++j)
-    EXPECT_NEAR(V.value({&u[j], 1}), w.value(u[j]), 6 * epsilon * w.value(u[j])) << u[j];
+  for (const double& x : u) EXPECT_NEAR(V.value({&x, 1}), w.value(x), 6 * epsilon * w.value(x)) << x;
   V.gradient(u, slopes);
   for (std::size_t j = 0; j < u.size(); ++j)
     EXPECT_NEAR(slopes[j], w.slope(u[j]), 4 * epsilon * std::abs(w.slope(u[j])) + epsilon * w.alpha * 1e-3) << u[j];
