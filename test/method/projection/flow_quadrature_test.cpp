@@ -213,7 +213,7 @@ TEST(EnergyInterval, IsNotWidenedWhereStepsResolveTheFlow) {
 
 // Cahn and Hilliard's equation, by steps so long that nothing but a constant is left, whose energy is larger: S∇H there
 // is round-off.
-TEST(EnergyInterval, NoStepIsLetRiseByTheRoundOffOfItsDissipation) {
+TEST(EnergyIntervalSlow, NoStepIsLetRiseByTheRoundOffOfItsDissipation) {
   const Problem problem = custom_problem({.fields = {"u"},
                                           .grid = GridOptions{.points = {16}},
                                           .H = "0.004*u_x^2/2 + (u^2 - 1)^2/4",
