@@ -2,6 +2,8 @@
 #include <seiche/formula/formula_parser.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace seiche {
 namespace {
@@ -12,18 +14,40 @@ double bits_of_number(const Expression& number) {
   return x.numer().int_length() + x.denom().int_length();
 }
 
-// At most so many terms stand in it when it is multiplied out: C(n + m − 1, n) in the n-th power of m terms.
-double terms_multiplied_out(const Expression& expression) {
+// C(n + m − 1, n): so many terms the n-th power of m terms has, or no fewer than 10¹².
+double terms_of_power(double m, double n) {
   double terms = 1;
+  constexpr double enough = 1e12;
+  for (double k = 1; k <= n && m > 1 && terms < enough; ++k) terms *= (m - 1 + k) / k;
+  return terms;
+}
+
+// At most so many terms stand above and below the line of a common denominator.
+struct Terms {
+  double above = 1, below = 1;
+};
+
+Terms terms_of_quotient(const Expression& expression) {
+  Terms terms;
   if (GiNaC::is_a<GiNaC::add>(expression)) {
-    terms = 0;
-    for (const Expression& term : expression) terms += terms_multiplied_out(term);
+    terms.above = 0;
+    for (const Expression& part : expression) {
+      const Terms one = terms_of_quotient(part);
+      terms = {terms.above * one.below + one.above * terms.below, terms.below * one.below};
+    }
   } else if (GiNaC::is_a<GiNaC::mul>(expression)) {
-    for (const Expression& factor : expression) terms *= terms_multiplied_out(factor);
-  } else if (GiNaC::is_a<GiNaC::power>(expression) && expression.op(1).info(GiNaC::info_flags::posint)) {
-    const double m = terms_multiplied_out(expression.op(0));
+    for (const Expression& part : expression) {
+      const Terms one = terms_of_quotient(part);
+      terms = {terms.above * one.above, terms.below * one.below};
+    }
+  } else if (GiNaC::is_a<GiNaC::power>(expression) && expression.op(1).info(GiNaC::info_flags::integer)) {
+    const Terms base = terms_of_quotient(expression.op(0));
     const double n = GiNaC::ex_to<GiNaC::numeric>(expression.op(1)).to_double();
-    for (double k = 1; k <= n && m > 1; ++k) terms *= (m - 1 + k) / k;
+    terms = {terms_of_power(base.above, std::abs(n)), terms_of_power(base.below, std::abs(n))};
+    if (n < 0) std::swap(terms.above, terms.below);
+  } else {
+    for (const Expression& argument : expression)
+      terms.above = std::max(terms.above, most_terms_multiplied_out(argument));
   }
   return terms;
 }
@@ -36,9 +60,13 @@ double bits_of(const Expression& base) {
   return bits;
 }
 
+double most_terms_multiplied_out(const Expression& expression) {
+  const Terms terms = terms_of_quotient(expression);
+  return std::max(terms.above, terms.below);
+}
+
 bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols, const Symbols& beside) {
   if (!expression.is_polynomial(symbols)) return false;
-  constexpr double most_terms = 2000;
   double terms = 1;
   double degree = 0, bits = 0;
   int used = 0;
@@ -47,7 +75,7 @@ bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols
   for (const GiNaC::realsymbol& symbol : beside) {
     if (!expression.has(symbol)) continue;
     if (!expression.is_polynomial(symbol)) {  // beside the polynomial, as 1/x is: no degree bounds its powers
-      if (terms_multiplied_out(expression) > most_terms) return false;
+      if (most_terms_multiplied_out(expression) > most_terms) return false;
       continue;
     }
     degree += expression.degree(symbol);

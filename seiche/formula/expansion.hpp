@@ -9,6 +9,11 @@ namespace seiche {
 double bits_of(const Expression& base);
 inline constexpr double most_bits = 20'000;  // of a number whose powers still take milliseconds
 
+// So many terms stand at most above or below the line when all powers are multiplied out over a common denominator, in
+// the expression or in what one of its functions is of.
+double most_terms_multiplied_out(const Expression& expression);
+inline constexpr double most_terms = 2000;  // that are multiplied out in milliseconds
+
 // Is it a polynomial in `symbols` that can be multiplied out, with all symbols `beside` them, in a time that nobody
 // notices?
 bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols, const Symbols& beside);

@@ -1,6 +1,7 @@
 #include <seiche/config/custom/outward_growth.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 #include <seiche/formula/algebra_functions.hpp>
+#include <seiche/formula/expansion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -162,8 +163,7 @@ class Look {
   // Σ aᵢⱼuᵢuⱼ/b with coefficients in other symbols, as the kinetic energy of a double pendulum: then u·∇ is twice it.
   // Not negative where that holds with every |aᵢⱼ| as large, and every aᵢᵢ as small, as their bounds allow.
   bool is_nonnegative_form(const Expression& e) const {
-    constexpr std::size_t most_terms = 64;
-    if (terms(e) > most_terms || is_number(e)) return false;
+    if (is_number(e) || most_terms_multiplied_out(e) > most_terms) return false;
     const Expression quotient = e.normal().numer_denom();
     const std::optional<Bounds> below = bounds(quotient.op(1));
     if (!below || names_field(quotient.op(1)) || !(below->least > 0 || below->most < 0)) return false;

@@ -66,6 +66,12 @@ TEST(OutwardGrowth, EnergiesThatCanRiseAsTheirFieldsShrinkAreNotTakenForOthers) 
   }
 }
 
+// Multiplied out, it has millions of terms.
+TEST(OutwardGrowth, APowerOfASumIsJudgedAsItStands) {
+  const std::string line = "fields = [\"u\", \"v\"]\nlength = 2.0\npoints = 4\n";
+  EXPECT_FALSE(made("(u + v + x + (u + v + x + 2)^2)^16", line).potential->grows_outward());
+}
+
 TEST(OutwardGrowth, PlacesAreCoefficientsWhoseSignCounts) {
   const std::string line = "length = 1.0\npoints = 8\n";
   EXPECT_TRUE(made("v^2/2 + (1 + x^2)*u^4", line).potential->grows_outward());
