@@ -1,4 +1,5 @@
 // Linked into the programs of a sanitizer build: CLN, under GiNaC, allocates its flags at start and never frees them;
-// GiNaC 1.8 loses an expression where one of its own derivatives throws, as that of log(0) does.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libcln\nleak:libginac.so\n"; }
+// GiNaC 1.8 loses an expression where one of its own derivatives throws, as that of log(0) does; HDF5 leaves
+// objects behind where it finds a file damaged.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libcln\nleak:libginac.so\nleak:libhdf5\n"; }
 extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }

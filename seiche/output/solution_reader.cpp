@@ -35,9 +35,32 @@ std::vector<double> all_of(const Hdf5Dataset& data) {
   return values;
 }
 
+// So long may a processor take: damage can have HDF5 go round in circles.
+::rlim_t longest_reading(const std::filesystem::path& solution) {
+  constexpr std::uintmax_t seconds = 5, bytes_per_second = 20'000'000;
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(solution, unknown);
+  return seconds + (unknown ? 0 : bytes / bytes_per_second);
+}
+
+void end_at_first_fault(const std::filesystem::path& solution) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(signal, SIG_DFL);
+  if (const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0)
+    ::dup2(nowhere, STDERR_FILENO);  // what libraries say when they break down
+  const ::rlimit no_core = {0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  ::rlimit time{};
+  ::getrlimit(RLIMIT_CPU, &time);
+  time.rlim_cur = std::min(time.rlim_max, longest_reading(solution));
+  ::setrlimit(RLIMIT_CPU, &time);
+}
+
 }  // namespace
 
 SolutionReader::SolutionReader(const std::filesystem::path& path)
+    : SolutionReader(path, (what_another_process_finds(path), Unguarded())) {}
+
+SolutionReader::SolutionReader(const std::filesystem::path& path, Unguarded)
     : file_(Hdf5File::open(path)),
       t_(file_.dataset("t")),
       H_(file_.dataset("H")),
@@ -146,19 +169,15 @@ void SolutionReader::field(Index field, Index k, Vector& values) const {
                                               {values.data(), static_cast<std::size_t>(points_)});
 }
 
-void require_readable(const std::filesystem::path& solution) {
+std::string SolutionReader::what_another_process_finds(const std::filesystem::path& solution) {
   constexpr int whole = 0, damaged = 3;
   std::array<int, 2> pipe{};
-  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return;  // then without
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return "";  // then without
   const ::pid_t child = ::fork();
   if (child == 0) {
-    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL}) std::signal(signal, SIG_DFL);
-    if (const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0)
-      ::dup2(nowhere, STDERR_FILENO);  // what libraries say when they break down
-    const ::rlimit no_core = {0, 0};
-    ::setrlimit(RLIMIT_CORE, &no_core);
+    end_at_first_fault(solution);
     try {
-      SolutionReader(solution).require_whole();
+      SolutionReader(solution, Unguarded()).require_whole();
     } catch (const std::exception& error) {
       const std::string_view said = error.what();
       ::_exit(::write(pipe[1], said.data(), std::min<std::size_t>(said.size(), PIPE_BUF)) < 0 ? whole : damaged);
@@ -171,11 +190,17 @@ void require_readable(const std::filesystem::path& solution) {
       child < 0 ? 0 : unless_interrupted([&] { return ::read(pipe[0], said.data(), said.size()); });
   ::close(pipe[0]);
   int status = 0;
-  if (child < 0 || unless_interrupted([&] { return ::waitpid(child, &status, 0); }) < 0) return;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == damaged && length > 0)
-    throw Error(std::string(said.data(), static_cast<std::size_t>(length)));
+  if (child < 0 || unless_interrupted([&] { return ::waitpid(child, &status, 0); }) < 0) return "";
+  const bool finds = WIFEXITED(status) && WEXITSTATUS(status) == damaged && length > 0;
+  if (finds) return {said.data(), static_cast<std::size_t>(length)};
   if (!WIFEXITED(status) || WEXITSTATUS(status) != whole)
     throw Error("{} is damaged: HDF5 itself breaks down over it", solution.string());
+  return "";
+}
+
+void require_readable(const std::filesystem::path& solution) {
+  if (const std::string damage = SolutionReader::what_another_process_finds(solution); !damage.empty())
+    throw Error(damage);
 }
 
 void cut_solution(const Folder& folder, const std::string& name) {

@@ -19,7 +19,9 @@ struct CoordinateAxis {
 
 class SolutionReader {
  public:
-  // Throws Error where the file cannot be read, or is no solution.
+  // Another process reads first: damage of a kind that HDF5 does not expect, such as a text of endless length or a heap
+  // that leads into itself, ends the program that reads it, or never ends. Throws Error where that happened, where the
+  // file cannot be read, or is no solution.
   explicit SolutionReader(const std::filesystem::path& path);
 
   Index count() const { return count_; }  // of times for which everything is there
@@ -47,6 +49,11 @@ class SolutionReader {
   std::string text(const std::string& attribute) const { return text_attribute(file_.id(), attribute); }
 
  private:
+  struct Unguarded {};
+  SolutionReader(const std::filesystem::path& path, Unguarded);
+  static std::string what_another_process_finds(const std::filesystem::path& solution);
+  friend void require_readable(const std::filesystem::path& solution);
+
   void count_times(const std::filesystem::path& path);
   std::vector<double> first_of(const Hdf5Dataset& data) const;  // as many as there are times
   std::vector<Place> places(const std::string& name) const;
@@ -61,9 +68,8 @@ class SolutionReader {
   Index count_ = 0;
 };
 
-// Damage of a kind that HDF5 does not expect, such as a text of endless length, ends the program that reads it, or
-// leaves objects open that it complains about when the program ends: another process reads first. Throws Error where
-// that one ended, and with what it found wrong.
+// Throws Error with what another process finds damaged anywhere in the file: in this one, HDF5 would leave objects open
+// and complain about them when the program ends.
 void require_readable(const std::filesystem::path& solution);
 
 // So that readers that know nothing of this find the same number of rows everywhere.

@@ -58,6 +58,21 @@ TEST_F(HostileInput, OneBitOfASolutionIsWorthALineAtMost) {
   EXPECT_GT(refused, 3);
 }
 
+// HDF5 went round in circles, and the command with it.
+TEST_F(HostileInput, AHeapOfTextsThatLeadsIntoItselfIsToldInALine) {
+  write_case();
+  ASSERT_EQ(seiche("run case.toml --quiet --out run").exit, 0);
+  std::string damaged = text("run/solution.h5");
+  const std::size_t heap = damaged.find("GCOL");
+  ASSERT_NE(heap, std::string::npos);
+  damaged.replace(heap + 16, 16, 16, '\0');  // its first object, now free space of no length
+  write("run/solution.h5", damaged);
+  for (const std::string command : {"audit run", "plot run"}) {
+    refused_in_a_line(command);
+    EXPECT_THAT(seiche(command).err, HasSubstr("solution.h5 is damaged: HDF5 itself breaks down over it")) << command;
+  }
+}
+
 TEST_F(HostileInput, ASummaryWithTextsForNumbersIsNoErrorOfALibrary) {
   write_case();
   ASSERT_EQ(seiche("run case.toml --quiet --out run").exit, 0);
