@@ -1,6 +1,7 @@
 #include <seiche/backend/dense/dense_kernel.hpp>
 #include <seiche/backend/dense/dense_phi.hpp>
 #include <seiche/backend/dense/lane_matrix.hpp>
+#include <seiche/backend/phi/force_map.hpp>
 #include <seiche/backend/phi/phi_functions.hpp>
 
 #include <Eigen/Eigenvalues>

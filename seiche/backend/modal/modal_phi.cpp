@@ -2,6 +2,7 @@
 #include <seiche/backend/modal/modal_propagator.hpp>
 #include <seiche/backend/modal/mode_phi.hpp>
 #include <seiche/backend/modal/mode_table.hpp>
+#include <seiche/backend/phi/force_map.hpp>
 #include <seiche/backend/phi/phi_functions.hpp>
 
 #include <Eigen/Eigenvalues>

@@ -3,6 +3,7 @@
 #include <test/support/matrices.hpp>
 
 #include <seiche/backend/modal/mode_phi.hpp>
+#include <seiche/backend/phi/force_map.hpp>
 #include <seiche/backend/phi/phi_functions.hpp>
 
 #include <gtest/gtest.h>
@@ -97,7 +98,7 @@ TEST(ModePhi, ComplexFactorsTurnAndDecay) {
   std::vector<std::complex<double>> lambdas;
   for (Index k = 0; k < count; ++k) {
     const double omega = k == 0 ? 0 : std::pow(3.0, static_cast<double>(k) - 6);
-    lambdas.push_back({k % 3 == 0 ? 0.0 : -0.2 * omega, k % 2 == 0 ? omega : -omega});
+    lambdas.emplace_back(k % 3 == 0 ? 0.0 : -0.2 * omega, k % 2 == 0 ? omega : -omega);
     blocks.set(k, ModeBlockArrays::L, 0, 0, lambdas.back());
     blocks.set_size(k, std::abs(lambdas.back()));
   }
