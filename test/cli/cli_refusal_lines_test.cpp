@@ -101,71 +101,75 @@ TEST_F(HostileInput, EveryRefusalIsOneLineOfAtMost400Bytes) {
   std::string many = "parameters = { ";
   for (int i = 0; i < 2000; ++i) many += "parameter_" + std::to_string(i) + " = 1, ";
   many.replace(many.size() - 2, 2, " }\n");
-  for (const std::string& text :
-       std::vector<std::string>{large,
-                                large + " = 1\n",
-                                "[" + large + "]\n",
-                                problem + large + " = 1\n",
-                                problem + "gamma = " + large + "\n",
-                                problem + "gamma = \"" + large + "\"\n",
-                                problem + "gamma = \"" + std::string(3900, 'x') + "\"\n",
-                                problem + "gamma = \"" + std::string(3900, '1') + "\"\n",
-                                problem + "gamma = \"2*" + wide + "\"\n",
-                                problem + "points = \"" + large + "\"\n",
-                                problem + "initial = \"" + large + "\"\n",
-                                problem + "initial = { " + large + " = 1 }\n",
-                                problem + "initial = { file = \"" + large + "\" }\n",
-                                problem + "friction = { kind = \"" + large + "\" }\n",
-                                problem + "force = { " + large + " = \"1\" }\n",
-                                "[problem]\nname = \"" + large + "\"\n",
-                                problem + "[method]\nname = \"" + large + "\"\n",
-                                problem + "[method]\nh = \"" + large + "\"\n",
-                                problem + "[method]\nh = 1" + std::string(100'000, '0') + "\n",
-                                problem + "gamma = \"a\\nb\\u001b[2J\"\n",
-                                problem + "\"a\\nb\" = 1\n",
-                                problem + "gamma = \"\"\"\n\n\n0.1 + * t\n\n\"\"\"\n",
-                                problem + "gamma = 1\ngamma = 2\n",
-                                problem + "gamma =\n",
-                                problem + "gamma = [1,\n2\n[time]\n",
-                                problem + "h = 1/64\n",
-                                "\xff\xfe\n",
-                                "a = \"\x01\"\n",
-                                custom + "fields = [\"" + large + "\", \"p\"]\nH = \"p^2\"\n",
-                                custom + "fields = [\"q\", \"p\"]\nH = \"p^2/2 + zeta*q\"\n" + many,
-                                custom + "fields = [\"q\", \"p\"]\nparameters = { " + large + " = 1 }\nH = \"p^2/2\"\n",
-                                custom + "fields = [\"q\", \"p\"]\nH = \"p^2/2 + q^4\"\nD = { p = \"" +
-                                    repeated("1 + ", 900) + "sin(q)\" }\n",
-                                custom + "length = 1.0\npoints = 8\nfields = [\"u\", \"v\"]\nH = \"v^2/2 + " +
-                                    repeated("u^2 + ", 600) + "u_x^4\"\n"})
-    refused_case(text);
+  const std::vector<std::string> cases = {large,
+                                          large + " = 1\n",
+                                          "[" + large + "]\n",
+                                          problem + large + " = 1\n",
+                                          problem + "gamma = " + large + "\n",
+                                          problem + "gamma = \"" + large + "\"\n",
+                                          problem + "gamma = \"" + std::string(3900, 'x') + "\"\n",
+                                          problem + "gamma = \"" + std::string(3900, '1') + "\"\n",
+                                          problem + "gamma = \"2*" + wide + "\"\n",
+                                          problem + "points = \"" + large + "\"\n",
+                                          problem + "initial = \"" + large + "\"\n",
+                                          problem + "initial = { " + large + " = 1 }\n",
+                                          problem + "initial = { file = \"" + large + "\" }\n",
+                                          problem + "friction = { kind = \"" + large + "\" }\n",
+                                          problem + "force = { " + large + " = \"1\" }\n",
+                                          "[problem]\nname = \"" + large + "\"\n",
+                                          problem + "[method]\nname = \"" + large + "\"\n",
+                                          problem + "[method]\nh = \"" + large + "\"\n",
+                                          problem + "[method]\nh = 1" + std::string(100'000, '0') + "\n",
+                                          problem + "gamma = \"a\\nb\\u001b[2J\"\n",
+                                          problem + "\"a\\nb\" = 1\n",
+                                          problem + "gamma = \"\"\"\n\n\n0.1 + * t\n\n\"\"\"\n",
+                                          problem + "gamma = 1\ngamma = 2\n",
+                                          problem + "gamma =\n",
+                                          problem + "gamma = [1,\n2\n[time]\n",
+                                          problem + "h = 1/64\n",
+                                          "\xff\xfe\n",
+                                          "a = \"\x01\"\n",
+                                          custom + "fields = [\"" + large + "\", \"p\"]\nH = \"p^2\"\n",
+                                          custom + "fields = [\"q\", \"p\"]\nH = \"p^2/2 + zeta*q\"\n" + many,
+                                          custom + "fields = [\"q\", \"p\"]\nparameters = { " + large +
+                                              " = 1 }\nH = \"p^2/2\"\n",
+                                          custom + "fields = [\"q\", \"p\"]\nH = \"p^2/2 + q^4\"\nD = { p = \"" +
+                                              repeated("1 + ", 900) + "sin(q)\" }\n",
+                                          custom + "length = 1.0\npoints = 8\nfields = [\"u\", \"v\"]\nH = \"v^2/2 + " +
+                                              repeated("u^2 + ", 600) + "u_x^4\"\n"};
+  for (const std::string& text : cases) refused_case(text);
 
   write_case();
-  for (const std::string& arguments : {wide,
-                                       "run " + wide,
-                                       "run case.toml " + wide,
-                                       "run case.toml --" + wide,
-                                       "run case.toml --threads " + wide,
-                                       "run case.toml --out out --set " + wide,
-                                       "run case.toml --out out --set " + wide + "=1",
-                                       "run case.toml --out out --set problem." + wide + "=1",
-                                       "run case.toml --out out --set problem.gamma=" + wide,
-                                       "run case.toml --out out --set problem.gamma.x." + wide + "=1",
-                                       "run case.toml --out " + wide,
-                                       "run case.toml --set output.directory=" + wide,
-                                       "audit " + wide,
-                                       "plot " + wide,
-                                       "plot out --format " + wide,
-                                       "new " + wide,
-                                       "list " + wide,
-                                       "recover " + wide,
-                                       "converge case.toml --methods " + wide,
-                                       "converge case.toml --h " + wide,
-                                       "paper --out out --reference " + wide})
-    refused_in_a_line(arguments);
+  const std::vector<std::string> commands = {wide,
+                                             "run " + wide,
+                                             "run case.toml " + wide,
+                                             "run case.toml --" + wide,
+                                             "run case.toml --threads " + wide,
+                                             "run case.toml --out out --set " + wide,
+                                             "run case.toml --out out --set " + wide + "=1",
+                                             "run case.toml --out out --set problem." + wide + "=1",
+                                             "run case.toml --out out --set problem.gamma=" + wide,
+                                             "run case.toml --out out --set problem.gamma.x." + wide + "=1",
+                                             "run case.toml --out " + wide,
+                                             "run case.toml --set output.directory=" + wide,
+                                             "audit " + wide,
+                                             "plot " + wide,
+                                             "plot out --format " + wide,
+                                             "new " + wide,
+                                             "list " + wide,
+                                             "recover " + wide,
+                                             "converge case.toml --methods " + wide,
+                                             "converge case.toml --h " + wide,
+                                             "paper --out out --reference " + wide};
+  for (const std::string& arguments : commands) refused_in_a_line(arguments);
 
-  for (const std::string& M :
-       {large, market + large, market + "2 2 1\n1 1 " + large, market + "2 2 1\n" + large + "\n",
-        "%%MatrixMarket " + large + "\n", market + "2 2 1\n1 1 " + std::string(1000, '9') + "\n"}) {
+  const std::vector<std::string> matrices = {large,
+                                             market + large,
+                                             market + "2 2 1\n1 1 " + large,
+                                             market + "2 2 1\n" + large + "\n",
+                                             "%%MatrixMarket " + large + "\n",
+                                             market + "2 2 1\n1 1 " + std::string(1000, '9') + "\n"};
+  for (const std::string& M : matrices) {
     write_matrices(M);
     refused_in_a_line("check case.toml");
   }
