@@ -1,5 +1,6 @@
 // The contracts of potentials, pointwise and in the coordinates of every backend.
 #include <test/support/cases.hpp>
+#include <test/support/plain_space.hpp>
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/grid/grid_potential.hpp>
@@ -122,7 +123,8 @@ class CountingTransform final : public FieldTransform {
 
 TEST(Potential, TheMagnitudeBesideTheValueTakesNoFurtherTransform) {
   const auto transform = std::make_shared<CountingTransform>(5);
-  const GridPotential V(nodal_polynomial({0, 1}), 0, transform);
+  const PlainSpace space(transform->unknowns());
+  const GridPotential V(nodal_polynomial({0, 1}), 0, transform, space);
   EXPECT_DOUBLE_EQ(V.value_and_magnitude(Vector::Constant(5, -2.0)).magnitude, 10.0);
   EXPECT_EQ(transform->count, 1);
 }

@@ -183,7 +183,8 @@ System dense_system(const Problem& problem, const BackendOptions&) {
   const auto matrix = [&](const BlockStencil& stencil, SparseMatrix SparseOperators::*sparse) -> Matrix {
     return problem.matrices ? Matrix((*problem.matrices).*sparse) : stencil.matrix(problem.grid);
   };
-  system.potential = std::make_unique<GridPotential>(problem.potential, problem.potential_field, identity);
+  system.potential =
+      std::make_unique<GridPotential>(problem.potential, problem.potential_field, identity, *system.space);
   const Matrix S = matrix(problem.S, &SparseOperators::S);
   const Matrix M = matrix(problem.M, &SparseOperators::M);
   const Potential::Support support = system.potential->support();

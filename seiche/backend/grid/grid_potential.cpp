@@ -2,12 +2,13 @@
 #include <seiche/backend/grid/segment.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace seiche {
 
 GridPotential::GridPotential(std::shared_ptr<const PointwisePotential> pointwise, Index first_field,
-                             std::shared_ptr<const FieldTransform> transform)
-    : pointwise_(std::move(pointwise)), transform_(std::move(transform)) {
+                             std::shared_ptr<const FieldTransform> transform, const Space& space)
+    : pointwise_(std::move(pointwise)), transform_(std::move(transform)), space_(space) {
   const Index fields = pointwise_ ? pointwise_->fields() : 0;
   support_ = {first_field * transform_->slots(), fields * transform_->slots()};
   for (Vector* scratch : {&a_, &b_, &slope_}) scratch->setZero(fields * transform_->unknowns());
@@ -29,20 +30,26 @@ void GridPotential::set_gradient(const Vector& physical, Vector& gradient) const
     transform_->forward(segment(physical, f * n, n), segment(gradient, support_.begin + f * slots, slots));
 }
 
+ValueAndMagnitude GridPotential::sum(const ValueAndMagnitude& local) const {
+  std::array sums = {local.value, local.magnitude};
+  space_.sum(sums);
+  return {.value = sums[0], .magnitude = sums[1]};
+}
+
 double GridPotential::value(const Vector& z) const {
   if (!pointwise_) return 0;
   ++counts_.values;
-  return pointwise_->value(values_of(z, a_));
+  return space_.sum(pointwise_->value(values_of(z, a_)));
 }
 
 double GridPotential::magnitude(const Vector& z) const {
-  return pointwise_ ? pointwise_->magnitude(values_of(z, a_)) : 0;
+  return pointwise_ ? space_.sum(pointwise_->magnitude(values_of(z, a_))) : 0;
 }
 
 ValueAndMagnitude GridPotential::value_and_magnitude(const Vector& z) const {
   if (!pointwise_) return {};
   ++counts_.values;
-  return pointwise_->value_and_magnitude(values_of(z, a_));
+  return sum(pointwise_->value_and_magnitude(values_of(z, a_)));
 }
 
 // In the vector of the gradient: coordinates become values, these slopes, and those coordinates again.
@@ -53,8 +60,8 @@ double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) cons
     return pointwise_->value_and_gradient_in_place(transform_->value_scale(), transform_->slot_scale(), values);
   };
   if (pointwise_->is_local())
-    return transform_->through_values(segment(z, support_.begin, support_.size),
-                                      segment(gradient, support_.begin, support_.size), slopes);
+    return space_.sum(transform_->through_values(segment(z, support_.begin, support_.size),
+                                                 segment(gradient, support_.begin, support_.size), slopes));
   if (&z != &gradient) gradient.segment(support_.begin, support_.size) = z.segment(support_.begin, support_.size);
   const Index n = transform_->unknowns();
   const Index slots = transform_->slots();
@@ -62,7 +69,7 @@ double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) cons
   for (Index f = 0; f < pointwise_->fields(); ++f) transform_->to_values(field(f), segment(slope_, f * n, n));
   const double v = slopes(all(slope_));
   for (Index f = 0; f < pointwise_->fields(); ++f) transform_->to_slots(segment(slope_, f * n, n), field(f));
-  return v;
+  return space_.sum(v);
 }
 
 void GridPotential::mean_gradient(const Vector& a, const Vector& b, Vector& mean) const {
@@ -79,6 +86,7 @@ void GridPotential::along(const Vector& p, const Vector& q, std::span<double> co
   }
   ++counts_.values;
   pointwise_->along(values_of(p, a_), values_of(q, b_), coefficients);
+  space_.sum(coefficients);
 }
 
 void GridPotential::along_ray(const Vector& z, std::span<double> coefficients) const {
@@ -87,11 +95,12 @@ void GridPotential::along_ray(const Vector& z, std::span<double> coefficients) c
   ++counts_.values;
   const std::span<const double> u = values_of(z, b_);
   if (const int d = pointwise_->homogeneity(); d > 0) {
-    coefficients[static_cast<std::size_t>(d)] = pointwise_->value(u);
+    coefficients[static_cast<std::size_t>(d)] = space_.sum(pointwise_->value(u));
     return;
   }
   a_.setZero();
   pointwise_->along(all(a_), u, coefficients);
+  space_.sum(coefficients);
 }
 
 }  // namespace seiche

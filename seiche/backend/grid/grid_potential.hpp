@@ -3,6 +3,7 @@
 
 #include <seiche/backend/fft/transform.hpp>
 #include <seiche/core/potential.hpp>
+#include <seiche/core/space.hpp>
 
 #include <memory>
 
@@ -11,9 +12,9 @@ namespace seiche {
 // V of one or several fields: inverse transform, pointwise, forward transform. A problem without potential has V = 0.
 class GridPotential final : public Potential {
  public:
-  // V of the fields from `first_field` on; null: V = 0.
+  // V of the fields from `first_field` on; null: V = 0. `space` outlives it, and adds up what each process knows.
   GridPotential(std::shared_ptr<const PointwisePotential> pointwise, Index first_field,
-                std::shared_ptr<const FieldTransform> transform);
+                std::shared_ptr<const FieldTransform> transform, const Space& space);
   double value(const Vector& z) const override;
   double magnitude(const Vector& z) const override;
   ValueAndMagnitude value_and_magnitude(const Vector& z) const override;
@@ -27,10 +28,12 @@ class GridPotential final : public Potential {
 
  private:
   std::span<const double> values_of(const Vector& z, Vector& values) const;
+  ValueAndMagnitude sum(const ValueAndMagnitude& local) const;
   void set_gradient(const Vector& physical, Vector& gradient) const;
 
   std::shared_ptr<const PointwisePotential> pointwise_;
   std::shared_ptr<const FieldTransform> transform_;
+  const Space& space_;
   Support support_;
   mutable Vector a_, b_, slope_;  // scratch, V's fields on their grid
 };

@@ -127,8 +127,9 @@ class ModalPhiMap final : public PhiMap {
 
 class ModalPhiForms final : public PhiForms {
  public:
-  ModalPhiForms(std::span<const PhiEvaluator::Form> forms, const ModalExtent& extent)
-      : columns_(forms.front().rows, extent),
+  ModalPhiForms(std::span<const PhiEvaluator::Form> forms, const ModalExtent& extent, const Space& space)
+      : space_(space),
+        columns_(forms.front().rows, extent),
         threads_(extent.threads),
         forms_(extent.layout, extent.modes, static_cast<Index>(forms.size()), columns_.size()) {}
 
@@ -160,6 +161,7 @@ class ModalPhiForms final : public PhiForms {
 
   void apply(const Vector& z, std::span<const Vector> forces, std::span<double> values) const override {
     forms_.apply(columns_.of(z, forces), values, threads_);
+    space_.sum(values);
   }
 
  private:
@@ -179,6 +181,7 @@ class ModalPhiForms final : public PhiForms {
     return z_and_n.adjoint() * (flow_dissipation(mode, h) * z_and_n);
   }
 
+  const Space& space_;
   Columns columns_;
   int threads_;
   ModeForms forms_;
@@ -196,8 +199,9 @@ class ModalPhi final : public PhiEvaluator {
   bool has_tables() const override { return true; }
   double rate() const override { return rate_; }
 
-  explicit ModalPhi(const ModalOperators& o)
-      : symbols_{Modes(o.grid), o.S, o.M, o.D0},
+  ModalPhi(const ModalOperators& o, const Space& space)
+      : space_(space),
+        symbols_{Modes(o.grid), o.S, o.M, o.D0},
         extent_{.fields = o.S.fields(),
                 .modes = symbols_.modes.count(),
                 .layout = layout(),
@@ -224,12 +228,12 @@ class ModalPhi final : public PhiEvaluator {
 
   std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const override {
     if (fits_lanes(blocks_, forms.front().rows, h)) {
-      auto made = std::make_unique<ModalPhiForms>(forms, extent_);
+      auto made = std::make_unique<ModalPhiForms>(forms, extent_, space_);
       made->fill(forms, blocks_, h);
       return made;
     }
     return with_block_type(symbols_, [&]<class Matrix>() {
-      auto made = std::make_unique<ModalPhiForms>(forms, extent_);
+      auto made = std::make_unique<ModalPhiForms>(forms, extent_, space_);
       made->fill<Matrix>(forms, symbols_, h);
       return made;
     });
@@ -323,6 +327,7 @@ class ModalPhi final : public PhiEvaluator {
     Index mode;
     Block projector;
   };
+  const Space& space_;
   Symbols symbols_;
   ModalExtent extent_;
   ModeBlockArrays blocks_{extent_.modes, extent_.fields, symbols_.are_real()};
@@ -333,8 +338,8 @@ class ModalPhi final : public PhiEvaluator {
 
 }  // namespace
 
-std::unique_ptr<PhiEvaluator> modal_phi(const ModalOperators& operators) {
-  return std::make_unique<ModalPhi>(operators);
+std::unique_ptr<PhiEvaluator> modal_phi(const ModalOperators& operators, const Space& space) {
+  return std::make_unique<ModalPhi>(operators, space);
 }
 
 }  // namespace seiche

@@ -3,6 +3,7 @@
 
 #include <seiche/core/grid/stencil.hpp>
 #include <seiche/core/phi.hpp>
+#include <seiche/core/space.hpp>
 
 #include <memory>
 
@@ -14,6 +15,7 @@ struct ModalOperators {
   Index first = 0, count = 0;  // the fields that V depends on
   int threads = 1;
 };
-std::unique_ptr<PhiEvaluator> modal_phi(const ModalOperators& operators);
+// `space` outlives it, and adds up what each process knows of the modes that it holds.
+std::unique_ptr<PhiEvaluator> modal_phi(const ModalOperators& operators, const Space& space);
 
 }  // namespace seiche

@@ -3,6 +3,7 @@
 #include <seiche/core/simd/parallel.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -16,8 +17,9 @@ constexpr Index block_slots = 8192;  // of one thread's share; part of what fixe
 template <class S>
 class FusedPropagator final : public Propagator {
  public:
-  FusedPropagator(const ModalExtent& extent, const ModalMetric& metric, ModalForceMaps maps)
-      : slots_(extent.slots()),
+  FusedPropagator(const Space& space, const ModalExtent& extent, const ModalMetric& metric, ModalForceMaps maps)
+      : space_(space),
+        slots_(extent.slots()),
         blocks_((slots_ + block_slots - 1) / block_slots),
         threads_(extent.threads),
         metric_(metric),
@@ -59,7 +61,9 @@ class FusedPropagator final : public Propagator {
     });
     RecallSums total;
     for (const RecallSums& part : recalled_) total += part;
-    recalled = {total.missed, total.size};
+    std::array sums = {total.missed, total.size};
+    space_.sum(sums);
+    recalled = {.missed = sums[0], .size = sums[1]};
     return true;
   }
 
@@ -70,7 +74,9 @@ class FusedPropagator final : public Propagator {
     });
     PowerSums total;
     for (const PowerSums& part : sums_) total += part;
-    return {total.of_increment, total.of_force, total.twice_energy / 2};
+    std::array sums = {total.of_increment, total.of_force, total.twice_energy};
+    space_.sum(sums);
+    return {.of_increment = sums[0], .of_force = sums[1], .quadratic_energy = sums[2] / 2};
   }
   void update(Vector& z, const Vector& f, double c, FieldFactors before, FieldFactors after) const override {
     point(step_, z, &f, &z, before);
@@ -110,6 +116,7 @@ class FusedPropagator final : public Propagator {
     for_blocks(blocks_, threads_, [&](Index block) { run<Verb, S>(o, begin(block), end(block)); });
   }
 
+  const Space& space_;
   Index slots_, blocks_;
   int threads_;
   const ModalMetric& metric_;
@@ -119,12 +126,13 @@ class FusedPropagator final : public Propagator {
   mutable std::vector<RecallSums> recalled_;
 };
 
-using Make = std::unique_ptr<Propagator> (*)(const ModalExtent&, const ModalMetric&, ModalForceMaps);
+using Make = std::unique_ptr<Propagator> (*)(const Space&, const ModalExtent&, const ModalMetric&, ModalForceMaps);
 
 template <ModeLayout layout, int fields, int first, int count, unsigned unit>
-std::unique_ptr<Propagator> make(const ModalExtent& extent, const ModalMetric& metric, ModalForceMaps maps) {
+std::unique_ptr<Propagator> make(const Space& space, const ModalExtent& extent, const ModalMetric& metric,
+                                 ModalForceMaps maps) {
   using S = Shape<layout, fields, first, count, unit>;
-  return std::make_unique<FusedPropagator<S>>(extent, metric, std::move(maps));
+  return std::make_unique<FusedPropagator<S>>(space, extent, metric, std::move(maps));
 }
 
 // One field; second-order equations (u, v), with V of u and M the identity on v or not; pairs of fields, with V of
@@ -186,9 +194,9 @@ SEICHE_MULTIVERSION void multiply_modes_of(const double* M, const double* z, Ind
 
 bool has_fused_propagator(const ModalExtent& extent, unsigned unit) { return find(extent, unit) != nullptr; }
 
-std::unique_ptr<Propagator> fused_propagator(const ModalExtent& extent, const ModalMetric& metric,
+std::unique_ptr<Propagator> fused_propagator(const Space& space, const ModalExtent& extent, const ModalMetric& metric,
                                              ModalForceMaps maps) {
-  return find(extent, metric.unit)(extent, metric, std::move(maps));
+  return find(extent, metric.unit)(space, extent, metric, std::move(maps));
 }
 
 double weighted_square(ModeLayout layout, const double* M, const double* z, Index slots) {

@@ -4,6 +4,7 @@
 #include <seiche/backend/modal/mode_arrays.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/propagator.hpp>
+#include <seiche/core/space.hpp>
 
 #include <memory>
 
@@ -31,10 +32,11 @@ struct ModalExtent {
 // Whether there are passes for such fields; otherwise ModeMap serves, entry by entry.
 bool has_fused_propagator(const ModalExtent& extent, unsigned unit);
 
-// `metric` outlives the propagator.
-std::unique_ptr<Propagator> fused_propagator(const ModalExtent& extent, const ModalMetric& metric, ModalForceMaps maps);
+// `space` and `metric` outlive the propagator.
+std::unique_ptr<Propagator> fused_propagator(const Space& space, const ModalExtent& extent, const ModalMetric& metric,
+                                             ModalForceMaps maps);
 
-// Σ M z² over the slots of one field; null M: the identity.
+// Σ M z² over the slots of one field that this process holds; null M: the identity.
 double weighted_square(ModeLayout layout, const double* M, const double* z, Index slots);
 // out ← M z over the slots of one field.
 void multiply_modes(ModeLayout layout, const double* M, const double* z, Index slots, double* out);

@@ -26,7 +26,7 @@ constexpr Index slots_per_mode(ModeLayout layout) { return layout == ModeLayout:
 class ModeArrays {
  public:
   ModeArrays(Index modes, Index rows, Index columns, ModeLayout layout)
-      : rows_(rows), columns_(columns), stride_(modes * factors_per_mode(layout)), layout_(layout) {
+      : columns_(columns), stride_(modes * factors_per_mode(layout)), layout_(layout) {
     factors_.resize(static_cast<std::size_t>(rows * columns * stride_));
   }
 
@@ -44,7 +44,7 @@ class ModeArrays {
     return factors_.data() + static_cast<std::size_t>((row * columns_ + column) * stride_);
   }
 
-  Index rows_, columns_, stride_;
+  Index columns_, stride_;
   ModeLayout layout_;
   std::vector<double> factors_;
 };

@@ -2,7 +2,7 @@
 
 namespace seiche {
 
-ModeMap::ModeMap(const Modes& modes, Index fields, const Block& block) : fields_(fields), slots_(modes.slots()) {
+ModeMap::ModeMap(const Modes& modes, Index fields, const Block& block) : slots_(modes.slots()) {
   const bool paired = modes.are_pairs();
   std::vector<Eigen::MatrixXcd> blocks;
   blocks.reserve(static_cast<std::size_t>(modes.count()));

@@ -30,7 +30,6 @@ class ModeMap final : public LinearMap {
   };
   void add_entry(const Entry& entry, const Vector& in, Vector& out) const;
 
-  Index fields_;
   Index slots_;
   std::vector<Entry> entries_;
 };

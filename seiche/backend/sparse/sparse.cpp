@@ -49,7 +49,8 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
   System system;
   system.fields = problem.field_count();
   system.space = std::make_unique<GridSpace>(problem.field_count(), identity);
-  system.potential = std::make_unique<GridPotential>(problem.potential, problem.potential_field, identity);
+  system.potential =
+      std::make_unique<GridPotential>(problem.potential, problem.potential_field, identity, *system.space);
 
   std::shared_ptr<const SparseOperators> shared = problem.matrices;
   if (!shared)
