@@ -1,11 +1,16 @@
-// seiche check: which hypotheses of the energy laws a case meets, and which law is promised.
+// seiche check: which hypotheses of the energy laws a case meets, and which law is promised; or what a checkpoint
+// holds, and whether a run can go on from it.
 #include "command_line.hpp"
 #include "load_case.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/driver/saved_run.hpp>
 #include <seiche/simulation/certificate.hpp>
 
+#include <filesystem>
 #include <memory>
 
 namespace seiche::cli {
@@ -38,7 +43,47 @@ std::string to_text(const RunSpec& spec, const Certificate& certificate) {
   return text;
 }
 
+ExitCode check_checkpoint(const CheckArguments& arguments) {
+  if (!arguments.case_argument.overrides.empty())
+    throw Error("--set changes a case, and {} is a checkpoint, which keeps its own", arguments.case_argument.file);
+  const std::filesystem::path file = std::filesystem::absolute(arguments.case_argument.file);
+  const SavedRun saved = read_checkpoint(file).run;
+  const std::filesystem::path folder = file.parent_path();
+  const RunSpec spec = parse_case(saved.case_text, file.string(), {}, folder);
+  std::string complaint;
+  try {
+    complaint = complaint_about(Folder(folder), saved);
+  } catch (const Error& error) {
+    complaint = error.what();
+  }
+  const double part = 100 * (saved.t - spec.t_start) / (spec.t_end - spec.t_start);
+  const Json document = {{"checkpoint", file.filename().string()},
+                         {"problem", spec.problem},
+                         {"method", spec.method},
+                         {"t", saved.t},
+                         {"steps", saved.steps},
+                         {"end", spec.t_end},
+                         {"rows_of_solution", saved.solution.rows},
+                         {"bytes_of_energies", saved.energies.file.length},
+                         {"resumed_at", saved.resumed_at},
+                         {"versions", saved.versions},
+                         {"notes", saved.notes},
+                         {"usable", complaint.empty()},
+                         {"complaint", complaint}};
+  std::string text = fmt::format("{} by {}: t = {:.9g} of {:.9g} ({:.3g} %), step {}\n", spec.problem, spec.method,
+                                 saved.t, spec.t_end, part, saved.steps);
+  text +=
+      fmt::format("solution.h5 had {} rows and energy.csv {} bytes\n", saved.solution.rows, saved.energies.file.length);
+  for (const double t : saved.resumed_at)
+    text += fmt::format("the run had gone on from a checkpoint at t = {:.9g}\n", t);
+  text += complaint.empty() ? fmt::format("`seiche resume {}` goes on from there\n", folder.string())
+                            : fmt::format("no run can go on from it: {}\n", complaint);
+  print_data(arguments.json ? document.dump(2) + "\n" : text);
+  return complaint.empty() ? success : computation_failed;
+}
+
 ExitCode check(const CheckArguments& arguments) {
+  if (is_checkpoint(arguments.case_argument.file)) return check_checkpoint(arguments);
   const RunSpec spec = load_case(arguments.case_argument);
   const Problem problem = make_problem(spec);
   const Simulation simulation(problem, simulation_options(spec));  // refuses what `run` refuses
@@ -56,7 +101,9 @@ ExitCode check(const CheckArguments& arguments) {
 void add_check(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command =
-      app.add_subcommand("check", "The hypotheses that a case meets, how that is known, and the law they promise");
+      app.add_subcommand("check",
+                         "The hypotheses that a case meets, how that is known, and the law they promise; or "
+                         "what a checkpoint holds");
   add_case(*command, arguments->case_argument);
   command->add_flag("--json", arguments->json, "Print one JSON document on stdout");
   command->callback([arguments, &action] { action = [arguments] { return check(*arguments); }; });

@@ -21,8 +21,7 @@ extern "C" const char* __asan_default_options() { return "quarantine_size_mb=16:
 namespace seiche::fuzz {
 namespace {
 
-// Seconds; the sanitizers, with little optimisation, take the other half.
-constexpr double longest = 2 * 2;
+constexpr double longest = 4;            // seconds: of what takes two without sanitizers
 constexpr long most_memory = 512;        // MB
 constexpr std::size_t most_bytes = 400;  // of a line
 

@@ -82,13 +82,14 @@ class StoppedRun {
   unsigned files() const { return static_cast<unsigned>(files_.size()); }
 
   std::string checkpoint(const Edits& edits, const std::string& bytes, bool checksum_fits) const {
-    const std::size_t head = bytes.find('\n') + 1 + 2 * sizeof(std::uint64_t);
-    std::string body = checksum_fits ? bytes.substr(head) : bytes;
+    // A line that names the format, what is kept, and at the end its length and checksum.
+    const std::size_t head = bytes.find('\n') + 1;
+    std::array<std::uint64_t, 2> tail = {};
+    std::string body = checksum_fits ? bytes.substr(head, bytes.size() - head - sizeof(tail)) : bytes;
     for (unsigned number = 0; number < files(); ++number) body = edits.applied(body, 2 * number, 2 * files());
     if (!checksum_fits) return body;
-    const std::array<std::uint64_t, 2> sizes = {body.size(), checksum(body)};
-    return bytes.substr(0, bytes.find('\n') + 1) +
-           std::string(reinterpret_cast<const char*>(sizes.data()), sizeof sizes) + body;
+    tail = {body.size(), checksum(body)};
+    return bytes.substr(0, head) + body + std::string(reinterpret_cast<const char*>(tail.data()), sizeof(tail));
   }
 
   OwnFolder folder_;

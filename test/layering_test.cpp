@@ -73,7 +73,7 @@ const std::vector<ThirdParty> third_party = {
     {"CLI/", {"cli"}},
     {"pybind11/", {"python"}},
     {"boost/numeric/odeint", {"study"}},
-    {"boost/crc.hpp", {"output"}},
+    {"zlib.h", {"output"}},
     {"boost/math/", {"core", "damping", "study", "method", "run"}},
 };
 

@@ -64,11 +64,8 @@ void CheckpointKeeper::save(FunctionRef<void(Archive&)> run) {
 }
 
 void CheckpointKeeper::write(SavedRun& saved, FunctionRef<void(Archive&)> run) const {
-  Archive archive;
-  archive(saved);
-  run(archive);
   AtomicFile file(folder_, checkpoint_name);
-  file.write(checkpoint_bytes(archive));
+  write_checkpoint(file, saved, run);
   file.sync();  // before the one that it replaces loses its name
   if (options_.when.keep > 1) rename_file(folder_, checkpoint_name, earlier_checkpoint_name);
   file.commit();

@@ -1,6 +1,5 @@
 #include <seiche/core/error.hpp>
 #include <seiche/driver/saved_run.hpp>
-#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/checksum.hpp>
 
 #include <fmt/ranges.h>
@@ -8,23 +7,26 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace seiche {
 namespace {
 
-constexpr std::string_view format = "Seiche checkpoint 2\n";
+constexpr std::string_view format = "Seiche checkpoint 3\n", of_any_version = "Seiche checkpoint ";
 
-struct Head {
+struct Tail {
   std::uint64_t length;
   std::uint64_t checksum;
 };
 
-std::string complaint(const Folder& folder, const SavedRun& run) {
-  std::string of_energies = EnergyTrace::complaint(folder, run.energies);
-  return of_energies.empty() ? SolutionFile::complaint(folder, run.solution) : of_energies;
+// The next bytes; fewer where the file has become shorter meanwhile.
+std::string read(std::ifstream& in, std::uintmax_t size) {
+  std::string bytes(size, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
 }
 
 }  // namespace
@@ -66,13 +68,18 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   return found;
 }
 
+std::string complaint_about(const Folder& folder, const SavedRun& run) {
+  std::string of_energies = EnergyTrace::complaint(folder, run.energies);
+  return of_energies.empty() ? SolutionFile::complaint(folder, run.solution) : of_energies;
+}
+
 Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& notes) {
   for (const char* name : {checkpoint_name, earlier_checkpoint_name}) {
     const std::filesystem::path file = folder.path() / name;
     if (!std::filesystem::exists(file)) continue;
     try {
       Checkpoint found = read_checkpoint(file);
-      const std::string said = complaint(folder, found.run);
+      const std::string said = complaint_about(folder, found.run);
       if (said.empty()) return found;
       notes.push_back(fmt::format("{} is of no use: {}", name, said));
     } catch (const Error& error) {

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <seiche/core/control/archive.hpp>
+#include <seiche/core/function_ref.hpp>
 #include <seiche/output/energy_trace.hpp>
-#include <seiche/output/file/folder.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/sha256.hpp>
 #include <seiche/output/solution_file.hpp>
 
@@ -37,10 +38,16 @@ struct Checkpoint {
   Archive rest;  // what the time loop has written, to be read by it
 };
 
-// The file: a line that says what it is, the length and the CRC-32 of what follows, and that.
-std::string checkpoint_bytes(const Archive& archive);
+// The file: a line that says what it is, the bytes of the archive, and their number and CRC-32. `saved` is written
+// first, and then what `rest` writes. Throws Error where there is no room.
+void write_checkpoint(AtomicFile& file, SavedRun& saved, FunctionRef<void(Archive&)> rest);
+// By how it begins: of any version, whole or not.
+bool is_checkpoint(const std::filesystem::path& file);
 // Throws Error where it cannot be read, is damaged, or is of another format.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+// Why a run cannot go on from it in this folder, whose files no longer begin as they did then; "" where it can.
+std::string complaint_about(const Folder& folder, const SavedRun& run);
 
 // The newest checkpoint of a folder that is whole, and with whose beginning the files of the folder agree. `notes` gets
 // a sentence for each that is not. Throws Error, with these, where there is none.

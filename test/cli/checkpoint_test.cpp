@@ -71,6 +71,28 @@ TEST_F(CheckpointCliSlow, IsWhatEverySignalToEndLeaves) {
   }
 }
 
+TEST_F(CheckpointCli, IsReadByCheckWhichSaysWhetherItIsOfUse) {
+  Background run(directory, arguments("time.end=1e7"));
+  ASSERT_TRUE(Background::wait_until([&] { return computes(); }));
+  ASSERT_EQ(run.end(SIGTERM), 130);
+  const double t = json::parse(text("out/summary.json"))["t"];
+  const Result said = seiche("check out/checkpoint.seiche"), as_json = seiche("check out/checkpoint.seiche --json");
+  EXPECT_EQ(said.exit, 0) << said.err;
+  EXPECT_THAT(said.out, AllOf(HasSubstr("of 10000000"), HasSubstr("seiche resume"), HasSubstr("goes on from there")));
+  EXPECT_EQ(json::parse(as_json.out)["t"], t);
+  EXPECT_EQ(json::parse(as_json.out)["usable"], true);
+  EXPECT_THAT(seiche("check out/checkpoint.seiche --set method.h=1").err, HasSubstr("which keeps its own"));
+
+  fs::resize_file(directory / "out/energy.csv", 10);
+  const Result torn = seiche("check out/checkpoint.seiche");
+  EXPECT_EQ(torn.exit, 1);
+  EXPECT_THAT(torn.out, AllOf(HasSubstr("no run can go on from it"), HasSubstr("energy.csv has 10 bytes")));
+  fs::resize_file(directory / "out/checkpoint.seiche", 500);
+  const Result damaged = seiche("check out/checkpoint.seiche");
+  EXPECT_EQ(damaged.exit, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("checkpoint.seiche is damaged"));
+}
+
 TEST_F(CheckpointCli, IsWhatUsr1AsksForAndTheRunGoesOn) {
   Background run(directory, arguments("time.end=1e7"));
   ASSERT_TRUE(Background::wait_until([&] { return computes(); }));

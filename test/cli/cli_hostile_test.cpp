@@ -56,6 +56,16 @@ TEST_F(HostileInput, WhatHasNoEndOrNoWriterIsNoCaseFile) {
   EXPECT_THAT(said("check case.toml"), HasSubstr("is not a file"));
 }
 
+TEST_F(HostileInput, WhatHasNoWriterIsNoCheckpoint) {
+  write_case();
+  std::filesystem::create_directory(directory / "out");
+  std::filesystem::copy_file(directory / "case.toml", directory / "out/case.toml");
+  ASSERT_EQ(mkfifo((directory / "out/checkpoint.seiche").c_str(), 0600), 0);
+  const Result resumed = seiche("resume out", "timeout 20");
+  EXPECT_EQ(resumed.exit, 2);
+  EXPECT_THAT(resumed.err, HasSubstr("checkpoint.seiche cannot be read"));
+}
+
 TEST_F(HostileInput, WhatTheShellOpensIsReadAsBefore) {
   write_case();
   EXPECT_EQ(seiche("check /dev/stdin", "cat case.toml |").exit, 0);

@@ -37,9 +37,9 @@ class AfterSteps : public Checkpoints {
  public:
   explicit AfterSteps(std::int64_t n) : n_(n) {}
   void save(FunctionRef<void(Archive&)> run) override {
-    Archive archive;
+    bytes.emplace();
+    Archive archive([this](std::string_view piece) { *bytes += piece; });
     run(archive);
-    bytes = archive.bytes();
     shown = energies->shown;
   }
   std::optional<std::string> bytes;

@@ -17,10 +17,7 @@ std::string_view kept(std::string text) {
 }  // namespace
 
 void Archive::raw(void* data, std::size_t size) {
-  if (!reads_) {
-    bytes_.append(static_cast<const char*>(data), size);
-    return;
-  }
+  if (!reads()) return sink_({static_cast<const char*>(data), size});
   if (size > bytes_.size() - at_) throw damaged();
   std::memcpy(data, bytes_.data() + at_, size);
   at_ += size;
@@ -29,7 +26,7 @@ void Archive::raw(void* data, std::size_t size) {
 std::size_t Archive::count(std::size_t size) {
   auto written = static_cast<std::uint64_t>(size);
   (*this)(written);
-  if (reads_ && written > bytes_.size() - at_) throw damaged();
+  if (reads() && written > bytes_.size() - at_) throw damaged();
   return static_cast<std::size_t>(written);
 }
 
@@ -41,12 +38,12 @@ void Archive::operator()(bool& value) {
 }
 
 void Archive::require(bool is_possible) const {
-  if (reads_ && !is_possible) throw damaged();
+  if (reads() && !is_possible) throw damaged();
 }
 
 void Archive::operator()(Vector& vector) {
   const std::size_t size = count(static_cast<std::size_t>(vector.size()));
-  if (reads_ && size > (bytes_.size() - at_) / sizeof(double)) throw damaged();
+  if (reads() && size > (bytes_.size() - at_) / sizeof(double)) throw damaged();
   vector.resize(static_cast<Index>(size));
   if (size > 0) raw(vector.data(), size * sizeof(double));
 }
@@ -59,7 +56,7 @@ void Archive::operator()(std::string& text) {
 void Archive::literal(std::string_view& text) {
   std::string copy(text);
   (*this)(copy);
-  if (reads_) text = kept(std::move(copy));
+  if (reads()) text = kept(std::move(copy));
 }
 
 void Archive::section(std::string_view name) {

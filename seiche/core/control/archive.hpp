@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,12 +27,12 @@ concept Archived = requires(T& object, Archive& archive) {
 // Numbers lie as they do in memory: bits come back as they were, on a machine of the same kind.
 class Archive {
  public:
-  Archive() = default;                                                             // to be written
-  explicit Archive(std::string bytes) : bytes_(std::move(bytes)), reads_(true) {}  // to be read
+  // To be written: `sink` gets the bytes one piece after the other, and a vector whole, so that none is copied.
+  explicit Archive(std::function<void(std::string_view)> sink) : sink_(std::move(sink)) {}
+  explicit Archive(std::string bytes) : bytes_(std::move(bytes)) {}  // to be read
 
-  bool reads() const { return reads_; }
+  bool reads() const { return !sink_; }
   bool is_at_end() const { return at_ == bytes_.size(); }
-  const std::string& bytes() const { return bytes_; }
 
   // archive(a, b, c), each in turn. Reading throws Error where the bytes end, or were not written by this list.
   template <class... Values>
@@ -79,9 +80,9 @@ class Archive {
   void raw(void* data, std::size_t size);
   std::size_t count(std::size_t size);  // of what follows, one byte each at least
 
-  std::string bytes_;
+  std::function<void(std::string_view)> sink_ = {};
+  std::string bytes_ = {};
   std::size_t at_ = 0;
-  bool reads_ = false;
 };
 
 }  // namespace seiche

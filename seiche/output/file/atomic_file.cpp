@@ -170,16 +170,22 @@ void AtomicFile::keep_lines() {
 
 void AtomicFile::write(std::string_view text) {
   if (waiting_.capacity() < buffer) waiting_.reserve(2 * buffer);  // once, and not again while rows are recorded
-  waiting_ += text;
-  if (waiting_.size() >= buffer) flush();
+  if (text.size() < buffer) {
+    waiting_ += text;
+    if (waiting_.size() >= buffer) flush();
+  } else {
+    flush();
+    write_through(text);
+  }
 }
 
-void AtomicFile::flush() {
-  std::size_t written = 0;
-  while (failure_ == 0 && written < waiting_.size()) {
-    const ::ssize_t size = ::write(file_, waiting_.data() + written, waiting_.size() - written);
+void AtomicFile::flush() { write_through(waiting_); }
+
+void AtomicFile::write_through(std::string_view text) {
+  while (failure_ == 0 && !text.empty()) {
+    const ::ssize_t size = ::write(file_, text.data(), text.size());
     if (size > 0) {
-      written += static_cast<std::size_t>(size);
+      text.remove_prefix(static_cast<std::size_t>(size));
     } else if (size == 0) {
       failure_ = ENOSPC;  // nothing was written, and nothing would be if it were tried again
     } else if (errno != EINTR) {

@@ -81,6 +81,8 @@ class AtomicFile {
   void commit_lines();
 
  private:
+  void write_through(std::string_view text);  // and nothing waits any more
+
   PartialPath path_;
   int file_;
   std::string waiting_;

@@ -1,14 +1,13 @@
 #include <seiche/output/file/checksum.hpp>
 
-#include <boost/crc.hpp>
+#include <zlib.h>
 
 namespace seiche {
 
+// zlib begins and ends with the complement of the remainder that is carried on here.
 std::uint32_t checksum(std::string_view bytes, std::uint32_t before) {
-  constexpr std::uint32_t polynomial = 0x04C11DB7;
-  boost::crc_optimal<32, polynomial, checksum_of_nothing, 0, true, true> crc(before);
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.get_interim_remainder();  // with which the next part goes on
+  const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
+  return ~static_cast<std::uint32_t>(crc32_z(~before, data, bytes.size()));
 }
 
 }  // namespace seiche
