@@ -39,30 +39,45 @@ void SavedRun::archive(Archive& a) {
   }
   a(versions, case_text, files, sums, notes, resumed_at, t, steps, energies, solution);
   for (std::size_t i = 0; i < std::min(files.size(), sums.size()); ++i) hashes[files[i]] = sums[i];
-  a.require(solution.in_chunk <= solution.rows && files.size() == sums.size());
+  a.require(solution.in_last <= solution.rows && files.size() == sums.size());
 }
 
-std::string checkpoint_bytes(const Archive& archive) {
-  const Head head{.length = archive.bytes().size(), .checksum = checksum(archive.bytes())};
-  std::string bytes(format);
-  bytes.reserve(format.size() + sizeof(head) + archive.bytes().size());
-  bytes.append(reinterpret_cast<const char*>(&head), sizeof(head));
-  return bytes += archive.bytes();
+void write_checkpoint(AtomicFile& file, SavedRun& saved, FunctionRef<void(Archive&)> rest) {
+  Tail tail{.length = 0, .checksum = checksum_of_nothing};
+  file.write(format);
+  Archive archive([&](std::string_view bytes) {
+    tail.length += bytes.size();
+    tail.checksum = checksum(bytes, static_cast<std::uint32_t>(tail.checksum));
+    file.write(bytes);
+  });
+  archive(saved);
+  rest(archive);
+  file.write({reinterpret_cast<const char*>(&tail), sizeof(tail)});
+}
+
+bool is_checkpoint(const std::filesystem::path& file) {
+  // To look into a pipe would wait for its writer, and take the bytes from whoever reads it next.
+  if (std::error_code none; !std::filesystem::is_regular_file(file, none)) return false;
+  std::ifstream in(file, std::ios::binary);
+  return in && read(in, of_any_version.size()) == of_any_version;
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error("{} cannot be read", file.string());
-  std::string bytes(std::istreambuf_iterator<char>(in), {});
-  Head head{};
-  const std::size_t begin = format.size() + sizeof(head);
-  if (!std::string_view(bytes).starts_with(format))
-    throw Error("{} is no checkpoint of this version of Seiche", file.string());
-  if (bytes.size() >= begin) std::memcpy(&head, bytes.data() + format.size(), sizeof(head));
-  if (bytes.size() < begin || head.length != bytes.size() - begin)
-    throw Error("{} is damaged: {} bytes are missing or too many", file.string(), head.length);
-  bytes.erase(0, begin);
-  if (checksum(bytes) != head.checksum) throw Error("{} is damaged: its checksum is another", file.string());
+  std::error_code none;
+  std::ifstream in;
+  if (std::filesystem::is_regular_file(file, none)) in.open(file, std::ios::binary);
+  if (!in.is_open()) throw Error("{} cannot be read", file.string());
+  const std::uintmax_t size = std::filesystem::file_size(file);
+  const std::string first = read(in, std::min<std::uintmax_t>(size, format.size()));
+  if (first != format) throw Error("{} is no checkpoint of this version of Seiche", file.string());
+  Tail tail{};
+  if (size < format.size() + sizeof(tail)) throw Error("{} is damaged: it ends after {} bytes", file.string(), size);
+  std::string bytes = read(in, size - format.size() - sizeof(tail));
+  const std::string last = read(in, sizeof(tail));
+  if (last.size() == sizeof(tail)) std::memcpy(&tail, last.data(), sizeof(tail));
+  if (tail.length != bytes.size())
+    throw Error("{} is damaged: its last bytes are missing, or belong to another", file.string());
+  if (checksum(bytes) != tail.checksum) throw Error("{} is damaged: its checksum is another", file.string());
   Checkpoint found{.name = file.filename().string(), .run = {}, .rest = Archive(std::move(bytes))};
   found.rest(found.run);
   return found;

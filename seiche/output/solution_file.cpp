@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -17,12 +18,23 @@ constexpr const char* file_name = "solution.h5";
 constexpr std::uintmax_t most_settled = 1U << 28U;                // bytes, in a few seconds
 constexpr const char* of_each_time[] = {"H", "H_modified", "t"};  // a number each
 
-// The checksum of t and the energies up to a row, behind what has the checksum `before`.
+// The checksum of some rows of a data set, behind what has the checksum `before`.
 std::uint32_t checksum_of_rows(const Hdf5Dataset& numbers, std::uint64_t begin, std::uint64_t end,
                                std::uint32_t before) {
-  std::vector<double> values(static_cast<std::size_t>(end - begin));
+  std::vector<double> values(static_cast<std::size_t>((end - begin) * numbers.row_size()));
   numbers.read(begin, values);
   return checksum({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)}, before);
+}
+
+std::uint32_t checksum_of_times(const Hdf5File& file, std::uint64_t rows) {
+  std::uint32_t found = checksum_of_nothing;
+  for (const char* name : of_each_time)
+    if (file.has(name)) found = checksum_of_rows(file.dataset(name), 0, rows, found);
+  return found;
+}
+
+std::uint32_t with_checksum_of_field(std::uint32_t before, std::uint32_t of_field) {
+  return checksum({reinterpret_cast<const char*>(&of_field), sizeof(of_field)}, before);
 }
 
 std::string meaning_of(const SolutionDescription& description, std::size_t field, const std::string& name) {
@@ -71,11 +83,10 @@ void SolutionFile::begin() {
   const std::vector<Hdf5Dataset> axes = make_axes();
   const Hdf5Layout per_field{.row = layout_.shape(), .chunk = layout_.chunk()};
   for (std::size_t f = 0; f < layout_.fields.size(); ++f)
-    columns_.push_back({make(layout_.fields[f], meaning_of(description_, f, layout_.fields[f]), per_field), {}});
-  columns_.push_back({make("H", "energy H = ½zᵀMz + V(z), summed over points", per_time), {}});
-  if (has_modified_)
-    columns_.push_back({make("H_modified", "modified energy, whose law the method keeps", per_time), {}});
-  columns_.push_back({std::move(t), {}});
+    columns_.push_back({make(layout_.fields[f], meaning_of(description_, f, layout_.fields[f]), per_field)});
+  columns_.push_back({make("H", "energy H = ½zᵀMz + V(z), summed over points", per_time)});
+  if (has_modified_) columns_.push_back({make("H_modified", "modified energy, whose law the method keeps", per_time)});
+  columns_.push_back({std::move(t)});
   write_mesh();
   write_bars();
 
@@ -90,52 +101,51 @@ void SolutionFile::begin() {
   file_.flush();
 }
 
-// The rows of a chunk that is not full are kept, as if they had just been observed.
+// What the checkpoint vouches for stays untouched until a copy of it is on the disk: to cut a chunk in place, HDF5
+// would write it again over itself.
 SolutionFile::SolutionFile(const Folder& folder, const Mark& mark, const Problem& problem, const Space& space,
                            const SnapshotTimes& times, bool has_modified_energy, const SolutionDescription& description)
-    : path_(folder, file_name),
+    : path_(folder, file_name, settling_name),
       layout_(solution_layout(problem)),
       description_(description),
-      file_((path_.reopen(), Hdf5File::open_to_write(folder, path_.temporary().filename().string()))),
+      file_(Hdf5File::create(path_.open(), path_.temporary())),
       space_(space),
       times_(times),
       shown_(mark.shown),
       last_t_(mark.last_t),
       has_modified_(has_modified_energy),
+      is_copy_(true),
       is_settled_(false),
-      waiting_(mark.in_chunk),
+      broken_(true),
       most_waiting_(layout_.chunk().front()),
-      written_(mark.in_chunk),
       values_(space.physical_size()) {
+  const Hdf5File from = Hdf5File::open(folder, name_left_behind(folder, file_name));
   for (auto& [name, text] : description_.texts)
-    if (std::string begun = text_attribute(file_.id(), name); !begun.empty() && name != "case")  // may end later now
+    if (std::string begun = text_attribute(from.id(), name); !begun.empty() && name != "case")  // of a new end
       text = std::move(begun);
-  std::vector<std::string> names = layout_.fields;
-  for (const char* name : of_each_time)
-    if (file_.has(name)) names.emplace_back(name);
-  for (const std::string& name : names) {
-    columns_.push_back({file_.dataset(name), {}});
-    auto& [data, rows] = columns_.back();
-    data.cut(mark.rows);
-    if (columns_.size() > layout_.fields.size()) continue;
-    rows.resize(mark.in_chunk * data.row_size());
-    data.read(mark.rows - mark.in_chunk, rows);
-  }
-  write_unfinished();
-  file_.flush();
+  begin();
+  copy_rows(from, mark.rows);
+  if (waiting_ > 0) write_rows(false);
+  path_.sync();
+  path_.take_place();
+  is_copy_ = broken_ = false;
 }
 
 std::string SolutionFile::complaint(const Folder& folder, const Mark& mark) {
   const std::string left = name_left_behind(folder, file_name);
   require_readable(folder.path() / left);
   const Hdf5File file = Hdf5File::open(folder, left);
-  std::uint32_t found = checksum_of_nothing;
   for (const char* name : of_each_time) {
-    if (!file.has(name)) continue;
-    const Hdf5Dataset numbers = file.dataset(name);
-    if (numbers.rows() < mark.rows)
-      return fmt::format("{} of {} has {} rows, and had {} at the checkpoint", name, left, numbers.rows(), mark.rows);
-    found = checksum_of_rows(numbers, 0, mark.rows, found);
+    const std::uint64_t rows = file.has(name) ? file.dataset(name).rows() : mark.rows;
+    if (rows < mark.rows)
+      return fmt::format("{} of {} has {} rows, and had {} at the checkpoint", name, left, rows, mark.rows);
+  }
+  std::uint32_t found = checksum_of_times(file, mark.rows);
+  std::istringstream fields(text_attribute(file.id(), "fields"));
+  for (std::string field; fields >> field;) {
+    const std::uint32_t of_field =
+        checksum_of_rows(file.dataset(field), mark.rows - mark.in_last, mark.rows, checksum_of_nothing);
+    found = with_checksum_of_field(found, of_field);
   }
   return found == mark.checksum ? "" : fmt::format("{} is not what it was at the checkpoint", left);
 }
@@ -146,9 +156,14 @@ SolutionFile::Mark SolutionFile::mark() {
   path_.keep();
   file_.flush();
   is_settled_ = false;
-  Mark mark{.rows = columns_.back().data.rows(), .in_chunk = waiting_, .shown = shown_, .last_t = last_t_};
-  for (std::size_t i = layout_.fields.size(); i < columns_.size(); ++i)
-    mark.checksum = checksum_of_rows(columns_[i].data, 0, mark.rows, mark.checksum);
+  const std::uint64_t rows = columns_.back().data.rows();
+  Mark mark{.rows = rows,
+            .in_last = std::min<std::uint64_t>(rows, waiting_ > 0 ? waiting_ : most_waiting_),
+            .shown = shown_,
+            .last_t = last_t_};
+  mark.checksum = checksum_of_times(file_, rows);
+  for (std::size_t f = 0; f < layout_.fields.size(); ++f)
+    mark.checksum = with_checksum_of_field(mark.checksum, columns_[f].last_chunk);
   path_.sync();
   return mark;
 }
@@ -233,6 +248,7 @@ void SolutionFile::observe(const State& state, const EnergyReading& energy) {
   space_.to_physical(state.z, values_);
   const std::span<const double> all{values_.data(), static_cast<std::size_t>(values_.size())};
   const std::size_t fields = layout_.fields.size();
+  if (waiting_ == 0) begin_chunk();
   for (std::size_t f = 0; f < fields; ++f) add(columns_[f], all.subspan(f * layout_.points(), layout_.points()));
   add(columns_[fields], {&energy.H, 1});
   if (has_modified_) add(columns_[fields + 1], {&energy.modified, 1});
@@ -250,7 +266,13 @@ void SolutionFile::pass(const State& state) {
   broken_ = false;
 }
 
+void SolutionFile::begin_chunk() {
+  for (Column& column : columns_) column.last_chunk = checksum_of_nothing;
+}
+
+// Checksums are made as rows come: HDF5 1.10 does not read again what was written past its filters.
 void SolutionFile::add(Column& column, std::span<const double> row) const {
+  column.last_chunk = checksum({reinterpret_cast<const char*>(row.data()), row.size_bytes()}, column.last_chunk);
   if (most_waiting_ == 1) return column.data.append(row);  // large ones are kept once only
   column.rows.insert(column.rows.end(), row.begin(), row.end());
 }
@@ -262,7 +284,8 @@ void SolutionFile::write_rows(bool last) {
   const bool is_full = waiting_ == most_waiting_;
   is_settled_ = is_settled_ && (is_full || last);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    auto& [data, rows] = columns_[i];
+    Hdf5Dataset& data = columns_[i].data;
+    std::vector<double>& rows = columns_[i].rows;
     const bool is_field = i < layout_.fields.size();
     if (!is_field || (written_ == 0 && (is_full || last))) {
       data.append(rows);
@@ -310,23 +333,28 @@ void SolutionFile::settle(const std::atomic<bool>* stop) const {
   const Hdf5File from = Hdf5File::open(path_.folder(), file_name);
   SolutionFile to(this);
   to.broken_ = true;  // until all of it is there
-  std::vector<Hdf5Dataset> columns;
-  for (const Column& column : to.columns_) columns.push_back(from.dataset(column.data.name()));
-  const std::uint64_t rows = columns.back().rows();
-  for (std::uint64_t first = 0; first < rows; first += to.most_waiting_) {
-    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return;
-    const std::uint64_t count = std::min<std::uint64_t>(to.most_waiting_, rows - first);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      std::vector<double> values(static_cast<std::size_t>(count * columns[i].row_size()));
-      columns[i].read(first, values);
-      to.add(to.columns_[i], values);
-    }
-    to.waiting_ = count;
-    if (count == to.most_waiting_) to.write_rows(false);
-  }
+  if (!to.copy_rows(from, from.dataset("t").rows(), stop)) return;
   to.close(report_);
   to.file_.abandon();
   to.path_.commit();
+}
+
+// Those of a chunk that is not full are kept, as if they had just been observed. False where `stop` is set meanwhile.
+bool SolutionFile::copy_rows(const Hdf5File& from, std::uint64_t rows, const std::atomic<bool>* stop) {
+  std::vector<Hdf5Dataset> columns;
+  for (const Column& column : columns_) columns.push_back(from.dataset(column.data.name()));
+  for (std::uint64_t first = 0; first < rows; first += most_waiting_) {
+    if (stop != nullptr && stop->load(std::memory_order_relaxed)) return false;
+    waiting_ = std::min<std::uint64_t>(most_waiting_, rows - first);
+    begin_chunk();
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      std::vector<double> values(static_cast<std::size_t>(waiting_ * columns[i].row_size()));
+      columns[i].read(first, values);
+      add(columns_[i], values);
+    }
+    if (waiting_ == most_waiting_) write_rows(false);
+  }
+  return true;
 }
 
 SolutionFile::~SolutionFile() {

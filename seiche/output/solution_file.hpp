@@ -41,20 +41,21 @@ struct SnapshotTimes {
 // whatever fails later: then the file gets its name all the same, with the status "unfinished".
 class SolutionFile : public Observer {
  public:
-  // As far as it had come at a checkpoint. The checksum is that of t and the energies: those of the fields would take
-  // as long as the run has written.
+  // As far as it had come at a checkpoint. The checksum is that of t, the energies, and the fields of the last chunk:
+  // of all their chunks it would take as long as the run has written.
   struct Mark {
-    std::uint64_t rows = 0, in_chunk = 0;  // in all, and in the last chunk where that is not full
+    std::uint64_t rows = 0, in_last = 0;  // in all, and in the last chunk
     std::uint32_t checksum = checksum_of_nothing;
     std::int64_t shown = 0;
     double last_t = -std::numeric_limits<double>::infinity();
-    void archive(Archive& a) { a(rows, in_chunk, checksum, shown, last_t); }
+    void archive(Archive& a) { a(rows, in_last, checksum, shown, last_t); }
   };
 
   // `space` outlives the observer. Throws Error where nothing can be written.
   SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
                bool has_modified_energy, const SolutionDescription& description = {});
-  // Goes on behind the mark in the file that an earlier run has left, which stays as it has described itself.
+  // Goes on behind the mark in a copy of the file that an earlier run has left, which describes itself as that did. The
+  // copy takes its place when it is on the disk.
   SolutionFile(const Folder& folder, const Mark& mark, const Problem& problem, const Space& space,
                const SnapshotTimes& times, bool has_modified_energy, const SolutionDescription& description = {});
   // Why that file does not begin as it was at the mark; "" where it does.
@@ -80,8 +81,11 @@ class SolutionFile : public Observer {
  private:
   struct Column {  // a data set with its rows that are not yet written, or whose chunk is not yet full
     Hdf5Dataset data;
-    std::vector<double> rows;
+    std::vector<double> rows = {};
+    std::uint32_t last_chunk = checksum_of_nothing;  // of its rows in the last chunk
   };
+  void begin_chunk();
+  bool copy_rows(const Hdf5File& from, std::uint64_t rows, const std::atomic<bool>* stop = nullptr);
   explicit SolutionFile(const SolutionFile* settling);  // a new one, to take the place of that one
   void begin();
   Hdf5Dataset make(const std::string& name, const std::string& meaning, const Hdf5Layout& layout);

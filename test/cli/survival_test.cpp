@@ -101,6 +101,49 @@ TEST_F(Survival, WhicheverWriteFailsTheRowsBeforeItAreReadable) {
   EXPECT_GT(most, whole.count() / 2) << "late writes failed too";
 }
 
+// Whatever happens to a resume, at every fifth of its calls: the next one ends as if nothing had, since nothing that
+// the checkpoint vouches for is touched before a copy of it is on the disk.
+TEST_F(Survival, AResumeThatIsKilledOrFailsLosesNothing) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  const std::string words =
+      "run case.toml --quiet --set problem.points=64 method.h=1/128 time.end=3 output.snapshot_every=2 "
+      "output.energy_every=2 checkpoint.every_steps=100 --out ";
+  ASSERT_EQ(seiche(words + "whole").exit, 0) << text("stderr.txt");
+  const SolutionReader whole(directory / "whole/solution.h5");
+  const auto with = [&](const std::string& fault) { return fmt::format("LD_PRELOAD='{}' {}", failing_writes_path(), fault); };
+  // Killed between two checkpoints, the second of which is not the last.
+  for (int n = 20; !has("stopped/checkpoint_prev.seiche") || has("stopped/summary.json"); ++n) {
+    fs::remove_all(directory / "stopped");
+    seiche(words + "stopped", with(fmt::format("SEICHE_KILL_AT={}", n)));
+    ASSERT_LT(n, 1000) << "no kill leaves two checkpoints";
+  }
+  for (const std::string fault : {"SEICHE_KILL_AT={}", "SEICHE_FAIL_WITH=5 SEICHE_FAIL_ONCE=1 SEICHE_FAIL_AT={}",
+                                  "SEICHE_FAIL_WITH=28 SEICHE_FAIL_AT={}"}) {
+    int faults = 0;
+    for (int n = 1;; n += 5) {
+      const std::string where = fmt::format(fmt::runtime(fault), n);
+      fs::remove_all(directory / "out");
+      fs::copy(directory / "stopped", directory / "out");
+      const Result resumed = seiche("resume out --quiet", with(where));
+      if (resumed.exit == 0 && has("out/report.html")) break;
+      ++faults;
+      ASSERT_LT(n, 1000) << "it never succeeds";
+      if (has("out/checkpoint.seiche") || has("out/checkpoint_prev.seiche")) {
+        const Result again = seiche("resume out --quiet");
+        ASSERT_EQ(again.exit, 0) << where << "\n" << resumed.err << again.err;
+      }
+      for (const char* name : {"final.txt", "energy.csv"})
+        ASSERT_EQ(text(std::string("out/") + name), text(std::string("whole/") + name)) << where;
+      ASSERT_EQ(SolutionReader(directory / "out/solution.h5").count(), whole.count()) << where;
+      expect_beginning_of(whole, "out/solution.h5", where);
+    }
+    EXPECT_GT(faults, 4) << fault;
+  }
+}
+
 // What has a name is whole after a power cut too: its bytes are on the disk before, and the name is after.
 TEST_F(Survival, WhatGetsItsNameIsOnTheDisk) {
 #if defined(__SANITIZE_ADDRESS__)

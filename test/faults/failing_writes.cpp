@@ -2,6 +2,9 @@
 // that is full or broken. By the environment: SEICHE_FAIL_AT is n, from 1; SEICHE_FAIL_WITH the number of the error, or
 // 0 for a write that says it wrote nothing; with SEICHE_FAIL_ONCE the writes behind it succeed again.
 //
+// With SEICHE_KILL_AT the program is killed before the n-th call that changes something on a disk: any write to a file,
+// fdatasync, fsync, ftruncate, renameat and unlinkat.
+//
 // In the file SEICHE_SYNC_LOG each fdatasync, fsync and renameat leaves a line: "sync final.txt.partial", "sync out",
 // "name final.txt". With SEICHE_FAIL_SYNC every fdatasync fails with that error.
 #include <dlfcn.h>
@@ -10,6 +13,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -26,8 +30,15 @@ long number(const char* name) {
   return text != nullptr ? std::atol(text) : 0;
 }
 
+void count_call() {
+  static const long at = number("SEICHE_KILL_AT");
+  static long count = 0;
+  if (at != 0 && ++count == at) std::raise(SIGKILL);
+}
+
 // Does this one fail? Then errno says why.
 bool fails(int file) {
+  if (file > STDERR_FILENO) count_call();
   static const long at = number("SEICHE_FAIL_AT"), with = number("SEICHE_FAIL_WITH");
   static const bool once = std::getenv("SEICHE_FAIL_ONCE") != nullptr;
   static long count = 0;
@@ -93,6 +104,7 @@ size_t fwrite(const void* from, size_t size, size_t count, FILE* file) {
 
 int fdatasync(int file) {
   static auto* const next = real<int(int)>("fdatasync");
+  count_call();
   log("sync", name_of(file));
   if (const long reason = number("SEICHE_FAIL_SYNC"); reason != 0) {
     errno = static_cast<int>(reason);
@@ -103,13 +115,33 @@ int fdatasync(int file) {
 
 int fsync(int file) {
   static auto* const next = real<int(int)>("fsync");
+  count_call();
   log("sync", name_of(file));
   return next(file);
 }
 
 int renameat(int from_folder, const char* from, int to_folder, const char* to) {
   static auto* const next = real<int(int, const char*, int, const char*)>("renameat");
+  count_call();
   log("name", to);
   return next(from_folder, from, to_folder, to);
+}
+
+int unlinkat(int folder, const char* name, int flags) {
+  static auto* const next = real<int(int, const char*, int)>("unlinkat");
+  count_call();
+  return next(folder, name, flags);
+}
+
+int ftruncate(int file, off_t size) {
+  static auto* const next = real<int(int, off_t)>("ftruncate");
+  count_call();
+  return next(file, size);
+}
+
+int ftruncate64(int file, off64_t size) {
+  static auto* const next = real<int(int, off64_t)>("ftruncate64");
+  count_call();
+  return next(file, size);
 }
 }

@@ -94,6 +94,18 @@ int PartialPath::reopen() {
   return file_;
 }
 
+void PartialPath::take_place() {
+  folder_.require_lock();
+  const std::string partial = name_ + ".partial";
+  if (::renameat(folder_.descriptor(), temporary_.c_str(), folder_.descriptor(), partial.c_str()) != 0)
+    throw cannot_write(path(), errno);
+  temporary_ = partial;
+  kept_ = true;
+  if (const int failure = failure_to_sync(::fsync(folder_.descriptor())); failure != 0)
+    throw cannot_write(path(), failure);
+  ::unlinkat(folder_.descriptor(), name_.c_str(), 0);  // what is there under the other name is no longer needed
+}
+
 void PartialPath::sync() {
   if (const int failure = failure_to_sync(::fdatasync(file_)); failure != 0) throw cannot_write(path(), failure);
 }

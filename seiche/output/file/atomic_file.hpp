@@ -33,6 +33,8 @@ class PartialPath {
   // be written on. Throws Error where there is neither.
   int reopen();
   void sync();  // what has been written to it is on the disk
+  // It takes the place of what an earlier run has left, as NAME.partial, and is kept from now on.
+  void take_place();
   void keep() {
     kept_ = true;
   }  // from now on the temporary stays also without commit: it holds what cannot be had again
