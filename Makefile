@@ -66,7 +66,8 @@ tidy:  ## read every C++ file with clang-tidy
 	@bash scripts/install-deps --ci
 	@bash scripts/ci-tidy --all
 
-asan: deps  ## build and run the tests under sanitizers
+asan:  ## build and run the tests under sanitizers
+	@bash scripts/install-deps --ci
 	@bash scripts/ci-asan
 
 tsan: deps  ## build and run what starts threads under the thread sanitizer

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string error_table(const ExampleResult& example) {
+std::string errors_as_csv(const ExampleResult& example) {
   std::string text =
       "method,h,error,energy_error,max_energy_increase,max_modified_increase,order,steps,scalar_iterations,"
       "fallbacks,unresolved,cpu_seconds,energy_law_held,failure\n";
@@ -151,7 +151,7 @@ void write_results(const PaperResults& results, const std::filesystem::path& dir
   const std::filesystem::path data = directory / "data";
   make_directory(data);
   for (const ExampleResult& example : results.examples) {
-    write_file(data / (example.key + "_errors.csv"), error_table(example));
+    write_file(data / (example.key + "_errors.csv"), errors_as_csv(example));
     write_file(data / (example.key + "_energy.csv"), curve_table(example.energy, "t", "H"));
     write_file(data / (example.key + "_energy_errors.csv"), curve_table(example.energy_errors, "t", "energy_error"));
   }

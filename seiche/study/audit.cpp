@@ -25,7 +25,7 @@ namespace seiche {
 namespace {
 
 using Verdict = AuditEntry::Verdict;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr double ledger_round_off = 1e-13;  // relative to the largest |H|, per row
 

@@ -23,7 +23,7 @@
 namespace seiche {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 using Verdict = AuditEntry::Verdict;
 
 // Of the columns H_mean … H_max, and of their keys in summary.json.
@@ -39,7 +39,7 @@ constexpr std::array<Statistic, 7> all_statistics = {{{"mean", &Statistics::mean
                                                       {"q95", &Statistics::high},
                                                       {"max", &Statistics::maximum}}};
 
-Json summary_of(const std::filesystem::path& file) {
+Json ensemble_summary(const std::filesystem::path& file) {
   std::ifstream input(file);
   if (!input) throw Error("{} cannot be read", file.string());
   Json summary = Json::parse(input, nullptr, false);
@@ -107,7 +107,7 @@ class EnsembleAuditor {
         table_(directory / "members.csv"),
         finals_(read_finals(directory / "finals.csv")),
         energy_(CsvTable::read(directory / "energy.csv")),
-        summary_(summary_of(directory / "summary.json")) {
+        summary_(ensemble_summary(directory / "summary.json")) {
     book_.compare_hashes(directory, hashes_in(directory / "summary.json"));
     if (table_.rows() != members_.list.size())
       throw Error("{} has {} rows and case.toml {} members", (directory / "members.csv").string(), table_.rows(),

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 namespace seiche {
+namespace {
 using Json = nlohmann::ordered_json;
+}
 
 std::vector<ProblemEntry> listed_problems() {
   std::vector<ProblemEntry> list(problems().begin(), problems().end());

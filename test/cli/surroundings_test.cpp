@@ -19,7 +19,7 @@ using testing::HasSubstr;
 class Surroundings : public Cli {};
 
 TEST_F(Surroundings, AClockThatJumpsChangesNoFile) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";
 #endif
   write_case();
@@ -42,7 +42,7 @@ TEST_F(Surroundings, AClockThatJumpsChangesNoFile) {
 
 // Less and less of it, from enough down to nothing: a run is whole, or says in a line that it has no room.
 TEST_F(Surroundings, WhereMemoryIsLimitedARunSaysSo) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer takes terabytes of addresses";
 #endif
   write_case();

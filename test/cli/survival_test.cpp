@@ -71,7 +71,7 @@ class Survival : public Cli {
 };
 
 TEST_F(Survival, WhicheverWriteFailsTheRowsBeforeItAreReadable) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";
 #endif
   write_case();
@@ -104,7 +104,7 @@ TEST_F(Survival, WhicheverWriteFailsTheRowsBeforeItAreReadable) {
 // Whatever happens to a resume, at every fifth of its calls: the next one ends as if nothing had, since nothing that
 // the checkpoint vouches for is touched before a copy of it is on the disk.
 TEST_F(Survival, AResumeThatIsKilledOrFailsLosesNothing) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";
 #endif
   write_case();
@@ -113,7 +113,9 @@ TEST_F(Survival, AResumeThatIsKilledOrFailsLosesNothing) {
       "output.energy_every=2 checkpoint.every_steps=100 --out ";
   ASSERT_EQ(seiche(words + "whole").exit, 0) << text("stderr.txt");
   const SolutionReader whole(directory / "whole/solution.h5");
-  const auto with = [&](const std::string& fault) { return fmt::format("LD_PRELOAD='{}' {}", failing_writes_path(), fault); };
+  const auto with = [&](const std::string& fault) {
+    return fmt::format("LD_PRELOAD='{}' {}", failing_writes_path(), fault);
+  };
   // Killed between two checkpoints, the second of which is not the last.
   for (int n = 20; !has("stopped/checkpoint_prev.seiche") || has("stopped/summary.json"); ++n) {
     fs::remove_all(directory / "stopped");
@@ -146,7 +148,7 @@ TEST_F(Survival, AResumeThatIsKilledOrFailsLosesNothing) {
 
 // What has a name is whole after a power cut too: its bytes are on the disk before, and the name is after.
 TEST_F(Survival, WhatGetsItsNameIsOnTheDisk) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";
 #endif
   write_case();
@@ -179,7 +181,7 @@ TEST_F(Survival, WhatGetsItsNameIsOnTheDisk) {
 
 // Repeated, it would never end.
 TEST_F(Survival, AWriteThatWritesNothingIsAFullDisk) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";
 #endif
   write_case();
@@ -373,7 +375,7 @@ TEST_F(Survival, NoLibraryIsLookedForInTheCurrentFolder) {
 
 // As Debian hardens its packages: protected stacks, checked copies, addresses that are read-only once they are known.
 TEST_F(Survival, TheProgramIsHardened) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the sanitizers have checks of their own";
 #endif
   const std::string read =

@@ -81,7 +81,7 @@ TEST(EnergyInterval, CostsNoAccuracyOnGradientFlows) {
   for (const auto& [method, factor] :
        {std::pair("egc4", 2.0), {"egc6", 2.0}, {"egc8", 2.0}, {"etdrk4", 2.0}, {"egc2", 3.0}, {"seimp", 3.0}}) {
     for (const double h : {1.0 / 4, 1.0 / 8, 1.0 / 16}) {
-      const auto error = [&](EnergyLaw law) { return (end(method, h, law) - exact).norm(); };
+      const auto error = [&, name = method](EnergyLaw law) { return (end(name, h, law) - exact).norm(); };
       EXPECT_LE(error(EnergyLaw::interval), factor * std::max(error(EnergyLaw::guard), 1e-13))
           << method << ", h = " << h;
     }

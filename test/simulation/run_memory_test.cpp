@@ -71,7 +71,7 @@ class RunMemorySlow : public InTemporaryDirectory {
 };
 
 TEST_F(RunMemorySlow, IsWithinAFactorOfWhatARunTakes) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer takes memory of its own";
 #endif
   const double program = measured(case_of({"name = \"oscillator\"\n", "seisav", "dense"}));

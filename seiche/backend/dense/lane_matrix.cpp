@@ -29,6 +29,10 @@ template <int count>
 
 SEICHE_MULTIVERSION void apply_all(const double* a, Index rows, Index columns, const double* x, double* y) {
   constexpr Index most = 5 * lane_count;  // of the rows whose sums the registers hold
+  if (columns == 0) {
+    std::fill_n(y, rows, 0.0);
+    return;
+  }
   for (Index row = 0; row < rows; row += most) {
     switch (std::min(most, rows - row) / lane_count) {
       case 5: apply_rows<5>(a + row, rows, columns, x, y + row); break;

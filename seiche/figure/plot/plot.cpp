@@ -14,7 +14,6 @@ namespace seiche {
 namespace {
 
 // Inches.
-constexpr double picture_width = axes_left + axes_width + axes_right;
 constexpr double left = axes_left;
 constexpr double right = axes_right;
 constexpr double below_axis = 0.35;  // tick labels and the axis label

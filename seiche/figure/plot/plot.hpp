@@ -17,6 +17,7 @@ inline constexpr double axes_height = 1.78;
 inline constexpr double axes_top = 0.22;
 inline constexpr double axes_left = 0.58;
 inline constexpr double axes_right = 0.10;
+inline constexpr double picture_width = axes_left + axes_width + axes_right;
 
 // Layers: the methods, those that the paper proposes, what would vanish under these, references.
 inline constexpr int proposed_layer = 1;

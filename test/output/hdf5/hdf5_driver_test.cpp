@@ -92,7 +92,7 @@ TEST_F(OrderedDriver, WhatIsHeldBackBehindAnEndThatMovedIsForgotten) {
 
 // As where there is no memory: frames of C are no place for exceptions.
 TEST_F(OrderedDriver, NoExceptionLeavesIt) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "asks for more bytes than an address can count, which the sanitizer ends before std::string throws";
 #endif
   constexpr std::size_t too_much = std::numeric_limits<std::size_t>::max() / 2 + 1;
