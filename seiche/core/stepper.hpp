@@ -71,8 +71,8 @@ class Stepper {
   virtual StepReport step(State& state, double h) = 0;  // from t to t + h
   virtual EnergyReading energy(const State& state) const = 0;
   virtual bool has_modified_energy() const = 0;
-  // From now on every step fills the ledger of its report, at the price of a few energies; the bits of a solution may
-  // change, since what is fused otherwise is done part by part.
+  // From now on every step fills the ledger of its report, at the price of a few energies. The bits of a solution are
+  // the same with and without.
   virtual void keep_ledger() = 0;
   // From now on a step is taken to be accurate where its error is at most this, in the max norm of physical values and
   // per unit of time: an auxiliary variable then has to be no worse.

@@ -1,4 +1,4 @@
-// Vectors of the state space. The one place outside backend/ that names Eigen.
+// Vectors of the state space, and what an index into them is.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,5 @@
 // seiche run: what it leaves, what it says, and when it stops.
+#include <test/support/background.hpp>
 #include <test/support/paths.hpp>
 #include <test/support/program.hpp>
 
@@ -26,6 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::Background;
 using test::Cli;
 using Result = Cli::Result;
 using testing::HasSubstr;
@@ -193,27 +195,14 @@ TEST_F(Cli, CtrlCLeavesWholeFilesAndExitsWith130) {
   write_case();
   for (const int signal : {SIGINT, SIGTERM}) {
     fs::remove_all(directory / "out");
-    const std::string program = test::program_path();
-    const pid_t child = fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-      const std::string home = directory.string();
-      if (chdir(home.c_str()) != 0 || !freopen("stdout.txt", "w", stdout) || !freopen("stderr.txt", "w", stderr))
-        _exit(9);
-      execl(program.c_str(), "seiche", "run", "case.toml", "--out", "out", "--json", "--set", "time.end=1e7",
-            "output.energy_every=1000", static_cast<char*>(nullptr));
-      _exit(9);
-    }
-    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!fs::exists(directory / "out/solution.h5.partial") && std::chrono::steady_clock::now() < give_up) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    kill(child, signal);
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFEXITED(status)) << text("stderr.txt");
-    EXPECT_EQ(WEXITSTATUS(status), 130) << text("stderr.txt");
+    ::setenv("SEICHE_FLUSH_SECONDS", "0", 1);
+    Background run(directory,
+                   {"run", "case.toml", "--out", "out", "--json", "--set", "time.end=1e7", "output.energy_every=1000"});
+    ::unsetenv("SEICHE_FLUSH_SECONDS");
+    ASSERT_TRUE(Background::wait_until([&] {  // the header, the first row and another
+      return fs::exists(directory / "out/energy.csv.partial") && lines("out/energy.csv.partial").size() > 2;
+    }));
+    EXPECT_EQ(run.end(signal), 130) << text("stderr.txt");
 
     const json summary = json::parse(text("stdout.txt"));
     EXPECT_EQ(summary["status"], "interrupted");

@@ -40,8 +40,8 @@ TEST(Ledger, LeavesEveryBitOfASolutionAsItIsWithout) {
         Simulation without(problem, options), with(problem, options);
         with.stepper().keep_ledger();
         for (int n = 0; n < 8; ++n) {
-          without.step(1.0 / 8);
-          with.step(1.0 / 8);
+          ASSERT_EQ(without.step(1.0 / 8).status, StepReport::Status::solved) << name << " " << method.name;
+          ASSERT_EQ(with.step(1.0 / 8).status, StepReport::Status::solved) << name << " " << method.name;
         }
         EXPECT_TRUE((with.state().z.array() == without.state().z.array()).all())
             << name << " " << method.name << " " << backend.name;

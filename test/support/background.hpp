@@ -18,6 +18,9 @@ namespace seiche::test {
 
 class Background {
  public:
+  // Seconds: however slow the machine, what takes longer than this will never come.
+  static constexpr int hangs = 200;
+
   // In `directory`; what it says goes to stdout.txt and stderr.txt there, and `input`, if any, is its standard input.
   Background(const std::filesystem::path& directory, const std::vector<std::string>& arguments, int input = -1) {
     const std::string home = directory.string();
@@ -41,7 +44,7 @@ class Background {
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
-  static bool wait_until(const std::function<bool()>& condition, int seconds = 20) {
+  static bool wait_until(const std::function<bool()>& condition, int seconds = hangs) {
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
     bool is_met = condition();
     while (!is_met && std::chrono::steady_clock::now() < give_up) {
@@ -58,7 +61,7 @@ class Background {
     kill(child_, signal);
     int status = 0;
     bool ended = false;
-    wait_until([&] { return ended = ended || waitpid(child_, &status, WNOHANG) == child_; }, 10);
+    wait_until([&] { return ended = ended || waitpid(child_, &status, WNOHANG) == child_; });
     if (!ended) {
       kill(child_, SIGKILL);
       waitpid(child_, &status, 0);

@@ -119,7 +119,7 @@ TEST(Grid, TheTwoThirdsRuleCostsNothingBeforeItIsUsed) {
       gkdv({.length = 10, .points = 1 << 15, .discretisation = Discretisation::spectral, .two_thirds = true});
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   EXPECT_EQ(p.size(), 1 << 15);
-  EXPECT_LE(seconds, 1);  // a cosine for every pair of points takes ten
+  EXPECT_LE(seconds, 5) << "of a processor, for a twentieth of one; a cosine for every pair of points takes ten";
 }
 
 double distance_from(const Problem& p, double t_end, const std::function<double(double x)>& exact) {
