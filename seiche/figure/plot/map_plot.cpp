@@ -13,7 +13,7 @@
 namespace seiche {
 namespace {
 
-// Inches. A picture of one panel is as wide as the others of a report.
+// Inches.
 constexpr double bar_room = 0.62;  // the colour bar with its numbers and its label
 constexpr double bar_width = 0.09;
 constexpr double below_axes = 0.40;
