@@ -21,7 +21,7 @@ extern "C" const char* __asan_default_options() { return "quarantine_size_mb=16:
 namespace seiche::fuzz {
 namespace {
 
-constexpr double longest = 4;            // seconds: of what takes two without sanitizers
+constexpr double longest = 10;           // seconds: five times what the slowest input takes in sanitized code
 constexpr long most_memory = 512;        // MB
 constexpr std::size_t most_bytes = 400;  // of a line
 
