@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
-#include <seiche/study/audit.hpp>
+#include <seiche/study/audit/audit.hpp>
 
 #include <memory>
 

@@ -7,7 +7,7 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/driver/run_case.hpp>
 #include <seiche/output/solution_reader.hpp>
-#include <seiche/study/audit.hpp>
+#include <seiche/study/audit/audit.hpp>
 #include <seiche/study/energy_history.hpp>
 #include <seiche/study/run_files.hpp>
 

@@ -14,7 +14,7 @@
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/truss.hpp>
-#include <seiche/study/audit.hpp>
+#include <seiche/study/audit/audit.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/ensemble/statistics.hpp>
-#include <seiche/study/audit.hpp>
+#include <seiche/study/audit/audit.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/core/text/shortened.hpp>
-#include <seiche/study/audit_book.hpp>
+#include <seiche/study/audit/audit_book.hpp>
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include <seiche/output/csv_table.hpp>
 #include <seiche/output/text_table.hpp>
 #include <seiche/simulation/simulation.hpp>
-#include <seiche/study/audit_book.hpp>
+#include <seiche/study/audit/audit_book.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

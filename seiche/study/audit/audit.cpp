@@ -8,8 +8,8 @@
 #include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/simulation/simulation.hpp>
-#include <seiche/study/audit.hpp>
-#include <seiche/study/audit_book.hpp>
+#include <seiche/study/audit/audit.hpp>
+#include <seiche/study/audit/audit_book.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include <seiche/core/problem.hpp>
 #include <seiche/core/system.hpp>
 #include <seiche/output/file/sha256.hpp>
-#include <seiche/study/audit.hpp>
+#include <seiche/study/audit/audit.hpp>
 
 #include <filesystem>
 #include <string>
