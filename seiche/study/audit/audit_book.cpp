@@ -72,14 +72,4 @@ EnergyTerms RecomputedEnergy::of(const Vector& physical) {
   return system_.energy_terms(z_);
 }
 
-double largest_increase(const std::vector<double>& values) {
-  double largest = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const double increase = values[i] - values[i - 1];
-    if (std::isnan(increase)) return increase;
-    largest = std::max(largest, increase);
-  }
-  return values.size() > 1 ? largest : 0.0;
-}
-
 }  // namespace seiche

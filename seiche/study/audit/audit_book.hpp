@@ -46,9 +46,6 @@ class RecomputedEnergy {
   Vector z_;
 };
 
-// The largest value − the one before it; 0 for less than two, and no number where one of them is none.
-double largest_increase(const std::vector<double>& values);
-
 // The part for folders of ensembles. Throws Error as `audit` does.
 Audit audit_ensemble(const std::filesystem::path& directory, const RunSpec& spec);
 

@@ -1,0 +1,71 @@
+// An audit finds the energies of a healthy run healthy, whichever rows and states its files have.
+#include <test/support/temporary_directory.hpp>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/driver/run_case.hpp>
+#include <seiche/study/audit/audit.hpp>
+#include <seiche/study/recorded_energies.hpp>
+
+#include <string>
+#include <vector>
+
+namespace seiche::test {
+namespace {
+
+class AuditOfRows : public InTemporaryDirectory {
+ protected:
+  RunSpec run(const std::string& method, const std::string& output) const {
+    const RunSpec spec = parse_case(
+        fmt::format(
+            "[problem]\nname = \"oscillator\"\nalpha = 1.0\ngamma = 0.1\n[method]\n{}\n[time]\nend = 3.1\n[output]\nreport = \"off\"\n{}\n",
+            method, output),
+        "case.toml", {}, directory);
+    run_case(spec, directory / "out");
+    return read_case(directory / "out/case.toml");
+  }
+  std::vector<std::string> contradicted() const {
+    std::vector<std::string> all;
+    for (const AuditEntry& entry : audit(directory / "out").entries)
+      if (entry.verdict == AuditEntry::Verdict::contradicted) all.push_back(entry.claim + ": " + entry.evidence);
+    return all;
+  }
+};
+
+TEST_F(AuditOfRows, AgreesWithEveryRhythmOfRowsAndSnapshots) {
+  const std::string steps = "h = \"1/64\"", tolerance = "tolerance = 1e-5";
+  for (const char* name : {"seisav", "seilm", "avf", "egc4"}) {
+    for (const std::string& by : {steps, tolerance}) {
+      for (const auto& [rows, states] :
+           std::vector<std::pair<int, int>>{{1, 1}, {16, 4}, {3, 7}, {16, 1}, {6, 4}, {1, 64}, {1000, 0}, {5, 1000}}) {
+        const std::string output = fmt::format("energy_every = {}\nsnapshot_every = {}", rows, states);
+        run(fmt::format("name = \"{}\"\n{}", name, by), output);
+        EXPECT_THAT(contradicted(), testing::IsEmpty()) << name << " " << by << " " << output;
+      }
+      for (const double interval : {0.25, 0.01}) {
+        const std::string output = fmt::format("energy_every = 3\nsnapshot_interval = {}", interval);
+        run(fmt::format("name = \"{}\"\n{}", name, by == steps ? "h = 0.005" : by), output);
+        EXPECT_THAT(contradicted(), testing::IsEmpty()) << name << " " << by << " " << output;
+      }
+    }
+  }
+}
+
+TEST_F(AuditOfRows, TakeTheRiseFromBothFiles) {
+  for (const auto& [rows, states] : std::vector<std::pair<int, int>>{{16, 4}, {3, 7}, {1, 0}}) {
+    const RunSpec spec =
+        run("name = \"seisav\"\nh = \"1/64\"", fmt::format("energy_every = {}\nsnapshot_every = {}\n", rows, states));
+    const LargestIncreases read = largest_increases(directory / "out", spec);
+    EXPECT_TRUE(read.of_all);
+    const RunReport report = run_case(spec, directory / "again").report;
+    EXPECT_EQ(read.H, report.energy.max_increase) << rows << " " << states;
+    EXPECT_EQ(read.modified, report.modified.max_increase) << rows << " " << states;
+  }
+  const RunSpec spec = run("name = \"seisav\"\ntolerance = 1e-5", "energy_every = 3");
+  EXPECT_FALSE(largest_increases(directory / "out", spec).of_all) << "the steps between are in no file";
+}
+
+}  // namespace
+}  // namespace seiche::test
