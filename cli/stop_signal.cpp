@@ -8,8 +8,10 @@ namespace {
 std::atomic<bool> stop = false, save = false, is_held = false, leave = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "else a signal handler must not touch it");
 
+// The first signal ends the run, whose files are then completed; a second one that comes meanwhile hurries that.
 void ask_to_stop(int) {
-  (is_held.load(std::memory_order_relaxed) ? leave : stop).store(true, std::memory_order_relaxed);
+  const bool is_first = !stop.exchange(true, std::memory_order_relaxed);
+  if (!is_first && is_held.load(std::memory_order_relaxed)) leave.store(true, std::memory_order_relaxed);
 }
 void ask_to_save(int) { save.store(true, std::memory_order_relaxed); }
 

@@ -16,8 +16,8 @@ std::atomic<bool>& save_on_signal();
 // A reader of our messages that has gone ends no run.
 void outlive_readers();
 
-// From now on no signal ends the program: files are being written that nobody could write again. The flag, set by a
-// signal that comes now, asks to leave out what can be had later.
+// From now on no signal ends the program: files are being written that nobody could write again. The first signal of
+// all still lets everything be written. The flag, set by one behind it, asks to leave out what can be had later.
 const std::atomic<bool>& hold_signals();
 
 }  // namespace seiche::cli

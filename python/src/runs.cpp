@@ -40,8 +40,8 @@ CaseRun run_to(const std::string& folder, RunSpec spec, RunCaseOptions options) 
   return with_result(std::move(done), run_case(std::move(spec), folder, options));
 }
 
-// On a thread of its own, while this one looks for Ctrl-C: the run ends after its step, with its files whole. Where the
-// last step is taken, what can be had later is left out.
+// On a thread of its own, while this one looks for Ctrl-C: the run ends after its step, with its files whole. A second
+// one behind the last step leaves out what can be had later.
 CaseRun interruptible_run(RunCaseOptions options, const std::function<CaseRun(const RunCaseOptions&)>& run) {
   std::atomic<bool> stop = false, has_ended = false, leave = false;
   std::vector<std::string> notes;
@@ -54,7 +54,10 @@ CaseRun interruptible_run(RunCaseOptions options, const std::function<CaseRun(co
     return &leave;
   };
   CaseRun result = beside_signals(
-      stop, [&] { return run(options); }, [&] { (has_ended ? leave : stop) = true; });
+      stop, [&] { return run(options); },
+      [&] {
+        if (stop.exchange(true) && has_ended) leave = true;
+      });
   result.notes = std::move(notes);
   return result;
 }

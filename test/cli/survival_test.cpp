@@ -272,6 +272,32 @@ TEST_F(Survival, AKilledEnsembleKeepsItsStatistics) {
   EXPECT_GT(lines("out/energy.csv").size(), 2U);
 }
 
+TEST_F(Survival, TheFirstSignalLetsEverythingBeWrittenWheneverItComes) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  int behind_the_last_step = 0;
+  for (int n = 1;; n += 3) {
+    fs::remove_all(directory / "out");
+    fs::remove(directory / "log.txt");
+    const Result result =
+        seiche("run case.toml --out out --quiet",
+               fmt::format("LD_PRELOAD='{}' SEICHE_SYNC_LOG=log.txt SEICHE_SIGNAL={} SEICHE_SIGNAL_AT={}",
+                           failing_writes_path(), SIGTERM, n));
+    if (text("log.txt").find("sent 15") == std::string::npos) break;
+    ASSERT_LT(n, 1000) << "it never succeeds";
+    ASSERT_THAT(result.exit, AnyOf(0, 130)) << n << result.err;
+    if (!has("out")) continue;  // it has not begun
+    EXPECT_EQ(json::parse(text("out/summary.json"))["status"], result.exit == 0 ? "success" : "interrupted") << n;
+    for (const char* name : {"final.txt", "energy.csv", "solution.h5", "solution.xdmf", "report.html"})
+      EXPECT_TRUE(has(std::string("out/") + name)) << n << " " << name;
+    EXPECT_EQ(result.err, "") << n;
+    behind_the_last_step += result.exit == 0 ? 1 : 0;
+  }
+  EXPECT_GT(behind_the_last_step, 5);
+}
+
 TEST_F(Survival, ASecondSignalEndsOnlyWhatCanBeHadAgain) {
   write_case();
   Background run(directory, {"run", "case.toml", "--out", "out", "--quiet", "--set", "time.end=1e7",

@@ -3,10 +3,11 @@
 // 0 for a write that says it wrote nothing; with SEICHE_FAIL_ONCE the writes behind it succeed again.
 //
 // With SEICHE_KILL_AT the program is killed before the n-th call that changes something on a disk: any write to a file,
-// fdatasync, fsync, ftruncate, renameat and unlinkat.
+// fdatasync, fsync, ftruncate, renameat and unlinkat. With SEICHE_SIGNAL_AT it gets the signal SEICHE_SIGNAL there, and
+// goes on; with SEICHE_SIGNAL alone it gets it as the first thing in its main, when it asks how signals are handled.
 //
 // In the file SEICHE_SYNC_LOG each fdatasync, fsync and renameat leaves a line: "sync final.txt.partial", "sync out",
-// "name final.txt". With SEICHE_FAIL_SYNC every fdatasync fails with that error.
+// "name final.txt", and so does the signal: "sent 15". With SEICHE_FAIL_SYNC every fdatasync fails with that error.
 #include <dlfcn.h>
 #include <sys/types.h>
 #include <sys/uio.h>
@@ -30,10 +31,34 @@ long number(const char* name) {
   return text != nullptr ? std::atol(text) : 0;
 }
 
+void log(const char* what, std::string name) {
+  const char* const file = std::getenv("SEICHE_SYNC_LOG");
+  if (file == nullptr) return;
+  name.erase(0, name.rfind('/') + 1);
+  if (std::FILE* const out = std::fopen(file, "a")) {
+    std::fprintf(out, "%s %s\n", what, name.c_str());
+    std::fclose(out);
+  }
+}
+
+void send(int signal) {
+  log("sent", std::to_string(signal));
+  std::raise(signal);
+}
+
 void count_call() {
-  static const long at = number("SEICHE_KILL_AT");
+  static const long kill_at = number("SEICHE_KILL_AT"), signal_at = number("SEICHE_SIGNAL_AT");
   static long count = 0;
-  if (at != 0 && ++count == at) std::raise(SIGKILL);
+  ++count;
+  if (count == kill_at) std::raise(SIGKILL);
+  if (count == signal_at) send(static_cast<int>(number("SEICHE_SIGNAL")));
+}
+
+std::string name_of(int file) {
+  std::string name(4096, '\0');
+  const ssize_t size = ::readlink(("/proc/self/fd/" + std::to_string(file)).c_str(), name.data(), name.size());
+  name.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  return name;
 }
 
 // Does this one fail? Then errno says why.
@@ -49,28 +74,20 @@ bool fails(int file) {
   return true;
 }
 
-void log(const char* what, std::string name) {
-  const char* const file = std::getenv("SEICHE_SYNC_LOG");
-  if (file == nullptr) return;
-  name.erase(0, name.rfind('/') + 1);
-  if (std::FILE* const out = std::fopen(file, "a")) {
-    std::fprintf(out, "%s %s\n", what, name.c_str());
-    std::fclose(out);
-  }
-}
-
-std::string name_of(int file) {
-  std::string name(4096, '\0');
-  const ssize_t size = ::readlink(("/proc/self/fd/" + std::to_string(file)).c_str(), name.data(), name.size());
-  name.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-  return name;
-}
-
 ssize_t nothing_written() { return errno == 0 ? 0 : -1; }
 
 }  // namespace
 
 extern "C" {
+
+sighandler_t signal(int number_of, sighandler_t handler) {
+  static auto* const next = real<sighandler_t(int, sighandler_t)>("signal");
+  static bool is_first = true;
+  if (is_first && number("SEICHE_SIGNAL") != 0 && number("SEICHE_SIGNAL_AT") == 0)
+    send(static_cast<int>(number("SEICHE_SIGNAL")));
+  is_first = false;
+  return next(number_of, handler);
+}
 
 ssize_t write(int file, const void* from, size_t size) {
   static auto* const next = real<ssize_t(int, const void*, size_t)>("write");
