@@ -198,7 +198,7 @@ void CaseRun::go_on() {
   notes_.insert(notes_.end(), said.begin() + 1, said.end());
   stop_ = begin_run(options_, said);
   // What they tell is of a run that had stopped.
-  for (const char* name : {"summary.json", "solution.xdmf"}) remove_file(folder_->folder(), name);
+  for (const char* name : {"summary.json", "final.txt", "solution.xdmf"}) remove_file(folder_->folder(), name);
 }
 
 void CaseRun::make_files() {

@@ -122,7 +122,8 @@ void require_finished(const fs::path& directory) {
         "{0} holds a run that did not finish, {1}: `seiche recover {0}` makes it readable, `seiche run` with "
         "--restart removes it and begins anew, and another folder keeps both",
         directory.string(), files);
-  if (beginning_of(directory / "summary.json").starts_with("{\n  \"status\": \"unfinished\""))
+  if (fs::exists(directory / "energy.csv") &&
+      beginning_of(directory / "summary.json").starts_with("{\n  \"status\": \"unfinished\""))
     throw Error(
         "{} holds what `seiche recover` saved of a run that did not finish: take another folder, or "
         "`seiche run` with --restart, which removes it and begins anew",

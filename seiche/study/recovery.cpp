@@ -11,14 +11,15 @@
 #include <seiche/output/summary.hpp>
 #include <seiche/output/xdmf.hpp>
 #include <seiche/simulation/simulation.hpp>
+#include <seiche/study/recorded_energies.hpp>
 #include <seiche/study/recovery.hpp>
 #include <seiche/study/versions.hpp>
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <fstream>
+#include <iterator>
 #include <optional>
 
 namespace seiche {
@@ -30,15 +31,12 @@ namespace fs = std::filesystem;
 struct Energies {
   double first_t = 0, last_t = 0;
   std::size_t rows = 0;
-  EnergySummary H, modified;
+  EnergySummary H, modified;  // but for the largest increases
   bool has_modified = false;
 };
 
 void follow(EnergySummary& summary, double value, std::size_t row) {
-  if (row == 0) summary = {.initial = value, .final = value, .max_increase = 0.0};
-  if (row > 0)
-    summary.max_increase =
-        std::max(row == 1 ? -std::numeric_limits<double>::infinity() : summary.max_increase, value - summary.final);
+  if (row == 0) summary.initial = value;
   summary.final = value;
 }
 
@@ -66,10 +64,12 @@ class Rescue {
     } else {
       solution();
     }
-    if (has("energy.csv") && !has("summary.json")) summary();
+    // A run that had ended all but for its states tells of more than there is.
+    if (has("summary.json") && !has("solution.h5") && is_solution_lost_) remove_file(folder_, "summary.json");
+    if (!has("summary.json")) has("energy.csv") ? summary() : summary_without_rows();
     // These can be had again, or are no longer needed.
-    for (const char* name : {"solution.xdmf.partial", "report.html.partial", "summary.json.partial",
-                             "case.toml.partial", reserve_name, settling_name})
+    for (const char* name : {"checkpoint.seiche.partial", "solution.xdmf.partial", "report.html.partial",
+                             "summary.json.partial", "case.toml.partial", reserve_name, settling_name})
       remove_file(folder_, name);
     if (unfinished_files(directory_).empty())  // without a row
       for (const char* name : {"energy.csv.partial", "solution.h5.partial"}) remove_file(folder_, name);
@@ -112,6 +112,7 @@ class Rescue {
   void solution() {
     if (has("solution.h5.partial") && unfinished_files(directory_).find("solution.h5") == std::string::npos) {
       found_.lost.emplace_back("all of solution.h5, which has no row yet");
+      is_solution_lost_ = true;
     } else if (has("solution.h5.partial")) {
       try {
         rescue_solution();
@@ -162,12 +163,30 @@ class Rescue {
         "to t = {:.9g} of {:.9g}; no energy law is promised: it was not judged",
         energies.last_t, spec_.t_end);
     report.t = energies.last_t;
+    const LargestIncreases increases = largest_increases(directory_, spec_);
     report.energy = energies.H;
+    report.energy.max_increase = increases.H;
     report.has_modified_energy = energies.has_modified;
     report.modified = energies.modified;
-    report.wall_seconds = std::nan("");
+    report.modified.max_increase = increases.modified;
     if (!spec_.tolerance)
       report.steps = static_cast<std::int64_t>(std::ceil((energies.last_t - energies.first_t) / spec_.h - 1e-6));
+    write_summary(report);
+  }
+
+  // So that the folder says what it holds. A case that was written by a person is of no run.
+  void summary_without_rows() {
+    std::ifstream file(case_file());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (spec_.ensemble || text != write_case(spec_)) return;
+    RunReport report;
+    report.message = "the run ended, killed or without a disk to write to, before it had written a row";
+    report.t = report.energy.initial = report.energy.final = report.energy.max_increase = std::nan("");
+    write_summary(report);
+  }
+
+  void write_summary(RunReport& report) {
+    report.wall_seconds = std::nan("");
     const Problem problem = make_problem(spec_);
     const RunIdentity identity{.problem = problem.name,
                                .method = spec_.method,
@@ -188,6 +207,7 @@ class Rescue {
   fs::path directory_;
   RunSpec spec_;
   Recovery found_;
+  bool is_solution_lost_ = false;
 };
 
 }  // namespace

@@ -259,6 +259,41 @@ TEST_F(Survival, WhatIsRecoveredOfAKilledRunPassesTheAudit) {
   EXPECT_THAT(text("stderr.txt"), HasSubstr("holds no run"));
 }
 
+// Killed at whichever of its calls, a run or a resume leaves what `recover` makes a folder of that nothing contradicts.
+TEST_F(Survival, WhatIsRecoveredPassesTheAuditWhereverTheRunWasKilled) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  const std::string run =
+      "run case.toml --quiet --set output.snapshot_every=4 output.energy_every=16 output.report=off ";
+  const auto killed_at = [&](const std::string& words, int n) {
+    return seiche(words, fmt::format("LD_PRELOAD='{}' SEICHE_KILL_AT={}", failing_writes_path(), n)).exit != 0;
+  };
+  ASSERT_EQ(seiche(run + "--out stopped --max-hours 1e-9").exit, 130) << text("stderr.txt");
+  for (int n = 20; !has("killed/checkpoint.seiche") || has("killed/summary.json"); ++n) {
+    fs::remove_all(directory / "killed");
+    ASSERT_TRUE(killed_at(run + "checkpoint.every_steps=24 --out killed", n)) << "no kill leaves a checkpoint";
+  }
+  for (const std::string from : {"", "stopped", "killed"}) {
+    for (int n = 1;; ++n) {
+      const std::string where = fmt::format("{} killed at {}", from, n);
+      fs::remove_all(directory / "out");
+      if (!from.empty()) fs::copy(directory / from, directory / "out");
+      if (!killed_at(from.empty() ? run + "--out out" : "resume out --quiet", n)) break;
+      ASSERT_LT(n, 1000) << "it never succeeds";
+      const int recovered = seiche("recover out").exit;
+      if (!has("out/case.toml")) continue;  // it has not begun
+      ASSERT_EQ(recovered, 0) << where << text("stderr.txt");
+      const Result audited = seiche("audit out");
+      ASSERT_EQ(audited.exit, 0) << where << audited.out << audited.err;
+      if (from.empty() && !has("out/energy.csv")) {
+        ASSERT_EQ(seiche("run case.toml --out out --quiet").exit, 0) << where << ": nothing is lost by that";
+      }
+    }
+  }
+}
+
 TEST_F(Survival, AKilledEnsembleKeepsItsStatistics) {
   write_case();
   std::vector<std::string> words = endless();

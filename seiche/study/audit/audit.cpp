@@ -10,8 +10,8 @@
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/study/audit/audit.hpp>
 #include <seiche/study/audit/audit_book.hpp>
-
 #include <seiche/study/recorded_energies.hpp>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -162,13 +162,21 @@ class Auditor {
               same ? "the case that it holds says the same" : "the case that it holds says something else");
   }
 
-  // Of a run that was killed the last state is the last in solution.h5, and energy.csv may go on behind it.
+  // Of a run that was killed final.txt is that of the end where it came so far, and else the last state in solution.h5,
+  // behind which energy.csv may go on.
   void final_state() {
     const std::string claim =
-        is_whole() ? "the last H is that of final.txt" : "the last H of solution.h5 is that of final.txt";
-    if (!has_states()) return book_.add(claim, Verdict::not_checked, "the run was killed before it left a state");
+        is_whole() ? "the last H is that of final.txt" : "the last H of energy.csv or solution.h5 is that of final.txt";
+    if (!is_whole() && !std::filesystem::exists(directory_ / "final.txt"))
+      return book_.add(claim, Verdict::not_checked, "the run was killed before it left a state");
     const EnergyTerms end = energies_.of(read_initial_file(directory_ / "final.txt", problem_));
-    const double last = is_whole() ? H_.back() : SolutionReader(directory_ / "solution.h5").energies().back();
+    double last = H_.back();
+    if (!is_whole() && has_states()) {
+      const std::vector<double> in_solution = SolutionReader(directory_ / "solution.h5").energies();
+      const bool is_nearer =
+          !in_solution.empty() && std::abs(end.sum() - in_solution.back()) < std::abs(end.sum() - last);
+      if (is_nearer) last = in_solution.back();
+    }
     book_.compare(claim, end.sum(), last, std::max(round_off_, end.round_off()));
   }
   bool is_whole() const { return summary_.value("status", Json()) != "unfinished"; }
@@ -260,6 +268,7 @@ class Auditor {
         fmt::format("{:.3g} in a step, as it says, makes {:.3g} at most between two rows, and the largest is {:.3g}",
                     written, most, increases_.H));
   }
+  double steps_between_rows() const { return static_cast<double>(std::max<std::int64_t>(1, spec_.energy_every)); }
 
   // The energy that the law is about, with the tolerance of a run: 50ε of its terms for every step between two rows.
   void law() {
@@ -269,7 +278,6 @@ class Auditor {
     const std::string objection = spec_.method_options.objection(find_method(spec_.method));
     const LawPromise promise =
         objection.empty() ? promise_energy_law(problem_, spec_.t_end) : LawPromise{false, objection};
-  double steps_between_rows() const { return static_cast<double>(std::max<std::int64_t>(1, spec_.energy_every)); }
     promised_ = promise.promised;
     const double increase = modified ? increases_.modified : increases_.H;
     const double allowed = 2 * round_off_ * steps_between_rows();
@@ -278,6 +286,8 @@ class Auditor {
                     promise.promised ? "promised: " + promise.reason : "not promised: " + promise.reason);
     if (verdict == "not promised" || verdict == "not tested") return book_.add(claim, Verdict::not_checked, evidence);
     const bool holds = increase <= allowed;
+    if (verdict == "violated" && holds && !increases_.of_all)
+      return book_.add(claim, Verdict::not_checked, evidence + "; the step that broke it is in none of the files");
     book_.add(claim, promise.promised && holds == (verdict == "holds") ? Verdict::confirmed : Verdict::contradicted,
               evidence);
   }
@@ -287,8 +297,6 @@ class Auditor {
     if (!energy_.has("damping_left"))
       return book_.add(claim, Verdict::not_checked, "the run kept none; output.ledger = \"on\" does");
     std::vector<std::vector<double>> columns;
-    if (verdict == "violated" && holds && !increases_.of_all)
-      return book_.add(claim, Verdict::not_checked, evidence + "; the step that broke it is in none of the files");
     for (const LedgerPart& part : ledger_parts())
       if (energy_.has(std::string(part.name))) columns.push_back(energy_.column(std::string(part.name)));
     if (energy_.has("round_off")) columns.push_back(energy_.column("round_off"));
@@ -334,6 +342,7 @@ class Auditor {
   CsvTable energy_;
   Json summary_;
   std::vector<double> t_, H_;
+  LargestIncreases increases_;
   double largest_ = 0, round_off_ = 0;
   bool promised_ = false;  // the law
   AuditBook book_;
@@ -343,7 +352,6 @@ class Auditor {
 RunSpec case_of_run(const std::filesystem::path& directory, std::string& lost) {
   try {
     return read_case(directory / "case.toml");
-  LargestIncreases increases_;
   } catch (const Error&) {
     for (const auto& [file, hash] : hashes_in(directory / "summary.json"))
       if (file != "case.toml" && !std::filesystem::exists(file)) lost = file;
@@ -351,6 +359,25 @@ RunSpec case_of_run(const std::filesystem::path& directory, std::string& lost) {
   }
   const std::string stand_in = toml_string(std::filesystem::absolute(directory / "final.txt").string());
   return read_case(directory / "case.toml", {fmt::format("problem.initial={{file={}}}", stand_in)});
+}
+
+// Of a run that ended before its first row `seiche recover` leaves these two.
+Audit audit_of_nothing(const Json& summary, const RunSpec& spec) {
+  AuditBook book;
+  std::vector<std::string> differences;
+  if (summary["method"] != spec.method)
+    differences.push_back(
+        fmt::format("method = {} in case.toml and {} in summary.json", spec.method, summary["method"].dump()));
+  book.add_differences("case.toml and summary.json are of one run", differences, spec.method);
+  book.add("energy.csv has the rows of this run, one after the other", Verdict::not_checked,
+           "the run ended before it had written one");
+  return book.audit();
+}
+
+bool is_without_rows(const std::filesystem::path& directory) {
+  if (std::filesystem::exists(directory / "energy.csv") || !std::filesystem::exists(directory / "summary.json"))
+    return false;
+  return summary_of(directory / "summary.json").value("status", Json()) == "unfinished";
 }
 
 }  // namespace
@@ -370,6 +397,7 @@ Audit audit(const std::filesystem::path& directory) {
   if (std::filesystem::exists(directory / "solution.h5")) require_readable(directory / "solution.h5");
   std::string lost;
   RunSpec spec = case_of_run(directory, lost);
+  if (is_without_rows(directory)) return audit_of_nothing(summary_of(directory / "summary.json"), spec);
   return spec.ensemble ? audit_ensemble(directory, spec) : Auditor(directory, std::move(spec), lost).run();
 }
 
