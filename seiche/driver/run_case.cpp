@@ -33,6 +33,8 @@ CaseResult resume_case(const fs::path& folder, std::optional<double> t_end, cons
   std::vector<std::string> notes;
   Checkpoint from = newest_checkpoint(case_folder.folder(), notes);
   from.run.notes.insert(from.run.notes.end(), notes.begin(), notes.end());
+  if (options.warn)
+    for (const std::string& note : notes) options.warn(note);
   RunSpec spec = parse_case(from.run.case_text, from.name, {}, folder);
   spec.output_directory = folder.string();
   if (t_end) spec.t_end = *t_end;

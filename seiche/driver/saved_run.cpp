@@ -2,9 +2,13 @@
 #include <seiche/driver/saved_run.hpp>
 #include <seiche/output/file/checksum.hpp>
 
+#include <fcntl.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -16,17 +20,63 @@ namespace {
 
 constexpr std::string_view format = "Seiche checkpoint 3\n", of_any_version = "Seiche checkpoint ";
 
+// By its name: a link that leads nowhere is no checkpoint, and a word about it is due.
+bool is_there(const std::filesystem::path& file) {
+  std::error_code none;
+  return std::filesystem::exists(std::filesystem::symlink_status(file, none));
+}
+
 struct Tail {
   std::uint64_t length;
   std::uint64_t checksum;
 };
 
-// The next bytes; fewer where the file has become shorter meanwhile.
-std::string read(std::ifstream& in, std::uintmax_t size) {
-  std::string bytes(size, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
+// A file that is one: no pipe, which would be waited for, no device, which has no end, and no link.
+class PlainFile {
+ public:
+  explicit PlainFile(const std::filesystem::path& path)
+      : file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC)) {
+    struct stat status = {};
+    std::string complaint;
+    if (file_ < 0) {
+      complaint = errno == ELOOP ? "is a link" : fmt::format("cannot be read: {}", std::strerror(errno));
+    } else if (::fstat(file_, &status) != 0 || !S_ISREG(status.st_mode)) {
+      complaint = S_ISDIR(status.st_mode) ? "is a folder" : "is not a file";
+      ::close(file_);
+    }
+    if (!complaint.empty()) throw Error("{} {}", path.string(), complaint);
+    size_ = static_cast<std::uint64_t>(status.st_size);
+  }
+  ~PlainFile() { ::close(file_); }
+  PlainFile(const PlainFile&) = delete;
+  PlainFile& operator=(const PlainFile&) = delete;
+
+  std::uint64_t size() const { return size_; }
+  // Fewer than `most` where the file ends.
+  std::string read(std::uint64_t at, std::uint64_t most) const {
+    std::string bytes(std::min(most, size_ - std::min(at, size_)), '\0');
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      const ::ssize_t size = ::pread(file_, bytes.data() + done, bytes.size() - done, static_cast<::off_t>(at + done));
+      if (size == 0 || (size < 0 && errno != EINTR)) break;
+      done += size < 0 ? 0 : static_cast<std::size_t>(size);
+    }
+    bytes.resize(done);
+    return bytes;
+  }
+
+ private:
+  int file_;
+  std::uint64_t size_ = 0;
+};
+
+// Piece by piece: of a file whose checksum is wrong nothing is kept.
+std::uint32_t checksum_of(const PlainFile& file, std::uint64_t begin, std::uint64_t length) {
+  constexpr std::uint64_t piece = std::uint64_t{1} << 20U;
+  std::uint32_t found = checksum_of_nothing;
+  for (std::uint64_t done = 0; done < length; done += piece)
+    found = checksum(file.read(begin + done, std::min(piece, length - done)), found);
+  return found;
 }
 
 }  // namespace
@@ -59,26 +109,25 @@ bool is_checkpoint(const std::filesystem::path& file) {
   // To look into a pipe would wait for its writer, and take the bytes from whoever reads it next.
   if (std::error_code none; !std::filesystem::is_regular_file(file, none)) return false;
   std::ifstream in(file, std::ios::binary);
-  return in && read(in, of_any_version.size()) == of_any_version;
+  std::string bytes(of_any_version.size(), '\0');
+  return in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) && bytes == of_any_version;
 }
 
+// The length at its end is compared before anything else is read: what has grown, or has a hole, has another one.
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
-  std::error_code none;
-  std::ifstream in;
-  if (std::filesystem::is_regular_file(file, none)) in.open(file, std::ios::binary);
-  if (!in.is_open()) throw Error("{} cannot be read", file.string());
-  const std::uintmax_t size = std::filesystem::file_size(file);
-  const std::string first = read(in, std::min<std::uintmax_t>(size, format.size()));
-  if (first != format) throw Error("{} is no checkpoint of this version of Seiche", file.string());
+  const PlainFile in(file);
+  if (in.read(0, format.size()) != format) throw Error("{} is no checkpoint of this version of Seiche", file.string());
   Tail tail{};
-  if (size < format.size() + sizeof(tail)) throw Error("{} is damaged: it ends after {} bytes", file.string(), size);
-  std::string bytes = read(in, size - format.size() - sizeof(tail));
-  const std::string last = read(in, sizeof(tail));
+  if (in.size() < format.size() + sizeof(tail))
+    throw Error("{} is damaged: it ends after {} bytes", file.string(), in.size());
+  const std::uint64_t length = in.size() - format.size() - sizeof(tail);
+  const std::string last = in.read(format.size() + length, sizeof(tail));
   if (last.size() == sizeof(tail)) std::memcpy(&tail, last.data(), sizeof(tail));
-  if (tail.length != bytes.size())
+  if (last.size() != sizeof(tail) || tail.length != length)
     throw Error("{} is damaged: its last bytes are missing, or belong to another", file.string());
-  if (checksum(bytes) != tail.checksum) throw Error("{} is damaged: its checksum is another", file.string());
-  Checkpoint found{.name = file.filename().string(), .run = {}, .rest = Archive(std::move(bytes))};
+  if (checksum_of(in, format.size(), length) != tail.checksum)
+    throw Error("{} is damaged: its checksum is another", file.string());
+  Checkpoint found{.name = file.filename().string(), .run = {}, .rest = Archive(in.read(format.size(), length))};
   found.rest(found.run);
   return found;
 }
@@ -91,7 +140,7 @@ std::string complaint_about(const Folder& folder, const SavedRun& run) {
 Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& notes) {
   for (const char* name : {checkpoint_name, earlier_checkpoint_name}) {
     const std::filesystem::path file = folder.path() / name;
-    if (!std::filesystem::exists(file)) continue;
+    if (!is_there(file)) continue;
     try {
       Checkpoint found = read_checkpoint(file);
       const std::string said = complaint_about(folder, found.run);
@@ -106,8 +155,7 @@ Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& not
 }
 
 bool has_checkpoint(const std::filesystem::path& directory) {
-  return std::filesystem::exists(directory / checkpoint_name) ||
-         std::filesystem::exists(directory / earlier_checkpoint_name);
+  return is_there(directory / checkpoint_name) || is_there(directory / earlier_checkpoint_name);
 }
 
 void remove_checkpoints(const Folder& folder) {

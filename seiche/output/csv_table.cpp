@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
 #include <seiche/output/csv_table.hpp>
 
 #include <algorithm>
@@ -20,7 +21,9 @@ std::vector<std::string_view> cells(std::string_view line) {
 
 }  // namespace
 
-CsvReader::CsvReader(const std::filesystem::path& file) : file_(file), input_(file) {
+CsvReader::CsvReader(const std::filesystem::path& file) : file_(file) {
+  if (look_at(file).kind == InputKind::other) throw Error("{} is not a file", file.string());
+  input_.open(file);
   if (!input_) throw Error("{} cannot be read", file.string());
   if (!std::getline(input_, line_)) return;
   for (const std::string_view name : cells(line_)) names_.emplace_back(name);

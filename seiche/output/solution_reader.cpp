@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
 #include <seiche/output/solution_reader.hpp>
 
 #include <fcntl.h>
@@ -170,6 +171,7 @@ void SolutionReader::field(Index field, Index k, Vector& values) const {
 }
 
 std::string SolutionReader::what_another_process_finds(const std::filesystem::path& solution) {
+  if (look_at(solution).kind == InputKind::other) throw Error("{} is not a file", solution.string());
   constexpr int whole = 0, damaged = 3;
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return "";  // then without

@@ -159,6 +159,30 @@ TEST_F(CheckpointCli, EndsARunThatHasUsedItsHours) {
   EXPECT_EQ(audited.exit, 0) << audited.out;
 }
 
+// A pipe without a writer, a device without an end, a folder, a hole of 8 GiB: the older one serves, and that is said.
+TEST_F(CheckpointCli, IsPassedOverWithAWordWhereItIsNoPlainFile) {
+  ASSERT_EQ(seiche("run case.toml --out stopped --quiet --max-hours 1e-9 --set " + keys()).exit, 130);
+  fs::copy_file(directory / "stopped/checkpoint.seiche", directory / "stopped/checkpoint_prev.seiche");
+  const std::vector<std::pair<std::string, std::string>> ways = {
+      {"rm F; mkfifo F", "is not a file"},
+      {"ln -sf /dev/zero F", "is a link"},
+      {"ln -sf nowhere F", "is a link"},
+      {"rm F; mkdir F", "is a folder"},
+      {"truncate -s 8G F", "its last bytes are missing"},
+      {"printf x | dd of=F bs=1 seek=40 conv=notrunc status=none", "its checksum is another"}};
+  for (const auto& [way, word] : ways) {
+    fs::remove_all(directory / "out");
+    fs::copy(directory / "stopped", directory / "out");
+    std::string command = way;
+    for (std::size_t at = command.find('F'); at != std::string::npos; at = command.find('F'))
+      command.replace(at, 1, "checkpoint.seiche");
+    ASSERT_EQ(std::system(("cd '" + directory.string() + "/out' && " + command).c_str()), 0) << way;
+    const Result resumed = seiche("resume out --quiet", "timeout 20");
+    EXPECT_EQ(resumed.exit, 0) << way << resumed.err;
+    EXPECT_THAT(resumed.err, AllOf(HasSubstr("checkpoint.seiche is of no use"), HasSubstr(word))) << way;
+  }
+}
+
 TEST_F(CheckpointCli, RunsWithoutAReaderOfItsMessages) {
   EXPECT_EQ(std::system(("cd '" + directory.string() + "' && bash -c \"'" + test::program_path() +
                          "' run case.toml --out closed 2> >(true)\"")

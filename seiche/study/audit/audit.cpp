@@ -2,6 +2,7 @@
 #include <seiche/config/case/case_value.hpp>
 #include <seiche/config/data/initial_file.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/output/csv_table.hpp>
@@ -361,6 +362,16 @@ RunSpec case_of_run(const std::filesystem::path& directory, std::string& lost) {
   return read_case(directory / "case.toml", {fmt::format("problem.initial={{file={}}}", stand_in)});
 }
 
+// A pipe in the place of one of them would be waited for.
+void require_plain_files(const std::filesystem::path& directory) {
+  for (const char* name :
+       {"case.toml", "energy.csv", "solution.h5", "final.txt", "summary.json", "members.csv", "finals.csv"}) {
+    const std::filesystem::path file = directory / name;
+    const std::string complaint = complaint_about_file(file);
+    if (!complaint.empty() && look_at(file).kind != InputKind::missing) throw Error("{} {}", file.string(), complaint);
+  }
+}
+
 // Of a run that ended before its first row `seiche recover` leaves these two.
 Audit audit_of_nothing(const Json& summary, const RunSpec& spec) {
   AuditBook book;
@@ -393,6 +404,7 @@ bool Audit::confirms() const {
 
 Audit audit(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
+  require_plain_files(directory);
   require_recovered(directory);
   if (std::filesystem::exists(directory / "solution.h5")) require_readable(directory / "solution.h5");
   std::string lost;
