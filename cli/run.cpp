@@ -5,7 +5,6 @@
 #include "versions.hpp"
 
 #include <fmt/format.h>
-#include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/driver/run_case.hpp>
@@ -135,8 +134,8 @@ ExitCode resume(const ResumeArguments& arguments) {
   outlive_readers();
   const std::string& directory = arguments.directory;
   RunCaseOptions options = run_options(arguments);
-  const double t_end = arguments.until ? *arguments.until : read_case(directory + "/case.toml").t_end;
-  Progress progress(stderr, t_end);
+  Progress progress(stderr, 0);
+  options.ends_at = [&progress](double t_end) { progress.end_at(t_end); };
   if (ProgressBar::is_wanted(arguments.quiet)) options.observers.push_back(&progress);
   const CaseResult result = resume_case(directory, arguments.until, options);
   print(arguments, directory, result);

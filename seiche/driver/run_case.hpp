@@ -22,6 +22,7 @@ struct RunCaseOptions {
   bool restart = false;               // begin anew where the folder holds a run that did not finish, which is removed
   double max_hours = 0;               // after which a run is saved and ends as if it had been interrupted; 0: never
   std::atomic<bool>* save = nullptr;  // where it is set, a run writes a checkpoint, clears it, and goes on
+  std::function<void(double t_end)> ends_at = {};  // of a run that goes on, before `begins`: where it will end
   // Before the first step, when nothing is refused any more: what there is to say. Returns a flag that ends the run
   // after the step in which it is set, or null.
   std::function<const std::atomic<bool>*(const std::vector<std::string>& notes)> begins = {};

@@ -11,6 +11,7 @@ namespace seiche {
 class Progress : public Observer {
  public:
   Progress(std::FILE* terminal, double t_end);
+  void end_at(double t_end) { t_end_ = t_end; }  // before the first step
 
   bool is_due(const State& state, bool last) const override;
   void observe(const State&, const EnergyReading&) override {}

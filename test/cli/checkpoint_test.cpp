@@ -183,6 +183,25 @@ TEST_F(CheckpointCli, IsPassedOverWithAWordWhereItIsNoPlainFile) {
   }
 }
 
+TEST_F(CheckpointCli, HoldsTheCaseWhateverBecameOfTheFile) {
+  ASSERT_EQ(seiche("run case.toml --out stopped --quiet --max-hours 1e-9 --set " + keys()).exit, 130);
+  const std::string whole = text("stopped/case.toml");
+  for (const std::string way : {"rm F", "echo '[[[' >F", "rm F; mkfifo F", "rm F; mkdir F", "echo '# mine' >>F"}) {
+    fs::remove_all(directory / "out");
+    fs::copy(directory / "stopped", directory / "out");
+    std::string command = way;
+    for (std::size_t at = command.find('F'); at != std::string::npos; at = command.find('F'))
+      command.replace(at, 1, "case.toml");
+    ASSERT_EQ(std::system(("cd '" + directory.string() + "/out' && " + command).c_str()), 0) << way;
+    const Result resumed = seiche("resume out --quiet", "timeout 20");
+    EXPECT_EQ(resumed.exit, 0) << way << resumed.err;
+    EXPECT_THAT(resumed.err, HasSubstr("case.toml was")) << way;
+    EXPECT_EQ(text("out/case.toml"), whole) << way;
+    EXPECT_EQ(has("case_before_resume.toml"), way != "rm F") << "what somebody wrote is kept";
+    EXPECT_EQ(seiche("audit out").exit, 0) << way << text("stdout.txt");
+  }
+}
+
 TEST_F(CheckpointCli, RunsWithoutAReaderOfItsMessages) {
   EXPECT_EQ(std::system(("cd '" + directory.string() + "' && bash -c \"'" + test::program_path() +
                          "' run case.toml --out closed 2> >(true)\"")
