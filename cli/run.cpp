@@ -7,14 +7,18 @@
 #include <fmt/format.h>
 #include <seiche/core/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/output/progress.hpp>
 #include <seiche/output/solution_file.hpp>
 
+#include <charconv>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace seiche::cli {
 namespace {
@@ -142,6 +146,15 @@ ExitCode resume(const ResumeArguments& arguments) {
   return exit_code(result.report.status, result.report.law == LawVerdict::violated);
 }
 
+const CLI::Validator hours(
+    [](const std::string& text) {
+      double value = 0;
+      const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+      const bool is_number = error == std::errc() && rest == text.data() + text.size() && std::isfinite(value);
+      return is_number && value > 0 ? std::string() : fmt::format("'{}' is no finite number > 0", shortened(text));
+    },
+    "");
+
 // The options of both commands.
 void add_options(CLI::App& command, RunArguments& arguments) {
   command
@@ -153,7 +166,7 @@ void add_options(CLI::App& command, RunArguments& arguments) {
       .add_option("--max-hours", arguments.max_hours,
                   "Write a checkpoint and stop after so much time, as a queue allows")
       ->type_name("H")
-      ->check(CLI::PositiveNumber);
+      ->check(hours);
   command.add_flag("--json", arguments.json, "Print summary.json on stdout");
   command.add_flag("--quiet", arguments.quiet, "No progress bar, and a word only when something went wrong");
 }

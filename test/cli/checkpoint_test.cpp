@@ -159,6 +159,14 @@ TEST_F(CheckpointCli, EndsARunThatHasUsedItsHours) {
   EXPECT_EQ(audited.exit, 0) << audited.out;
 }
 
+TEST_F(CheckpointCli, StopsAfterANumberOfHoursThatIsOne) {
+  for (const char* hours : {"nan", "inf", "-1", "0", "1e999", "2h"}) {
+    const std::string said = refused(std::string("run case.toml --out out --max-hours ") + hours);
+    EXPECT_THAT(said, HasSubstr("no finite number > 0")) << hours;
+    EXPECT_LT(said.size(), 200U) << hours;
+  }
+}
+
 // A pipe without a writer, a device without an end, a folder, a hole of 8 GiB: the older one serves, and that is said.
 TEST_F(CheckpointCli, IsPassedOverWithAWordWhereItIsNoPlainFile) {
   ASSERT_EQ(seiche("run case.toml --out stopped --quiet --max-hours 1e-9 --set " + keys()).exit, 130);
