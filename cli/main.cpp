@@ -1,5 +1,6 @@
 // The program: subcommands, and one place that turns what went wrong into a sentence and an exit code.
 #include "command_line.hpp"
+#include "stop_signal.hpp"
 #include "versions.hpp"
 
 #include <fmt/format.h>
@@ -83,6 +84,8 @@ ExitCode run_program(const std::vector<std::string>& arguments) {
   } catch (const CLI::ParseError& error) {
     throw Error("{} (seiche --help lists commands and options)", shortened(error.what(), 300));
   }
+  const bool answers = app.got_subcommand("run") || app.got_subcommand("resume");  // as soon as they know how
+  if (!answers) let_signals_through();
   return action();
 }
 
@@ -91,6 +94,7 @@ ExitCode run_program(const std::vector<std::string>& arguments) {
 
 int main(int count, char** values) {
   using namespace seiche::cli;
+  keep_signals_waiting();
   prepare_process();
   try {
     return run_program({values + std::min(count, 1), values + count});

@@ -58,7 +58,7 @@ RunCaseOptions run_options(const RunArguments& arguments) {
           .save = &save_on_signal(),
           .begins =
               [quiet = arguments.quiet](const std::vector<std::string>& notes) {
-                const std::atomic<bool>& stop = stop_on_signal();  // until here, a signal simply ends the program
+                const std::atomic<bool>& stop = stop_on_signal();
                 if (!quiet) print_notes(notes);
                 return &stop;
               },
@@ -119,8 +119,8 @@ ExitCode run_ensemble(const RunArguments& arguments, const RunSpec& spec) {
 }
 
 ExitCode run(const NewRunArguments& arguments) {
+  answer_signals();
   hdf5_without_cleanup_at_exit();
-  outlive_readers();
   RunSpec spec = load_case(arguments.case_argument);
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
   if (arguments.directory_given) spec.output_directory = arguments.directory;
@@ -134,8 +134,8 @@ ExitCode run(const NewRunArguments& arguments) {
 }
 
 ExitCode resume(const ResumeArguments& arguments) {
+  answer_signals();
   hdf5_without_cleanup_at_exit();
-  outlive_readers();
   const std::string& directory = arguments.directory;
   RunCaseOptions options = run_options(arguments);
   Progress progress(stderr, 0);

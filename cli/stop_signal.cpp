@@ -1,12 +1,23 @@
 #include "stop_signal.hpp"
 
+#include "command_line.hpp"
+
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
 
 namespace seiche::cli {
 namespace {
 
 std::atomic<bool> stop = false, save = false, is_held = false, leave = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "else a signal handler must not touch it");
+
+void end_set_up(int) {
+  constexpr std::string_view text = "seiche: stopped before the first step\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  ::_exit(interrupted);
+}
 
 // The first signal ends the run, whose files are then completed; a second one that comes meanwhile hurries that.
 void ask_to_stop(int) {
@@ -27,32 +38,44 @@ bool is_ignored(int signal) {
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-void handle_all(int flags) {
-  for (const int signal : {SIGINT, SIGTERM}) handle(signal, ask_to_stop, flags);
+void handle_all(void (*handler)(int), int flags) {
+  for (const int signal : {SIGINT, SIGTERM}) handle(signal, handler, flags);
   // These come again, whether anybody has lost patience or not.
-  if (!is_ignored(SIGHUP)) handle(SIGHUP, ask_to_stop);
-  handle(SIGXCPU, ask_to_stop);
+  if (!is_ignored(SIGHUP)) handle(SIGHUP, handler);
+  handle(SIGXCPU, handler);
+}
+
+void change_mask(int how) {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1}) sigaddset(&set, signal);
+  pthread_sigmask(how, &set, nullptr);
 }
 
 }  // namespace
 
+void keep_signals_waiting() { change_mask(SIG_BLOCK); }
+void let_signals_through() { change_mask(SIG_UNBLOCK); }
+
+void answer_signals() {
+  handle(SIGUSR1, ask_to_save);
+  handle(SIGPIPE, SIG_IGN);
+  handle_all(end_set_up, 0);
+  let_signals_through();
+}
+
 const std::atomic<bool>& stop_on_signal() {
-  handle_all(static_cast<int>(SA_RESETHAND));
+  handle_all(ask_to_stop, static_cast<int>(SA_RESETHAND));
   return stop;
 }
 
 bool has_stopped() { return stop; }
 
-std::atomic<bool>& save_on_signal() {
-  handle(SIGUSR1, ask_to_save);
-  return save;
-}
-
-void outlive_readers() { handle(SIGPIPE, SIG_IGN); }
+std::atomic<bool>& save_on_signal() { return save; }
 
 const std::atomic<bool>& hold_signals() {
   is_held = true;
-  handle_all(0);
+  handle_all(ask_to_stop, 0);
   return leave;
 }
 

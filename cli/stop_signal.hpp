@@ -6,15 +6,21 @@
 
 namespace seiche::cli {
 
+// First thing in the program: signals wait until it is known what they are to do.
+void keep_signals_waiting();
+void let_signals_through();  // of commands that answer none: they end the program
+
+// Of a run that is being set up: those that waited come now. USR1 asks for the first checkpoint; the others end the
+// program at once, with a word and exit code 130, since nothing is lost yet. A reader of our messages that has gone
+// ends no run.
+void answer_signals();
+
 // From now on; the flag is set by the first signal. HUP stays ignored where the program was started so (nohup).
 const std::atomic<bool>& stop_on_signal();
 bool has_stopped();  // has a signal come?
 
-// Set by USR1, from now on; whoever answers clears it.
+// Set by USR1; whoever answers clears it.
 std::atomic<bool>& save_on_signal();
-
-// A reader of our messages that has gone ends no run.
-void outlive_readers();
 
 // From now on no signal ends the program: files are being written that nobody could write again. The first signal of
 // all still lets everything be written. The flag, set by one behind it, asks to leave out what can be had later.

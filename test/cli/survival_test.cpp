@@ -333,6 +333,26 @@ TEST_F(Survival, TheFirstSignalLetsEverythingBeWrittenWheneverItComes) {
   EXPECT_GT(behind_the_last_step, 5);
 }
 
+// Before the program has looked at its arguments.
+TEST_F(Survival, ASignalInTheFirstMomentIsAnswered) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  for (const int signal : {SIGUSR1, SIGTERM, SIGINT, SIGXCPU}) {
+    const Result result = seiche("run case.toml --out out --quiet",
+                                 fmt::format("LD_PRELOAD='{}' SEICHE_SIGNAL={}", failing_writes_path(), signal));
+    if (signal == SIGUSR1) {
+      EXPECT_EQ(result.exit, 0) << "it asks for a checkpoint, and the run goes on";
+      fs::remove_all(directory / "out");
+    } else {
+      EXPECT_EQ(result.exit, 130) << signal;
+      EXPECT_THAT(result.err, HasSubstr("stopped before the first step")) << signal;
+      EXPECT_FALSE(has("out")) << signal;
+    }
+  }
+}
+
 TEST_F(Survival, ASecondSignalEndsOnlyWhatCanBeHadAgain) {
   write_case();
   Background run(directory, {"run", "case.toml", "--out", "out", "--quiet", "--set", "time.end=1e7",
