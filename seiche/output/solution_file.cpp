@@ -152,9 +152,11 @@ std::string SolutionFile::complaint(const Folder& folder, const Mark& mark) {
 
 SolutionFile::Mark SolutionFile::mark() {
   if (broken_) throw Error("{} could not be written", path_.path().string());
+  broken_ = true;  // until all of it succeeded
   if (waiting_ > written_) write_rows(false);
   path_.keep();
   file_.flush();
+  broken_ = false;
   is_settled_ = false;
   const std::uint64_t rows = columns_.back().data.rows();
   Mark mark{.rows = rows,

@@ -101,6 +101,27 @@ TEST_F(Survival, WhicheverWriteFailsTheRowsBeforeItAreReadable) {
   EXPECT_GT(most, whole.count() / 2) << "late writes failed too";
 }
 
+// In a checkpoint too, whose rows nobody takes for damaged ones.
+TEST_F(Survival, ADiskThatIsFullIsCalledSo) {
+#if defined(SEICHE_SANITIZED)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  int failed = 0;
+  for (int n = 40;; ++n) {
+    fs::remove_all(directory / "out");
+    const Result result = seiche(
+        "run case.toml --out out --quiet --set problem.points=128 method.h=1/128 time.end=4 output.snapshot_every=1 "
+        "output.energy_every=8 output.report=off checkpoint.every_steps=151",
+        fmt::format("LD_PRELOAD='{}' SEICHE_FAIL_AT={} SEICHE_FAIL_WITH={}", failing_writes_path(), n, ENOSPC));
+    if (result.exit == 0) break;
+    ASSERT_LT(n, 1000) << "it never succeeds";
+    EXPECT_THAT(result.err, AllOf(HasSubstr(std::strerror(ENOSPC)), Not(HasSubstr("inflate")))) << n;
+    ++failed;
+  }
+  EXPECT_GT(failed, 30);
+}
+
 // Whatever happens to a resume, at every fifth of its calls: the next one ends as if nothing had, since nothing that
 // the checkpoint vouches for is touched before a copy of it is on the disk.
 TEST_F(Survival, AResumeThatIsKilledOrFailsLosesNothing) {
@@ -261,7 +282,7 @@ TEST_F(Survival, WhatIsRecoveredOfAKilledRunPassesTheAudit) {
 
 // Killed at whichever of its calls, a run or a resume leaves what `recover` makes a folder of that nothing contradicts.
 TEST_F(Survival, WhatIsRecoveredPassesTheAuditWhereverTheRunWasKilled) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";
 #endif
   write_case();
@@ -308,7 +329,7 @@ TEST_F(Survival, AKilledEnsembleKeepsItsStatistics) {
 }
 
 TEST_F(Survival, TheFirstSignalLetsEverythingBeWrittenWheneverItComes) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";
 #endif
   write_case();
@@ -335,7 +356,7 @@ TEST_F(Survival, TheFirstSignalLetsEverythingBeWrittenWheneverItComes) {
 
 // Before the program has looked at its arguments.
 TEST_F(Survival, ASignalInTheFirstMomentIsAnswered) {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";
 #endif
   write_case();

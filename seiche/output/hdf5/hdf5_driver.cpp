@@ -76,7 +76,9 @@ class OrderedFile : public H5FD_t {
   haddr_t size() const { return std::max(size_, end_of_held()); }
   const FileIdentity& identity() const { return identity_; }
 
-  bool read(haddr_t at, char* to, std::size_t count) const {
+  // Data that were not written must not be taken for damaged ones.
+  bool read(H5FD_mem_t kind, haddr_t at, char* to, std::size_t count) const {
+    if (failure_ != 0 && kind == H5FD_MEM_DRAW) return said(failure_, "write");
     std::memset(to, 0, count);  // behind the end of the file
     for (std::size_t done = 0; done < count;) {
       const ::ssize_t size = ::pread(file_, to + done, count - done, static_cast<::off_t>(at + done));
@@ -230,9 +232,9 @@ herr_t close(H5FD_t* file) {
   return guarded(*ours, "close", [&] { return ours->settle(true); });
 }
 
-herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t count, void* to) {
+herr_t read(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t at, std::size_t count, void* to) {
   OrderedFile& ours = OrderedFile::of(file);
-  return guarded(ours, "read", [&] { return ours.read(at, static_cast<char*>(to), count); });
+  return guarded(ours, "read", [&] { return ours.read(kind, at, static_cast<char*>(to), count); });
 }
 
 herr_t write(H5FD_t* file, H5FD_mem_t kind, hid_t, haddr_t at, std::size_t count, const void* from) {
