@@ -59,7 +59,9 @@ class Rescue {
 
   Recovery run() {
     tables();
-    if (spec_.ensemble) {
+    if (spec_.ensemble && has("members.csv") && has("finals.csv")) {
+      // All have ended.
+    } else if (spec_.ensemble) {
       found_.lost.emplace_back("the members of the ensemble, whose files are written when all have ended");
     } else {
       solution();

@@ -328,6 +328,19 @@ TEST_F(Survival, AKilledEnsembleKeepsItsStatistics) {
   EXPECT_GT(lines("out/energy.csv").size(), 2U);
 }
 
+TEST_F(Survival, OfAnEnsembleThatHasEndedNothingIsLost) {
+  write_case();
+  const Result ran =
+      seiche("run case.toml --out out --set ensemble.members=2 ensemble.perturb_initial=0.01 checkpoint.every_steps=5");
+  ASSERT_EQ(ran.exit, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("an ensemble keeps no checkpoints: [checkpoint] has no effect"));
+  const std::string summary = text("out/summary.json");
+  const Result recovered = seiche("recover out");
+  EXPECT_EQ(recovered.exit, 0);
+  EXPECT_THAT(recovered.err, AllOf(HasSubstr("nothing to recover"), Not(HasSubstr("lost"))));
+  EXPECT_EQ(text("out/summary.json"), summary);
+}
+
 TEST_F(Survival, TheFirstSignalLetsEverythingBeWrittenWheneverItComes) {
 #if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";

@@ -179,6 +179,8 @@ class Sections {
   void read_ensemble() {
     const CaseSection* section = r_.table.section("ensemble");
     if (section == nullptr || !section->is_table) return;
+    if (spec_.checkpoint != CheckpointSpec{})
+      spec_.notes.emplace_back("an ensemble keeps no checkpoints: [checkpoint] has no effect");
     if (spec_.ledger)
       r_.complain(section->order, section->place, Error("an ensemble keeps no ledger: write output.ledger = \"off\""));
     if (spec_.tolerance)
