@@ -11,6 +11,8 @@
 
 namespace seiche {
 
+class Archive;
+
 // Where the change of H comes from. The parts of a step add up to H after − H before, but for round-off.
 struct StepLedger {
   double work = 0.0;          // of external forces
@@ -95,6 +97,9 @@ class AdaptiveStepper : public Stepper {
   virtual void interpolate(const State& state, double t, Vector& z) = 0;  // the solution at a time inside it
   virtual void forget(State& state) = 0;   // what it remembers of the steps before; all else stays
   virtual void restart(State& state) = 0;  // as `begin`, for a z that something else has changed
+  // Of a checkpoint, between two attempts: what it knows of the state beside the state, so that a run that goes on does
+  // the same work. Reading may evaluate that again.
+  virtual void archive_memory(Archive& /*archive*/, const State& /*state*/) {}
 };
 
 }  // namespace seiche

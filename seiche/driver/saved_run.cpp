@@ -18,7 +18,7 @@
 namespace seiche {
 namespace {
 
-constexpr std::string_view format = "Seiche checkpoint 3\n", of_any_version = "Seiche checkpoint ";
+constexpr std::string_view format = "Seiche checkpoint 4\n", of_any_version = "Seiche checkpoint ";
 
 // By its name: a link that leads nowhere is no checkpoint, and a word about it is due.
 bool is_there(const std::filesystem::path& file) {

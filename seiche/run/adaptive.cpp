@@ -88,7 +88,9 @@ class AdaptiveLoop {
     a.section("steps of variable size");
     a(controller_, pace_, time_, size_, h_, first_of_all_, rejections_, smallest_, largest_);
     recording_.archive(a, options_.objection);
+    stepper_.archive_memory(a, state_);
     if (!a.reads()) return;
+    recording_.count_from_here();
     a.require(h_ > 0 && std::isfinite(h_) && state_.t <= options_.t_end);
     backup_ = state_;
   }

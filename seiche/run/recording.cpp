@@ -184,7 +184,7 @@ void Recording::archive(Archive& a, const std::function<std::string()>& objectio
   earlier_objection_ = met;
   counts_earlier_ = counts_so_far;
   seconds_earlier_ = seconds_so_far;
-  counts_before_ = system_.potential->counts();
+  count_from_here();
   begin_ = std::chrono::steady_clock::now();
 }
 

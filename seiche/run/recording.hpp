@@ -55,6 +55,8 @@ class Recording {
   // The state, and what a run has counted and judged so far. `objection` as for `finish`: what has been met stays met
   // in a run that goes on from here.
   void archive(Archive& a, const std::function<std::string()>& objection);
+  // What was evaluated up to now to go on from a checkpoint has been counted before it.
+  void count_from_here() { counts_before_ = system_.potential->counts(); }
 
  private:
   void fail_not_finite(const char* what);

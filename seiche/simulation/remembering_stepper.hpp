@@ -40,6 +40,7 @@ class RememberingStepper final : public AdaptiveStepper {
   void interpolate(const State& state, double t, Vector& z) override { adaptive_->interpolate(state, t, z); }
   void forget(State& state) override { adaptive_->forget(state); }
   void restart(State& state) override { adaptive_->restart(state); }
+  void archive_memory(Archive& a, const State& state) override { adaptive_->archive_memory(a, state); }
 
  private:
   void note(double h);  // a step from left_

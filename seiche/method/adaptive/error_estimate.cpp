@@ -1,3 +1,4 @@
+#include <seiche/core/control/archive.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/adaptive/error_estimate.hpp>
@@ -78,6 +79,10 @@ class Estimated final : public AdaptiveStepper {
 
   void forget(State&) override { end_force_is_known_ = false; }
   void restart(State& s) override { begin(s); }
+  void archive_memory(Archive& a, const State& s) override {
+    a(end_force_is_known_);
+    if (a.reads() && end_force_is_known_) force(s.t, s.z, forces_[2]);
+  }
 
  private:
   void force(double t, const Vector& z, Vector& out) {
