@@ -9,6 +9,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/driver/saved_run.hpp>
 #include <seiche/simulation/certificate.hpp>
+#include <seiche/simulation/kick_stability.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -92,6 +93,8 @@ ExitCode check(const CheckArguments& arguments) {
                                                     .t_start = spec.t_start,
                                                     .t_end = spec.t_end,
                                                     .at_start = &simulation});
+  if (!spec.tolerance)
+    print_notes(notes_on_step_size(simulation, spec.sparse, spec.h, {spec.t_start, spec.duration()}));
   print_data(arguments.json ? to_json(spec, certificate).dump(2) + "\n" : to_text(spec, certificate));
   return success;
 }

@@ -89,11 +89,15 @@ std::string work_of_exponentials(const Simulation& simulation, const SparseOptio
                substeps * steps * (1e-5 + 1e-7 * static_cast<double>(simulation.problem().size())));
   }
   const PadePlan plan = plan_pade(h * rate, 1e-14);
+  const double parts = static_cast<double>(plan.steps) * steps;
+  constexpr double of_a_solve = 2e-7;  // seconds for an unknown and a degree, in two exponentials of a step
   return start +
          fmt::format(
-             "in {} Padé parts of degree {} each, {:.1g} in {:.3g} steps; [backend] pade_degree = 6 takes one part for every "
-             "h, keeps the law and is exact for slow motion, and so does backend \"dense\" for up to some thousand unknowns",
-             plan.steps, plan.degree, static_cast<double>(plan.steps) * steps, steps);
+             "in {} Padé parts of degree {} each, {:.1g} in {:.3g} steps, about {:.1g} s; [backend] pade_degree = 6 takes one "
+             "part for every h, keeps the law and is exact for slow motion, and so does backend \"dense\" for up to some "
+             "thousand unknowns",
+             plan.steps, plan.degree, parts, steps,
+             parts * plan.degree * of_a_solve * static_cast<double>(simulation.problem().size()));
 }
 
 std::vector<std::string> notes_on_step_size(const Simulation& simulation, const SparseOptions& options, double h,

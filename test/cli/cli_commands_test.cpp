@@ -31,6 +31,14 @@ using testing::HasSubstr;
 
 class CliSlow : public Cli {};
 
+TEST_F(Cli, CheckSaysWhatAStepWillCost) {
+  write("case.toml", "[problem]\nname = \"wave\"\npoints = [8, 8]\nspeed = 1e5\n[method]\nh = \"1/64\"\n");
+  const Result costly = seiche("check case.toml");
+  EXPECT_EQ(costly.exit, 0) << costly.err;
+  EXPECT_THAT(costly.err, AllOf(HasSubstr("Padé parts"), HasSubstr("pade_degree = 6")));
+  EXPECT_EQ(seiche("check case.toml --set problem.speed=1").err, "");
+}
+
 TEST_F(Cli, ListsNameEverythingThereIs) {
   const json methods = json::parse(seiche("list methods --json").out);
   std::vector<std::string> names;

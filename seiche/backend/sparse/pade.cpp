@@ -1,4 +1,5 @@
 #include <seiche/backend/sparse/pade.hpp>
+#include <seiche/core/control/stop_request.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,10 @@ double spectral_radius_bound(const SparseMatrix& B) {
 PadeForce::PadeForce(const SparseMatrix& S, const SparseMatrix& M, const ResolventFactory& factory, double h,
                      PadePlan plan)
     : S_(S), M_(M), h_(h / plan.steps), steps_(plan.steps), slope_(S.rows()), rate_(S.rows()), x_(S.rows()) {
-  for (const std::complex<double>& pole : pade_poles(plan.degree)) factors_.push_back({pole, factory.make(h_, pole)});
+  for (const std::complex<double>& pole : pade_poles(plan.degree)) {
+    end_if_asked();
+    factors_.push_back({pole, factory.make(h_, pole)});
+  }
 }
 
 //   pair of poles p, p̄:   y ← y + 4 Re p · Im((A − p)⁻¹ hS(My + c)) / Im p
@@ -36,6 +40,7 @@ void PadeForce::apply(const Vector& c, Vector& y) const {
   y.setZero(c.size());
   for (int step = 0; step < steps_; ++step) {
     for (const Factor& factor : factors_) {
+      end_if_asked();
       slope_ = c;
       slope_.noalias() += M_ * y;
       rate_.noalias() = S_ * slope_;

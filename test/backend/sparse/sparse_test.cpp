@@ -6,6 +6,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/sparse/pade_poles.hpp>
 #include <seiche/backend/sparse/resolvent.hpp>
+#include <seiche/core/control/stop_request.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/law/law.hpp>
@@ -18,6 +19,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/SparseLU>
 
+#include <atomic>
 #include <cmath>
 
 namespace seiche::test {
@@ -46,6 +48,16 @@ double contract_defect(const Matrix& F, const Matrix& M) {
 }
 
 double distance(const Vector& a, const Vector& b) { return largest(a - b); }
+
+TEST(Sparse, PadePartsEndWhereARunIsAskedToStop) {
+  const Problem p = layered_wave();
+  const System system = sparse(p);
+  const auto propagator = system.linear->propagator(PropagatorKind::exponential, 1e9);
+  const std::atomic<bool> stop = true;
+  const StopRequest request(&stop);
+  Vector q(p.size());
+  EXPECT_THROW(propagator->force(Vector::Ones(p.size()), q), Stopped);
+}
 
 TEST(Sparse, PadeOfEveryDegreeKeepsTheContractAtStepsWhereItIsNotAccurate) {
   const Problem p = layered_wave();
