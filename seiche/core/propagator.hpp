@@ -31,10 +31,10 @@ class Propagator {
   virtual void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before = {}) const = 0;
 
   // The same from gradients at the last three midpoints, for ḡ = g₀ + weight·(g₀ − g₁) in the place of ∇V(z⁻). `missed`
-  // is what such an extrapolation missed last time, F_{h/2} applied to g₀ − g₁ − ratio·(g₁ − g₂), and `size` that of ẑ:
-  // squares of Euclidean norms of coordinates on the support. False, and nothing done, where it is not fused.
+  // is what such an extrapolation missed last time, F_{h/2} applied to g₀ − g₁ − ratio·(g₁ − g₂), and `moved` is
+  // ẑ − z⁻: squares of Euclidean norms of coordinates on the support. False, and nothing done, where it is not fused.
   struct Recalled {
-    double missed = 0.0, size = 0.0;
+    double missed = 0.0, moved = 0.0;
   };
   struct Gradients {
     const Vector &g0, &g1, &g2;

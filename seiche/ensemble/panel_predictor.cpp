@@ -28,7 +28,7 @@ void PanelPredictor::predict(const double* z, double* g, const PanelStep& maps, 
     return by_gradient(z_mid);
   extrapolate_rows(gradients_[0].row(0), gradients_[1].row(0), weight, system_.support_size(), g);
   maps.predict.apply(z, z_mid);
-  find_missed(z_mid, maps);
+  find_missed(z, z_mid, maps);
   if (!any_unable()) return;
   by_gradient(by_gradient_.row(0));
   copy_members(by_gradient_.row(0), unable_, system_.support_size(), z_mid);
@@ -43,15 +43,15 @@ void PanelPredictor::find_unable(double weight) {
     unable_[l] = known_[l] >= MidpointMemory::depth && resting_[l] == 0 && midpoint_memory::reaches(weight) ? 0.0 : 1.0;
 }
 
-void PanelPredictor::find_missed(const double* z_mid, const PanelStep& maps) {
+void PanelPredictor::find_missed(const double* z, const double* z_mid, const PanelStep& maps) {
   const Index rows = system_.support_size();
   second_difference(gradients_[0].row(0), gradients_[1].row(0), gradients_[2].row(0), midpoint_memory::ratio(lengths_),
                     rows, difference_.row(0));
-  PanelValues missed, size;
+  PanelValues missed, moved;
   maps.missed(difference_.row(0), missed);
-  sum_squares(z_mid, rows, size);
+  sum_squared_distances(z_mid, z + system_.support_begin() * panel_members, rows, moved);
   for (std::size_t l = 0; l < unable_.size(); ++l) {
-    if (unable_[l] != 0 || midpoint_memory::foretells(missed[l], size[l])) continue;
+    if (unable_[l] != 0 || midpoint_memory::foretells(missed[l], moved[l])) continue;
     unable_[l] = has_missed_[l] = 1;
   }
 }

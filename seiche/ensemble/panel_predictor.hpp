@@ -29,7 +29,7 @@ class PanelPredictor {
  private:
   // Members that are to take ∇V(z): mask ≠ 0.
   void find_unable(double weight);
-  void find_missed(const double* z_mid, const PanelStep& maps);
+  void find_missed(const double* z, const double* z_mid, const PanelStep& maps);
   bool any_unable() const;
 
   const PanelSystem& system_;

@@ -75,10 +75,13 @@ SEICHE_MULTIVERSION void second_difference(const double* a, const double* b, con
       });
 }
 
-SEICHE_MULTIVERSION void sum_squares(const double* in, Index rows, PanelValues& sum) {
+SEICHE_MULTIVERSION void sum_squared_distances(const double* a, const double* b, Index rows, PanelValues& sum) {
   Pack total[packs] = {};
   for_packs(
-      rows, [&](Index i, int q) __attribute__((always_inline)) { total[q] += packs_of(in)[i] * packs_of(in)[i]; });
+      rows, [&](Index i, int q) __attribute__((always_inline)) {
+        const Pack apart = packs_of(a)[i] - packs_of(b)[i];
+        total[q] += apart * apart;
+      });
   put(total, sum);
 }
 

@@ -17,7 +17,7 @@ void damp_rows(RowFactors factors, Index rows, double* values);
 // out = a + weight·(a − b), and a − b − ratio·(b − c)
 void extrapolate_rows(const double* a, const double* b, double weight, Index rows, double* out);
 void second_difference(const double* a, const double* b, const double* c, double ratio, Index rows, double* out);
-void sum_squares(const double* in, Index rows, PanelValues& sum);
+void sum_squared_distances(const double* a, const double* b, Index rows, PanelValues& sum);
 void scale_rows(const double* in, const PanelValues& factors, Index rows, double* out);  // out may be in
 // Each member: 0 if all its numbers are finite, else NaN.
 void find_not_finite(const double* in, Index rows, PanelValues& flags);

@@ -61,9 +61,9 @@ class FusedPropagator final : public Propagator {
     });
     RecallSums total;
     for (const RecallSums& part : recalled_) total += part;
-    std::array sums = {total.missed, total.size};
+    std::array sums = {total.missed, total.moved};
     space_.sum(sums);
-    recalled = {.missed = sums[0], .size = sums[1]};
+    recalled = {.missed = sums[0], .moved = sums[1]};
     return true;
   }
 

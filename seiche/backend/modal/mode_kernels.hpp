@@ -152,19 +152,19 @@ struct PowerLanes {
 };
 
 struct RecallSums {
-  double missed = 0, size = 0;
+  double missed = 0, moved = 0;
   RecallSums& operator+=(const RecallSums& other) {
     missed += other.missed;
-    size += other.size;
+    moved += other.moved;
     return *this;
   }
 };
 
-// ẑ = z⁻ + Q(Mz⁻ + ḡ) with ḡ = f + weight·(f − f₁), on the support, and the squares of ẑ and of Qd with
+// ẑ = z⁻ + Q(Mz⁻ + ḡ) with ḡ = f + weight·(f − f₁), on the support, and the squares of ẑ − z⁻ and of Qd with
 // d = f − f₁ − ratio·(f₁ − f₂); Q is passed as F.
 template <class S, class V>
 struct RecallLanes {
-  V missed{}, size{};
+  V missed{}, moved{};
 
   [[gnu::always_inline]] inline void add(const Operands<S>& o, Index slot) {
     const Point<S, V> p(o, slot);
@@ -175,15 +175,15 @@ struct RecallLanes {
       d[j] = (f - f1) - o.ratio * (f1 - load<V>(o.f2[j] + slot));
     }
     for (int i = S::first; i < S::first + S::count; ++i) {
-      const V z_mid = p.z[i] + row<S, V>(o, i, slot, w);
-      store<V>(o.out[i] + slot, z_mid);
+      const V move = row<S, V>(o, i, slot, w);
+      store<V>(o.out[i] + slot, p.z[i] + move);
       V Qd = times<S::layout, V>(o.F[i][S::first], slot, d[S::first]);
       for (int j = S::first + 1; j < S::first + S::count; ++j) Qd += times<S::layout, V>(o.F[i][j], slot, d[j]);
       missed += Qd * Qd;
-      size += z_mid * z_mid;
+      moved += move * move;
     }
   }
-  RecallSums sums() const { return {sum(missed), sum(size)}; }
+  RecallSums sums() const { return {sum(missed), sum(moved)}; }
 };
 
 template <class S>

@@ -22,8 +22,8 @@ namespace midpoint_memory {
 double weight(std::span<const double> lengths, double h);  // w
 double ratio(std::span<const double> lengths);  // of the second difference d = g₀ − g₁ − ratio·(g₁ − g₂)
 bool reaches(double weight);                    // is the step not much longer than those before?
-// Did the last extrapolation miss little, from |F_{h/2}d|² and |ẑ|² in the components of V?
-bool foretells(double missed, double size);
+// Did the last extrapolation miss little of what a step moves, from |F_{h/2}d|² and |ẑ − z⁻|² in the components of V?
+bool foretells(double missed, double moved);
 double resting(double before, bool has_missed);  // steps that are to take the gradient yet, behind one more
 
 }  // namespace midpoint_memory

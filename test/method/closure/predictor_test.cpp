@@ -1,6 +1,7 @@
 // The midpoint that closures foretell from the gradients of the last steps, beside the paper's.
 #include <test/support/cases.hpp>
 #include <test/support/convergence.hpp>
+#include <test/support/written_problem.hpp>
 
 #include <gtest/gtest.h>
 #include <seiche/method/closure/midpoint_predictor.hpp>
@@ -9,6 +10,7 @@
 #include <seiche/simulation/simulation.hpp>
 
 #include <cmath>
+#include <numbers>
 
 namespace seiche::test {
 namespace {
@@ -82,6 +84,47 @@ TEST(Predictor, TakesTheGradientWhereTheMemoryForetellsBadly) {
     const double paper = errors_against(reference, problem, by("seisav", Predictor::gradient), h).solution;
     const double ours = errors_against(reference, problem, by("seisav", Predictor::remembered), h).solution;
     EXPECT_LT(ours, 1.15 * paper) << "h = " << h;
+  }
+}
+
+// The guard compares with what a step moves, which no translation changes.
+TEST(Predictor, IsTheSameWhereTheWholeProblemIsTranslated) {
+  struct Case {
+    std::string H, rest;
+    std::vector<std::string> fields;
+    double shift;  // of the first field
+  };
+  const double pi = std::numbers::pi;
+  const std::vector<Case> cases = {
+      {"12*(1 - cos(q))", "S = [[\"-1\"]]", {"q"}, 40 * pi},
+      {"p^2/2 + 30*(1 - cos(q))", "D = { p = 0.5 }", {"q", "p"}, 400 * pi},
+      {"9*(1 - cos(q - a)) + 5*(1 - cos(q + a))", "S = [[\"-1\", \"0\"], [\"0\", \"-1\"]]", {"q", "a"}, 80 * pi},
+      {"0.01*q_x^2/2 + 10*(1 - cos(q))",
+       "points = [16]\nlength = [1]\nboundary = \"periodic\"\nS = [[\"-1\"]]",
+       {"q"},
+       60 * pi},
+  };
+  for (const Case& of : cases) {
+    const bool on_grid = of.rest.find("points") != std::string::npos;
+    const auto end = [&](double shift, const std::string& method, double h) {
+      std::string text = "fields = [";
+      for (const std::string& field : of.fields) text += "\"" + field + "\", ";
+      text += "]\nH = \"" + of.H + "\"\n" + of.rest + "\ninitial = { q = \"" + fmt::format("{:.17g}", shift) +
+              (on_grid ? " + 2.5 + 0.3*sin(2*pi*x)" : " + 2.5") + "\"";
+      for (std::size_t f = 1; f < of.fields.size(); ++f) text += ", " + of.fields[f] + " = \"0.4\"";
+      const Problem problem = make_problem(read(text + " }"));
+      Simulation simulation(problem, by(method, Predictor::remembered));
+      for (double t = 0; t < 3 - h / 2; t += h) EXPECT_TRUE(simulation.step(h).solved()) << of.H << " " << method;
+      Vector z = simulation.physical();
+      z.head(problem.grid.unknowns()).array() -= shift;
+      return z;
+    };
+    for (const std::string& method : closures) {
+      for (const double h : {1.0 / 8, 1.0 / 16, 1.0 / 64}) {
+        const Vector here = end(0, method, h), there = end(of.shift, method, h);
+        EXPECT_LE((here - there).lpNorm<Eigen::Infinity>(), 1e-9) << of.H << " " << method << ", h = " << h;
+      }
+    }
   }
 }
 
