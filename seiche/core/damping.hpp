@@ -1,7 +1,7 @@
 // The damping D(t)z + R(t, z) and its flow; R = 0 but for friction beyond linear.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/space.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -25,10 +25,18 @@ class Damping {
   virtual bool is_constant() const = 0;
   virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀)z + R(t, z)
   virtual void apply_D0(const Vector& z, Vector& out) const = 0;              // D₀z
-  // out += (∫ₜᵗ⁺ʰ D(s) ds − h Σ wᵢD(t + cᵢh)) z: what a quadrature with these nodes and weights does not see of the
-  // linear part, and what its integral does not see of jumps at the ends (EndExtrapolation).
+  // out += ∫ₜᵗ⁺ʰ f(s) ds − h Σ wᵢf(t + cᵢh): what a quadrature with these nodes and weights does not see of a step
+  // between two states. Of the linear part, f(s) = D(s)z with z behind the step, and what its integral does not see of
+  // jumps at the ends (EndExtrapolation); of friction, f(s) = R on the straight line between the states, which crosses
+  // its layers. The first call may allocate.
   virtual void add_quadrature_error(double /*t*/, double /*h*/, std::span<const double> /*c*/,
-                                    std::span<const double> /*w*/, const Vector& /*z*/, Vector& /*out*/) const {}
+                                    std::span<const double> /*w*/, const Vector& /*before*/, const Vector& /*after*/,
+                                    Vector& /*out*/) const {}
+  // The largest rate, in 1/time, at which D(t) + ∂R/∂z acts in a step h from `before` to `after`. What varies is sampled
+  // in time at the ends and in the middle; R at both states, and at rest where a velocity changes its sign. The first
+  // call may allocate.
+  virtual double largest_rate(const Space& space, double t, double h, const Vector& before,
+                              const Vector& after) const = 0;
   virtual std::int64_t corrections() const { return 0; }  // Friction::corrections
   // Where Ψ(t, t+h) multiplies each field by a number: those numbers, and true. A step then need not make a pass of it.
   virtual bool field_factors(double /*t*/, double /*h*/, std::span<double> /*factors*/) const { return false; }

@@ -64,8 +64,8 @@ void RunReport::judge_replaced() {
 std::string RunReport::remark_on_widened() const {
   if (widened == 0) return "";
   return fmt::format(
-      "in {} of {} h does not resolve a layer or an oscillation of the linear flow, whose dissipation no quadrature sees; the "
-      "interval for H was widened by eight times what it misses",
+      "in {} of {} h does not resolve a layer or an oscillation that the damping acts on, whose dissipation no quadrature "
+      "sees; the interval for H was widened by what may be missed",
       widened, counted_steps(steps));
 }
 

@@ -67,8 +67,8 @@ struct RunReport {
   std::int64_t scalar_iterations = 0;
   std::int64_t fallbacks = 0;  // times a solver left its first choice; most of them cost no accuracy
   ReplacedSteps replaced;
-  // Steps in which h does not resolve the linear flow and the energy interval was widened for it (beyond round-off in
-  // E*), and steps that were taken in parts.
+  // Steps in which h does not resolve what the damping acts on and the energy interval was widened for it (by more than
+  // a thousandth of the dissipation), and steps that were taken in parts.
   std::int64_t widened = 0, halved = 0;
   std::int64_t unresolved = 0;
   std::int64_t rejected = 0;        // steps tried and taken back, with variable steps
@@ -82,7 +82,7 @@ struct RunReport {
   // equation.
   bool lacks_solution() const { return replaced.ruinous || 10 * replaced.count > steps; }
   void judge_replaced();                  // puts that remark into `message`; a run that lacks a solution has failed
-  std::string remark_on_widened() const;  // what h does not resolve of the linear flow, which costs no accuracy; or ""
+  std::string remark_on_widened() const;  // where the energy interval was widened, which costs no accuracy; or ""
   std::string remark_on_halved() const;   // what it does not resolve of the rest; or ""
   std::string remark_on_drift() const;    // what H did that no solution does, and what helps; "" where it did not
   // How far the auxiliary variable has taken H from the modified energy, where that is more than a thousandth and less

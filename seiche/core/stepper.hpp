@@ -45,8 +45,8 @@ struct StepReport {
   int scalar_iterations = 0;  // Newton or fixed-point sweeps
   int fallbacks = 0;          // times a solver left its first choice
   int unresolved = 0;         // scalar equations whose root was not found (plain Newton only)
-  // 1 where h does not resolve the linear flow, and the energy interval, widened for that, decided; 1 where the step
-  // was taken in parts, since the whole of it found no solution.
+  // 1 where h does not resolve what the damping acts on, and the energy interval, widened for that, decided; 1 where the
+  // step was taken in parts, since the whole of it found no solution.
   int widened = 0, halved = 0;
   ReplacedSteps replaced = {};  // itself, where that is so in some part of it
   std::string message = {};     // set on failure: what, with the numbers
@@ -61,6 +61,7 @@ struct EnergyReading {
   double modified = 0.0;   // ½zᵀMz + r² − C; equal to H where the method has none
   double round_off = 0.0;  // of H
   double modified_round_off = 0.0;
+  double size = 0.0;       // |½zᵀMz| + |V(z)|
   StepLedger ledger = {};  // of all steps since the start of the run
 };
 

@@ -34,6 +34,7 @@ void StepController::reset() {
 }
 
 bool StepController::accepts(double error, double h, double noise) {
+  if (settled_ == 0) settled_ = h;
   if (accepted_ && scaled_ > 0) previous_ = scaled_;
   if (!(error >= 0))
     scaled_ = std::numeric_limits<double>::infinity();

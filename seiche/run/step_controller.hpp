@@ -26,6 +26,7 @@ class StepController {
   // of an estimate for a step of length h; errors below `noise` count as none; false for NaN. Where D(t) or f(t) jumps,
   // the error of a step that holds the jump is in proportion to its length, and no step meets a bound per unit of time.
   // So steps far shorter than the last accepted one may have the error of a quarter of that: a jump costs this once.
+  // At a start, which may be such a place, the first attempt stands for a step accepted before.
   bool accepts(double error, double h, double noise);
   double next(double h) const;
   double allowed() const { return allowed_; }  // error per unit of time of an accepted step, after `accepts`

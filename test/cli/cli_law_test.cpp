@@ -196,7 +196,7 @@ TEST_F(Cli, ALawHoldsForAPendulumThatStartsWithoutAnyEnergy) {
 
 TEST_F(Cli, AFewReplacedStepsAreSaidInTheLastLineAndMarkedByConverge) {
   write("case.toml",
-        "[problem]\nname = \"custom\"\nfields = [\"q\", \"p\"]\nH = \"p^2/2 + q^4/4\"\nD = { p = 0.1 }\n"
+        "[problem]\nname = \"custom\"\nfields = [\"q\", \"p\"]\nH = \"p^2/2 + q^4/4\"\nD = { p = 0.05 }\n"
         "initial = { q = 2, p = 0 }\n[method]\nname = \"egc4\"\nh = 0.8\n[time]\nend = 1000.0\n");
   const Result result = seiche("run case.toml --out out --json");
   ASSERT_EQ(result.exit, 0) << result.err;

@@ -5,9 +5,12 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/external_force.hpp>
 #include <seiche/core/momenta.hpp>
+#include <seiche/core/numerics/gauss_rule.hpp>
 #include <seiche/core/structure.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace seiche {
@@ -39,25 +42,28 @@ class FrictionDamping final : public Damping {
   void flow(double t, double h, Vector& z) const override;
   void apply(double t, const Vector& z, Vector& out) const override;
   bool is_constant() const override { return false; }
-  void add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
-                            Vector& out) const override {
-    linear_->add_quadrature_error(t, h, c, w, z, out);
-  }
+  void add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w,
+                            const Vector& before, const Vector& after, Vector& out) const override;
   void apply_rest(double t, const Vector& z, Vector& out) const override;
   void apply_D0(const Vector& z, Vector& out) const override { linear_->apply_D0(z, out); }
+  double largest_rate(const Space& space, double t, double h, const Vector& before, const Vector& after) const override;
   std::int64_t corrections() const override { return friction_->corrections(); }
 
  private:
   void read_points(const Vector& z) const;                          // q_ and v_
   void add_friction(double t, const Vector& z, Vector& out) const;  // out += R(t, z)
+  void add_to_momenta(const Vector& at_points, Vector& out) const;
+  double largest_slope(double t) const;  // |∂R/∂v| at q_ and v_, which moves a little
 
   FrictionPointer friction_;
   Momenta momenta_;
   std::shared_ptr<const FieldTransform> transform_;
   std::unique_ptr<Damping> linear_;
   bool touches_potential_;
-  mutable Vector q_, v_, r_;  // at the points
-  mutable Vector slots_;      // of one field
+  mutable Vector q_, v_, r_;                      // at the points
+  mutable Vector q_before_, v_before_, r_moved_;  // there too, once rates or errors are asked for
+  mutable Vector q_after_, v_after_, missed_;
+  mutable Vector slots_;  // of one field
 };
 
 FrictionDamping::FrictionDamping(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
@@ -93,13 +99,73 @@ void FrictionDamping::flow(double t, double h, Vector& z) const {
 }
 
 void FrictionDamping::add_friction(double t, const Vector& z, Vector& out) const {
-  const Index slots = transform_->slots(), points = transform_->unknowns();
   read_points(z);
   friction_->force(t, all(q_), all(v_), all(r_));
+  add_to_momenta(r_, out);
+}
+
+void FrictionDamping::add_to_momenta(const Vector& at_points, Vector& out) const {
+  const Index slots = transform_->slots(), points = transform_->unknowns();
   for (Index f = 0; f < momenta_.count; ++f) {
-    transform_->forward(segment(r_, f * points, points), all(slots_));
+    transform_->forward(segment(at_points, f * points, points), all(slots_));
     out.segment((momenta_.first + f) * slots, slots) += slots_;
   }
+}
+
+// Along the line Gauss' rule of a few nodes more than a step has; of many where a velocity turns, since what friction
+// does next to v = 0 may be done in a small part of the step.
+void FrictionDamping::add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w,
+                                           const Vector& before, const Vector& after, Vector& out) const {
+  static const std::vector<GaussNode> few = gauss_rule(10), many = gauss_rule(40);
+  linear_->add_quadrature_error(t, h, c, w, before, after, out);
+  read_points(before);
+  q_before_ = q_;
+  v_before_ = v_;
+  read_points(after);
+  q_after_ = q_;
+  v_after_ = v_;
+  missed_.setZero(r_.size());
+  const auto add = [&](double place, double weight) {
+    q_ = (1 - place) * q_before_ + place * q_after_;
+    v_ = (1 - place) * v_before_ + place * v_after_;
+    friction_->force(t + place * h, all(q_), all(v_), all(r_));
+    missed_ += h * weight * r_;
+  };
+  const bool turns = (v_before_.array() * v_after_.array() < 0).any();
+  for (const auto& [place, weight] : turns ? many : few) add(place, weight);
+  for (std::size_t i = 0; i < c.size(); ++i) add(c[i], -w[i]);
+  add_to_momenta(missed_, out);
+}
+
+// By difference quotients that move every velocity away from rest, so that directions in which a drag of the whole
+// vector rises most are among those looked at.
+double FrictionDamping::largest_slope(double t) const {
+  constexpr double relative = 1e-6;
+  const double scale = v_.lpNorm<Eigen::Infinity>() + std::numeric_limits<double>::min() / epsilon;
+  friction_->force(t, all(q_), all(v_), all(r_));
+  for (double& v : v_) v += std::copysign(relative * (std::abs(v) + scale), v);
+  friction_->force(t, all(q_), all(v_), all(r_moved_));
+  // The quotients: r_moved_ − r_ over relative·(|v| + scale), with |v| as it is now to first order.
+  const auto moved = relative / (1 + relative) * (v_.array().abs() + scale);
+  return ((r_moved_ - r_).array().abs() / moved).maxCoeff();
+}
+
+double FrictionDamping::largest_rate(const Space& space, double t, double h, const Vector& before,
+                                     const Vector& after) const {
+  if (r_moved_.size() == 0)
+    for (Vector* v : {&v_before_, &r_moved_}) v->setZero(v_.size());
+  read_points(before);
+  v_before_ = v_;
+  double slope = largest_slope(t);
+  read_points(after);
+  const bool turns = (v_.array() * v_before_.array() < 0).any();
+  if (turns) v_before_.array() = (v_.array() * v_before_.array() < 0).select(0.0, (v_ + v_before_).array() / 2);
+  slope = std::max(slope, largest_slope(t + h));
+  if (turns) {
+    v_.swap(v_before_);
+    slope = std::max(slope, largest_slope(t + h / 2));
+  }
+  return linear_->largest_rate(space, t, h, before, after) + space.max(momenta_.inverse_mass * slope);
 }
 
 void FrictionDamping::apply(double t, const Vector& z, Vector& out) const {

@@ -2,6 +2,7 @@
 #include <seiche/backend/grid/segment.hpp>
 #include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/numerics/end_extrapolation.hpp>
+#include <seiche/core/numerics/spectral_radius.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,26 @@ std::optional<double> GridDamping::factor_of_identity(double t) const {
   return rate_->value(t);
 }
 
+double GridDamping::largest_factor(const Space& space, double t) const {
+  const double uniform = rate_ ? std::abs(rate_->value(t)) : 0.0;
+  return field_rate_ ? uniform + space.max_norm(field_rate_->values(t)) : uniform;
+}
+
+double GridDamping::largest_rate(const Space& space, double t, double h, const Vector&, const Vector&) const {
+  if (!rate_of_constant_) {
+    rate_of_constant_ = 0;
+    if (constant_)
+      rate_of_constant_ = spectral_radius(space, [this](Vector& z) {
+        constant_->apply(z, scratch_);
+        z.swap(scratch_);
+      });
+    if (is_constant()) *rate_of_constant_ += largest_factor(space, t);
+  }
+  if (is_constant()) return *rate_of_constant_;
+  const double of_ends = std::max(largest_factor(space, t), largest_factor(space, t + h));
+  return *rate_of_constant_ + std::max(of_ends, largest_factor(space, t + h / 2));
+}
+
 void GridDamping::apply_constant(const Vector& z, Vector& out) const {
   if (constant_) {
     constant_->apply(z, out);
@@ -104,7 +125,7 @@ double GridDamping::integral_error_at_ends(double t, double h) const {
 }
 
 void GridDamping::add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w,
-                                       const Vector& z, Vector& out) const {
+                                       const Vector& /*before*/, const Vector& after, Vector& out) const {
   if (is_constant()) return;
   double missed = rate_ ? rate_->integral(t, h) : 0.0;
   for (std::size_t i = 0; rate_ && i < c.size(); ++i) missed -= h * w[i] * rate_->value(t + c[i] * h);
@@ -114,7 +135,7 @@ void GridDamping::add_quadrature_error(double t, double h, std::span<const doubl
     missed_ = field_rate_->integrals(t, h);
     for (std::size_t i = 0; i < c.size(); ++i) missed_ -= h * w[i] * field_rate_->values(t + c[i] * h);
   }
-  add_rates(missed, varies ? &missed_ : nullptr, z, out);
+  add_rates(missed, varies ? &missed_ : nullptr, after, out);
 }
 
 void GridDamping::add_rates(double gamma, const Vector* at_points, const Vector& z, Vector& out) const {

@@ -34,8 +34,9 @@ class GridDamping final : public Damping {
   bool is_constant() const override { return !field_rate_ && (!rate_ || rate_->is_constant()); }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
   void apply_D0(const Vector& z, Vector& out) const override;
-  void add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w, const Vector& z,
-                            Vector& out) const override;
+  void add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w,
+                            const Vector& before, const Vector& after, Vector& out) const override;
+  double largest_rate(const Space& space, double t, double h, const Vector& before, const Vector& after) const override;
   bool field_factors(double t, double h, std::span<double> factors) const override;
 
  private:
@@ -43,7 +44,8 @@ class GridDamping final : public Damping {
   void apply_constant(const Vector& z, Vector& out) const;
   void constant_flow(double h, Vector& z) const;
   void rates_flow(double t, double h, Vector& z) const;
-  double rate_decay(double t, double h) const;  // e^{−∫γ}
+  double rate_decay(double t, double h) const;                // e^{−∫γ}
+  double largest_factor(const Space& space, double t) const;  // |γ(t)| + max |γ(x, t)|
   // out += (γ + γ_j)P z, with γ_j of every point; null: none
   void add_rates(double gamma, const Vector* at_points, const Vector& z, Vector& out) const;
 
@@ -59,7 +61,8 @@ class GridDamping final : public Damping {
   mutable StepCache<LinearMap> flows_;  // of the constant part
   struct {
     double h = 0.0, decay = 1.0;
-  } mutable decay_of_;  // of a constant rate: the last length asked for
+  } mutable decay_of_;                              // of a constant rate: the last length asked for
+  mutable std::optional<double> rate_of_constant_;  // of the constant part, or of all where nothing varies
   mutable Vector scratch_;
   mutable Vector missed_;  // at the points
 };

@@ -9,7 +9,15 @@ namespace seiche {
 
 namespace {
 
-constexpr double margin = 8;  // for what the nonlinear part does where the linear one is not resolved
+constexpr double margin = 8;         // for what the nonlinear part does where the linear one is not resolved
+constexpr double noticeable = 1e-3;  // a share of the dissipation
+
+// x/(1 − x): the share of the dissipation by which it may be wrong where damping acts so far in one step.
+double excess_of_strong(double damped) {
+  constexpr double strong = 0.07;
+  const double x = std::pow(damped / strong, 6);
+  return x < 1 ? x / (1 - x) : std::numeric_limits<double>::infinity();
+}
 
 // The value of the interval of half width u about Hⁿ − D that is nearest to Ĥ.
 double nearest(double before, double computed, double rest, const StepDissipation::Amount& dissipated, double u) {
@@ -26,7 +34,7 @@ double nearest(double before, double computed, double rest, const StepDissipatio
 
 EnergyTarget energy_target(EnergyLaw law, double before, double computed, double rest,
                            const StepDissipation::Amount& dissipated, StepDissipation::Kind kind,
-                           FunctionRef<double()> flow_missed) {
+                           FunctionRef<double()> damped, FunctionRef<double()> flow_missed) {
   if (law == EnergyLaw::none) return {computed, std::numeric_limits<double>::infinity()};
   if (kind == StepDissipation::Kind::none) return {before, before};
   if (law == EnergyLaw::guard) {
@@ -36,15 +44,19 @@ EnergyTarget energy_target(EnergyLaw law, double before, double computed, double
   const double u = dissipated.doubt;
   const double narrow = nearest(before, computed, rest, dissipated, u);  // E*: (E4)
   double target = narrow;
-  bool widened = false;
+  bool strong = false, widened = false;
   if (narrow != computed) {
-    if (const double missed = std::abs(flow_missed()); missed > 0) {
-      target = nearest(before, computed, rest, dissipated, u + margin * missed);
-      // Where steps resolve the flow, what the quadrature misses of it is far less than what the two differ by.
-      widened = std::abs(target - narrow) > u + 16 * epsilon * (std::abs(before) + std::abs(computed));
-    }
+    const double by_damping = std::abs(dissipated.fine + dissipated.work);
+    double wide = std::numeric_limits<double>::infinity();
+    const double excess = excess_of_strong(damped());
+    strong = !std::isfinite(excess);
+    if (!strong) wide = u + by_damping * excess + margin * std::abs(flow_missed());
+    target = nearest(before, computed, rest, dissipated, wide);
+    // Errors of a scheme that resolves the flow, and round-off, are less than this.
+    const double round_off = 16 * epsilon * (std::abs(before) + std::abs(computed));
+    widened = std::abs(target - narrow) > u + noticeable * by_damping + round_off;
   }
-  return {target, dissipated.negative ? std::max(before, target) : before, widened};
+  return {target, dissipated.negative ? std::max(before, target) : before, strong, widened};
 }
 
 }  // namespace seiche

@@ -51,10 +51,14 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarge
     outcome.admissible = true;
     return outcome;
   }
-  if (conditioned && solve(*line_, start_, aim, z, outcome)) return outcome;
+  if (conditioned && !aim.strong && solve(*line_, start_, aim, z, outcome)) return outcome;
   line_.reset();  // the lines below use its scratch
   {
     EnergyLine line(system_, phi_, scratch_, z, Direction::steepest);
+    if (solve(line, line.at(0), aim, z, outcome)) return outcome;
+  }
+  if (conditioned && aim.strong) {
+    EnergyLine line(system_, phi_, scratch_, z, Direction::casimir_free);
     if (solve(line, line.at(0), aim, z, outcome)) return outcome;
   }
   outcome.by_bisection = true;

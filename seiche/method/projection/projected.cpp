@@ -35,6 +35,7 @@ void Projected::read_energy(State& s) const {
 
 void Projected::begin(State& s) {
   read_energy(s);
+  if (law_ == EnergyLaw::interval) system_.damping->largest_rate(*system_.space, s.t, 0, s.z, s.z);  // allocates now
   if (!std::isfinite(s.energy))
     throw Error("the energy of the initial state is not a finite number (H = {})", number_text(s.energy));
 }
@@ -44,6 +45,7 @@ EnergyReading Projected::energy(const State& s) const {
   const EnergyTerms terms = system_.energy_terms(s.z);
   reading.H = reading.modified = terms.sum();
   reading.round_off = reading.modified_round_off = terms.round_off();
+  reading.size = terms.size();
   return reading;
 }
 
@@ -120,10 +122,10 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   bool resolved = base_.compute(s, t, h, z_);  // propose ẑ
   report.fallbacks += base_.fallbacks();
   if (resolved) {
-    const double computed = projection_.measure(z_);  // Ĥ = H(ẑ)
-    amount = measure_dissipation(s, t, h, computed);  // D and its doubt u: (E3)
-    target = choose_energy(s, h, computed, amount);   // E*: (E4)
-    outcome = projection_.project(z_, target);        // zⁿ⁺¹ with H(zⁿ⁺¹) = E*: (E5)
+    const double computed = projection_.measure(z_);    // Ĥ = H(ẑ)
+    amount = measure_dissipation(s, t, h, computed);    // D and its doubt u: (E3)
+    target = choose_energy(s, t, h, computed, amount);  // E*: (E4)
+    outcome = projection_.project(z_, target);          // zⁿ⁺¹ with H(zⁿ⁺¹) = E*: (E5)
     resolved = std::isfinite(outcome.terms) && !has_grown_beyond_reason(outcome, s, t, h);
   }
   if (!resolved) {
@@ -163,10 +165,12 @@ StepDissipation::Amount Projected::measure_dissipation(const State& s, double t,
   return amount;
 }
 
-EnergyTarget Projected::choose_energy(const State& s, double h, double computed,
+EnergyTarget Projected::choose_energy(const State& s, double t, double h, double computed,
                                       const StepDissipation::Amount& amount) {
-  EnergyTarget target = energy_target(law_, s.energy, computed, projection_.energy_of_rest(), amount,
-                                      base_.dissipation_kind(), [&] { return base_.flow_missed(s, h); });
+  EnergyTarget target = energy_target(
+      law_, s.energy, computed, projection_.energy_of_rest(), amount, base_.dissipation_kind(),
+      [&] { return h * system_.damping->largest_rate(*system_.space, t, h, s.z, z_); },
+      [&] { return base_.flow_missed(s, h); });
   target.terms = s.energy_terms;
   return target;
 }

@@ -52,7 +52,8 @@ class Projected {
   Taken take_without_law(State& s, double t, double h, StepReport& report);
   void prepare(double h);
   StepDissipation::Amount measure_dissipation(const State& s, double t, double h, double computed);
-  EnergyTarget choose_energy(const State& s, double h, double computed, const StepDissipation::Amount& amount);
+  EnergyTarget choose_energy(const State& s, double t, double h, double computed,
+                             const StepDissipation::Amount& amount);
   bool flow_freely(const State& s, double h, EnergyProjection::Outcome& outcome);
   const PhiMap& free_map(double h);
   void commit(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
