@@ -3,6 +3,7 @@
 
 #include <seiche/core/vector.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -38,13 +39,18 @@ class PointwisePotential {
   // What speaks against V, or "": a gradient that is not its own where it begins, at u, or nearby. Asked before a run.
   virtual std::string complaint(std::span<const double> /*u*/) const { return ""; }
   virtual double value(std::span<const double> u) const = 0;
-  virtual ValueAndMagnitude value_and_magnitude(
-      std::span<const double> u) const = 0;  // V and Σ|V_j|, or the sizes of the terms of V_j
+  virtual ValueAndMagnitude value_and_magnitude(std::span<const double> u)
+      const = 0;  // V and Σ|V_j|, the sizes of the terms of V_j, or a bound of its round-off/ε
   double magnitude(std::span<const double> u) const { return value_and_magnitude(u).magnitude; }
   virtual double value_and_gradient(std::span<const double> u, std::span<double> gradient) const = 0;
   virtual void gradient(std::span<const double> u, std::span<double> out) const { value_and_gradient(u, out); }
   // In place, between two transforms: with u = in · values, values ← out · ∇V(u); returns V(u).
   virtual double value_and_gradient_in_place(double in, double out, std::span<double> values) const;
+  // By how much round-off may change each component of ∇V(u), in units of ε, where terms cancel in it. Zero here: by no
+  // more than round-off in u does.
+  virtual void gradient_round_off(std::span<const double> /*u*/, std::span<double> bounds) const {
+    std::fill(bounds.begin(), bounds.end(), 0.0);
+  }
   // ∫₀¹ ∇V(a + s(b − a)) ds, or another mean of gradients with the contract above
   virtual void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const = 0;
   // Degree of V as a polynomial, or 0 if V is none; `along` needs degree + 1 coefficients and a polynomial V.
@@ -82,6 +88,8 @@ class Potential {
   virtual ValueAndMagnitude value_and_magnitude(const Vector& z) const { return {value(z), magnitude(z)}; }
   virtual double value_and_gradient(const Vector& z, Vector& gradient) const = 0;  // the gradient may be z itself
   virtual void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const = 0;
+  // PointwisePotential::gradient_round_off, in the coordinates of a gradient.
+  virtual void gradient_round_off(const Vector& /*z*/, Vector& bounds) const { bounds.setZero(); }
   virtual int degree() const = 0;
   virtual void along(const Vector& p, const Vector& q, std::span<double> coefficients) const = 0;
   virtual void along_ray(const Vector& z, std::span<double> coefficients) const = 0;  // of x ↦ V(xz)

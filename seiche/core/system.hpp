@@ -11,6 +11,7 @@
 #include <seiche/core/space.hpp>
 #include <seiche/core/structure.hpp>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -22,6 +23,7 @@ namespace seiche {
 struct EnergyTerms {
   ValueAndMagnitude quadratic, potential;
   double sum() const { return quadratic.value + potential.value; }
+  double size() const { return quadratic.magnitude + std::abs(potential.value); }
   // 50ε times the sizes of the terms of H, and the least normal number, below which there are no relative errors: no
   // energy computed in double precision means more than this.
   double round_off() const {

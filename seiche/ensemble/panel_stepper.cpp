@@ -165,6 +165,7 @@ void PanelStepper::energy(std::array<EnergyReading, panel_members>& readings) {
     quadratic[l] /= 2;
     readings[l].H = readings[l].modified = quadratic[l] + v[l];
     readings[l].round_off = readings[l].modified_round_off = 50 * epsilon * (size[l] + v_size[l]);
+    readings[l].size = size[l] / 2 + std::abs(v[l]);
   }
   modified_energy(*state_, quadratic, readings);
 }

@@ -105,6 +105,8 @@ Expression call_function(std::string_view name, const Expression& x) {
       {"atanh", [](const Expression& a) -> Expression { return GiNaC::atanh(a); }},
       {"exp", [](const Expression& a) -> Expression { return GiNaC::exp(a); }},
       {"log", [](const Expression& a) -> Expression { return GiNaC::log(a); }},
+      {"expm1", [](const Expression& a) -> Expression { return GiNaC::exp(a) - 1; }},
+      {"log1p", [](const Expression& a) -> Expression { return GiNaC::log(1 + a); }},
       {"sqrt", [](const Expression& a) -> Expression { return GiNaC::sqrt(a); }},
       {"abs", [](const Expression& a) -> Expression { return function_of(abs_serial(), a); }},
       {"sech", [](const Expression& a) -> Expression { return function_of(sech_serial(), a); }},

@@ -25,10 +25,9 @@ PowerFactors power_factors(double xa, double xb, double ya, double yb, bool expo
   return {outer * (ya + yb) / 2 * log.mean_slope(xa, xb), outer * (la + lb) / 2};
 }
 
-}  // namespace
-
-void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b, int directions, std::size_t points,
-                 double* slopes) {
+// `sizes`: null for the slopes themselves; else what stands for a factor of a product, and no term has a sign.
+void add_up(const ExpressionGraph& graph, const double* a, const double* b, const double* sizes, int directions,
+            std::size_t points, double* slopes) {
   const std::span<const ExpressionGraph::Node> nodes = graph.nodes();
   const auto width = static_cast<std::size_t>(directions) * block;
   const std::size_t last = graph.output(0);
@@ -41,8 +40,8 @@ void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b,
     const double* const of_x = slopes + static_cast<std::size_t>(x) * width;
     const double* const of_y = y < 0 ? of_x : slopes + static_cast<std::size_t>(y) * width;
     for (std::size_t j = 0; j < points; ++j) {
-      const double fx = f(j);
-      const double gy = y < 0 ? 0.0 : g(j);
+      const double fx = sizes == nullptr ? f(j) : std::abs(f(j));
+      const double gy = y < 0 ? 0.0 : sizes == nullptr ? g(j) : std::abs(g(j));
       for (std::size_t d = 0; d < width; d += block)
         out[d + j] = y < 0 ? fx * of_x[d + j] : fx * of_x[d + j] + gy * of_y[d + j];
     }
@@ -58,7 +57,9 @@ void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b,
       return power_factors(at(a, base, j), at(b, base, j), at(a, exponent, j), at(b, exponent, j),
                            nodes[static_cast<std::size_t>(exponent)].kind == Kind::number);
     };
-    const auto mean = [&](int of, std::size_t j) { return (at(a, of, j) + at(b, of, j)) / 2; };
+    const auto mean = [&](int of, std::size_t j) {
+      return sizes == nullptr ? (at(a, of, j) + at(b, of, j)) / 2 : std::max(std::abs(at(a, of, j)), at(sizes, of, j));
+    };
     switch (node.kind) {
       case Kind::number:
       case Kind::variable:
@@ -109,21 +110,66 @@ void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b,
   }
 }
 
-void term_sizes(const ExpressionGraph& graph, const double* table, std::size_t points, double* sizes) {
+}  // namespace
+
+void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b, int directions, std::size_t points,
+                 double* slopes) {
+  add_up(graph, a, b, nullptr, directions, points, slopes);
+}
+
+void sizes_of_slopes(const ExpressionGraph& graph, const double* at, const double* bounds, int directions,
+                     std::size_t points, double* sizes) {
+  add_up(graph, at, at, bounds, directions, points, sizes);
+}
+
+void error_bounds(const ExpressionGraph& graph, const double* table, std::size_t points, std::size_t end,
+                  double* bounds) {
   const std::span<const ExpressionGraph::Node> nodes = graph.nodes();
-  for (std::size_t i = 0; i <= graph.output(0); ++i) {
+  const auto row = [](const auto* of, int node) {
+    return node < 0 ? nullptr : of + static_cast<std::size_t>(node) * block;
+  };
+  for (std::size_t i = 0; i < end; ++i) {
     const ExpressionGraph::Node& node = nodes[i];
-    double* const out = sizes + i * block;
-    const double* const x = node.a < 0 ? nullptr : sizes + static_cast<std::size_t>(node.a) * block;
-    const double* const y = node.b < 0 ? nullptr : sizes + static_cast<std::size_t>(node.b) * block;
-    for (std::size_t j = 0; j < points; ++j) {
-      switch (node.kind) {
-        case Kind::add:
-        case Kind::subtract: out[j] = x[j] + y[j]; break;
-        case Kind::multiply: out[j] = x[j] * y[j]; break;
-        case Kind::negate: out[j] = x[j]; break;
-        default: out[j] = std::abs(table[i * block + j]); break;
+    double* const out = bounds + i * block;
+    const double* const value = table + i * block;
+    const double *const x = row(table, node.a), *const y = row(table, node.b);
+    const double *const of_x = row(bounds, node.a), *const of_y = row(bounds, node.b);
+    const auto set = [&](const auto& carried) {
+      for (std::size_t j = 0; j < points; ++j) {
+        const double bound = carried(j) + std::abs(value[j]);
+        out[j] = std::isfinite(bound) ? bound : std::abs(value[j]);
       }
+    };
+    switch (node.kind) {
+      case Kind::number: std::fill_n(out, points, 0.0); break;
+      case Kind::variable: set([](std::size_t) { return 0.0; }); break;
+      case Kind::add:
+      case Kind::subtract: set([&](std::size_t j) { return of_x[j] + of_y[j]; }); break;
+      case Kind::negate: std::copy_n(of_x, points, out); break;
+      case Kind::multiply:
+        set([&](std::size_t j) { return of_x[j] * std::abs(y[j]) + std::abs(x[j]) * of_y[j]; });
+        break;
+      case Kind::divide:
+        set([&](std::size_t j) { return (of_x[j] + std::abs(value[j]) * of_y[j]) / std::abs(y[j]); });
+        break;
+      case Kind::whole_power:
+        set([&](std::size_t j) {
+          const double n = std::abs(node.index);
+          return n * std::abs(value[j]) * (1 + of_x[j] / std::abs(x[j]));
+        });
+        break;
+      case Kind::power:
+        set([&](std::size_t j) {
+          const double of_exponent = of_y[j] > 0 ? std::abs(std::log(x[j])) * of_y[j] : 0.0;
+          return std::abs(value[j]) * (std::abs(y[j]) * of_x[j] / std::abs(x[j]) + of_exponent);
+        });
+        break;
+      case Kind::call:
+        if (const auto carried = node.function->carried; carried != nullptr)
+          set([&](std::size_t j) { return carried(x[j], value[j], of_x[j]); });
+        else
+          set([&](std::size_t j) { return std::max(of_x[j], of_y[j]); });
+        break;
     }
   }
 }

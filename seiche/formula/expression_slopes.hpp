@@ -1,4 +1,4 @@
-// What a graph of operations tells beside its values: mean slopes, sizes of terms, and Taylor coefficients of
+// What a graph of operations tells beside its values: mean slopes, bounds of round-off, and Taylor coefficients of
 // polynomials.
 #pragma once
 
@@ -17,8 +17,17 @@ namespace seiche {
 void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b, int directions, std::size_t points,
                  double* slopes);
 
-// Sizes of the values of a table as after evaluate: |f| with the sizes of the terms of sums.
-void term_sizes(const ExpressionGraph& graph, const double* table, std::size_t points, double* sizes);
+// The same sums of products without their signs, where a = b: by some ε of that mean slopes may be off, where their
+// terms cancel. `bounds`: as error_bounds gives them, of the values.
+void sizes_of_slopes(const ExpressionGraph& graph, const double* at, const double* bounds, int directions,
+                     std::size_t points, double* sizes);
+
+// By how much the values of a table as after evaluate may be off, in units of ε: a running error bound, in which the
+// variables are off by ε of themselves, numbers by nothing, and every operation adds ε of its result to what it carries
+// on (Wilkinson 1963; Higham 2002, section 3.3). Of the nodes before `end`. Where that is no number, as beside an
+// infinite one, |value|.
+void error_bounds(const ExpressionGraph& graph, const double* table, std::size_t points, std::size_t end,
+                  double* bounds);
 
 // Coefficients of x ↦ f(p + xq) for the first program, a polynomial in the variables where q ≠ 0 of at most `degree`,
 // added to `coefficients`.

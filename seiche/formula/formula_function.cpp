@@ -1,3 +1,4 @@
+#include <seiche/core/vector.hpp>
 #include <seiche/formula/formula_function.hpp>
 
 #include <algorithm>
@@ -128,27 +129,67 @@ void slopes_of_exp(const double* a, const double* b, double* slopes, std::size_t
     if (!(std::abs(b[j] - a[j]) <= 1)) slopes[j] = slope_of_exp(a[j], b[j]);
 }
 
-constexpr std::array<FormulaFunction, 20> function_table = {{
-    {"sin", 1, [](double x) { return std::sin(x); }, nullptr, slope_of_sin, true, &VectorFunctions::sin, slopes_of_sin},
-    {"cos", 1, [](double x) { return std::cos(x); }, nullptr, slope_of_cos, true, &VectorFunctions::cos, slopes_of_cos},
-    {"tan", 1, [](double x) { return std::tan(x); }, nullptr, slope_of_tan, true, &VectorFunctions::tan},
-    {"asin", 1, [](double x) { return std::asin(x); }, nullptr, slope_of_asin, true, &VectorFunctions::asin},
-    {"acos", 1, [](double x) { return std::acos(x); }, nullptr, slope_of_acos, true, &VectorFunctions::acos},
-    {"atan", 1, [](double x) { return std::atan(x); }, nullptr, slope_of_atan, true, &VectorFunctions::atan},
-    {"sinh", 1, [](double x) { return std::sinh(x); }, nullptr, slope_of_sinh, true, &VectorFunctions::sinh},
-    {"cosh", 1, [](double x) { return std::cosh(x); }, nullptr, slope_of_cosh, true, &VectorFunctions::cosh},
-    {"tanh", 1, [](double x) { return std::tanh(x); }, nullptr, slope_of_tanh, true, &VectorFunctions::tanh},
-    {"asinh", 1, [](double x) { return std::asinh(x); }, nullptr, slope_of_asinh, true, &VectorFunctions::asinh},
-    {"acosh", 1, [](double x) { return std::acosh(x); }, nullptr, slope_of_acosh, true, &VectorFunctions::acosh},
-    {"atanh", 1, [](double x) { return std::atanh(x); }, nullptr, slope_of_atanh, true, &VectorFunctions::atanh},
-    {"exp", 1, [](double x) { return std::exp(x); }, nullptr, slope_of_exp, true, &VectorFunctions::exp, slopes_of_exp},
-    {"log", 1, [](double x) { return std::log(x); }, nullptr, slope_of_log, true, &VectorFunctions::log},
-    {"sqrt", 1, [](double x) { return std::sqrt(x); }, nullptr, slope_of_sqrt, true, &VectorFunctions::sqrt},
-    {"abs", 1, [](double x) { return std::fabs(x); }, nullptr, slope_of_abs},
-    {"sign", 1, sign, nullptr, slope_of_sign, false},
-    {"sech", 1, sech, nullptr, slope_of_sech},
-    {"min", 2, nullptr, smaller, nullptr, false},
-    {"max", 2, nullptr, larger, nullptr, false},
+double slope_of_log1p(double a, double b) {
+  if (!(a > -1 && b > -1)) return std::nan("");
+  const double least = std::min(a, b), d = std::abs(b - a);
+  return d == 0 ? 1 / (1 + a) : std::log1p(d / (1 + least)) / d;
+}
+
+double as_far(double, double, double off) { return off; }
+double carried_by_root(double y, double off) {  // √(x + off) − √x is no more than √off, at 0 too
+  const double most = std::sqrt(off / epsilon);
+  return off > 2 * y * most ? most : off / (2 * y);
+}
+double carried_by_sine(double, double y, double off) { return std::sqrt(std::max(0.0, (1 - y) * (1 + y))) * off; }
+// Of a function whose slope is 1/√c, and infinite at the end of its domain, c = 0.
+double carried_to_an_end(double c, double off) {
+  const double most = std::sqrt(2 * off / epsilon);
+  return c > 0 ? std::min(off / std::sqrt(c), most) : most;
+}
+double carried_by_arc(double x, double, double off) { return carried_to_an_end((1 - x) * (1 + x), off); }
+
+constexpr std::array<FormulaFunction, 22> function_table = {{
+    {"sin", 1, [](double x) { return std::sin(x); }, nullptr, slope_of_sin, carried_by_sine, true,
+     &VectorFunctions::sin, slopes_of_sin},
+    {"cos", 1, [](double x) { return std::cos(x); }, nullptr, slope_of_cos, carried_by_sine, true,
+     &VectorFunctions::cos, slopes_of_cos},
+    {"tan", 1, [](double x) { return std::tan(x); }, nullptr, slope_of_tan,
+     [](double, double y, double off) { return (1 + y * y) * off; }, true, &VectorFunctions::tan},
+    {"asin", 1, [](double x) { return std::asin(x); }, nullptr, slope_of_asin, carried_by_arc, true,
+     &VectorFunctions::asin},
+    {"acos", 1, [](double x) { return std::acos(x); }, nullptr, slope_of_acos, carried_by_arc, true,
+     &VectorFunctions::acos},
+    {"atan", 1, [](double x) { return std::atan(x); }, nullptr, slope_of_atan,
+     [](double x, double, double off) { return off / (1 + x * x); }, true, &VectorFunctions::atan},
+    {"sinh", 1, [](double x) { return std::sinh(x); }, nullptr, slope_of_sinh,
+     [](double, double y, double off) { return std::hypot(1, y) * off; }, true, &VectorFunctions::sinh},
+    {"cosh", 1, [](double x) { return std::cosh(x); }, nullptr, slope_of_cosh,
+     [](double, double y, double off) { return std::sqrt(std::max(0.0, (y - 1) * (y + 1))) * off; }, true,
+     &VectorFunctions::cosh},
+    {"tanh", 1, [](double x) { return std::tanh(x); }, nullptr, slope_of_tanh,
+     [](double, double y, double off) { return (1 - y) * (1 + y) * off; }, true, &VectorFunctions::tanh},
+    {"asinh", 1, [](double x) { return std::asinh(x); }, nullptr, slope_of_asinh,
+     [](double x, double, double off) { return off / std::hypot(1, x); }, true, &VectorFunctions::asinh},
+    {"acosh", 1, [](double x) { return std::acosh(x); }, nullptr, slope_of_acosh,
+     [](double x, double, double off) { return carried_to_an_end((x - 1) * (x + 1), off); }, true,
+     &VectorFunctions::acosh},
+    {"atanh", 1, [](double x) { return std::atanh(x); }, nullptr, slope_of_atanh,
+     [](double x, double, double off) { return off / ((1 - x) * (1 + x)); }, true, &VectorFunctions::atanh},
+    {"exp", 1, [](double x) { return std::exp(x); }, nullptr, slope_of_exp,
+     [](double, double y, double off) { return y * off; }, true, &VectorFunctions::exp, slopes_of_exp},
+    {"log", 1, [](double x) { return std::log(x); }, nullptr, slope_of_log,
+     [](double x, double, double off) { return off / x; }, true, &VectorFunctions::log},
+    {"log1p", 1, [](double x) { return std::log1p(x); }, nullptr, slope_of_log1p,
+     [](double x, double, double off) { return off / (1 + x); }, true, &VectorFunctions::log1p},
+    {"expm1", 1, [](double x) { return std::expm1(x); }, nullptr, slope_of_exp,
+     [](double, double y, double off) { return (1 + y) * off; }, true, &VectorFunctions::expm1, slopes_of_exp},
+    {"sqrt", 1, [](double x) { return std::sqrt(x); }, nullptr, slope_of_sqrt,
+     [](double, double y, double off) { return carried_by_root(y, off); }, true, &VectorFunctions::sqrt},
+    {"abs", 1, [](double x) { return std::fabs(x); }, nullptr, slope_of_abs, as_far},
+    {"sign", 1, sign, nullptr, slope_of_sign, [](double, double, double) { return 0.0; }, false},
+    {"sech", 1, sech, nullptr, slope_of_sech, [](double, double y, double off) { return y * off; }},
+    {"min", 2, nullptr, smaller, nullptr, nullptr, false},
+    {"max", 2, nullptr, larger, nullptr, nullptr, false},
 }};
 
 }  // namespace

@@ -17,6 +17,8 @@ struct FormulaFunction {
   // (f(b) − f(a)) / (b − a), and f'(a) where a = b, without cancellation; NaN where f is not real between them. Arity
   // 1.
   double (*mean_slope)(double a, double b);
+  // Of y = f(x): by how much it may be off where x is by `off`, all in units of ε. Arity 1.
+  double (*carried)(double x, double y, double off);
   bool differentiable = true;  // but for kinks, as that of abs at 0
   // The same of many points, to 1 ulp; null: one after the other.
   VectorFunctions::One VectorFunctions::*of_many = nullptr;

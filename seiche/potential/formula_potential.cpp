@@ -1,4 +1,5 @@
 #include <seiche/core/numerics/gauss_rule.hpp>
+#include <seiche/formula/cancellation.hpp>
 #include <seiche/formula/expression_slopes.hpp>
 #include <seiche/potential/formula_potential.hpp>
 #include <seiche/potential/loops.hpp>
@@ -21,8 +22,9 @@ std::span<double> scratch_of(std::size_t size) {
 }
 
 ExpressionGraph graph_of(const PointFormula& w) {
-  std::vector<std::span<const Instruction>> programs = {w.value->program()};
-  for (const FormulaPointer& derivative : w.gradient) programs.push_back(derivative->program());
+  std::vector<FormulaProgram> written = {without_cancellation(w.value->program())};
+  for (const FormulaPointer& derivative : w.gradient) written.push_back(without_cancellation(derivative->program()));
+  const std::vector<std::span<const Instruction>> programs(written.begin(), written.end());
   return ExpressionGraph(static_cast<int>(w.gradient.size() + axes), programs);
 }
 
@@ -59,19 +61,35 @@ class FormulaPotential final : public PointwisePotential {
   }
 
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
-    LongSum magnitude;
+    LongSum bounds;
     const double value = sum(u, [&](double* table, std::size_t, std::size_t points) {
-      double* const sizes = table + graph_.table_size();
-      if (w_.degree > 0)
-        graph_.evaluate_first(table, points);
-      else
-        graph_.evaluate(table, points);
-      term_sizes(graph_, table, points, sizes);
-      magnitude.add(total(value_row(sizes), points));
-      if (w_.degree == 0) magnitude.add(size_of_slopes(table, points));
+      double* const of_nodes = table + graph_.table_size();
+      graph_.evaluate_first(table, points);
+      error_bounds(graph_, table, points, graph_.output(0) + 1, of_nodes);
+      bounds.add(total(value_row(of_nodes), points));
       return total(value_row(table), points);
     });
-    return {value, magnitude.total()};
+    return {value, bounds.total()};
+  }
+
+  // Of ∇W itself, and of the sums that make a mean slope.
+  void gradient_round_off(std::span<const double> u, std::span<double> bounds) const override {
+    const std::size_t n = u.size() / fields_;
+    sum(u, [&](double* table, std::size_t begin, std::size_t points) {
+      double* const of_nodes = table + graph_.table_size();
+      double* const slopes = of_nodes + graph_.table_size();
+      graph_.evaluate(table, points);
+      error_bounds(graph_, table, points, graph_.nodes().size(), of_nodes);
+      sizes_of_slopes(graph_, table, of_nodes, static_cast<int>(fields_), points, slopes);
+      for (std::size_t f = 0; f < fields_; ++f) {
+        const double* const mean = slopes + (graph_.output(0) * fields_ + f) * block;
+        for (std::size_t j = 0; j < points; ++j) {
+          const double of_mean = std::isfinite(mean[j]) ? mean[j] : 0;
+          bounds[f * n + begin + j] = std::max(slope_row(of_nodes, f)[j], of_mean);
+        }
+      }
+      return 0.0;
+    });
   }
 
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {
@@ -115,14 +133,6 @@ class FormulaPotential final : public PointwisePotential {
   const double* value_row(const double* table) const { return table + graph_.output(0) * block; }
   const double* slope_row(const double* table, std::size_t field) const {
     return table + graph_.output(1 + field) * block;
-  }
-
-  // Σ|u_f ∂W/∂u_f|: what round-off in u makes of W where it is no polynomial, whose terms are of that size.
-  double size_of_slopes(const double* table, std::size_t points) const {
-    double sum = 0;
-    for (std::size_t f = 0; f < fields_; ++f)
-      for (std::size_t j = 0; j < points; ++j) sum += std::abs(table[f * block + j] * slope_row(table, f)[j]);
-    return sum;
   }
 
   SEICHE_MULTIVERSION static double total(const double* values, std::size_t points) {

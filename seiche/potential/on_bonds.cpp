@@ -30,6 +30,13 @@ class OnBonds final : public PointwisePotential {
     w_->mean_gradient(before, after, slopes);
     pull(slopes, mean);
   }
+  void gradient_round_off(std::span<const double> u, std::span<double> bounds) const override {
+    const std::span<const double> d = differences(u, 0);
+    const std::span<double> of_slopes = row(2, d.size());
+    w_->gradient_round_off(d, of_slopes);
+    const std::size_t n = u.size();
+    for (std::size_t j = 0; j < n; ++j) bounds[j] = of_slopes[j] + of_slopes[is_ring_ ? (j + 1) % n : j + 1];
+  }
   int degree() const override { return w_->degree(); }
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
     const std::span<const double> here = differences(p, 0);

@@ -45,6 +45,12 @@ class Sum final : public PointwisePotential {
     });
   }
 
+  void gradient_round_off(std::span<const double> u, std::span<double> bounds) const override {
+    collect(bounds, [&](const PlacedPotential& part, std::span<double> out) {
+      part.potential->gradient_round_off(read_by(part, u), out);
+    });
+  }
+
   int degree() const override {
     int highest = 0;
     for (const PlacedPotential& part : parts_) {

@@ -69,7 +69,7 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
 }
 
 void EnergyBook::archive(Archive& a) {
-  a(empty_, reopened_, has_increase_, last_n_, records_, size_, rests_, H_at_start_, largest_terms_);
+  a(empty_, reopened_, has_increase_, last_n_, records_, size_, rests_, H_at_start_, largest_size_);
   a(rise_, fall_, parting_, violation_, drowned_);
   a.numbers(last_);
   a.numbers(energy_);
@@ -89,7 +89,7 @@ void EnergyBook::take_size(const EnergyReading& reading) {
 
 void EnergyBook::follow(const EnergyReading& reading, double t) {
   if (empty_ || reopened_) H_at_start_ = reading.H;
-  largest_terms_ = std::max(largest_terms_, reading.round_off / (50 * epsilon));
+  largest_size_ = std::max(largest_size_, reading.size);
   const double change = reading.H - H_at_start_;
   if (change > rise_.to - rise_.from) rise_ = {.from = H_at_start_, .to = reading.H, .t = t};
   if (change < fall_.to - fall_.from) fall_ = {.from = H_at_start_, .to = reading.H, .t = t};
@@ -97,15 +97,14 @@ void EnergyBook::follow(const EnergyReading& reading, double t) {
     parting_ = {.from = reading.modified, .to = reading.H, .t = t, .is_damped = false, .is_parting = true};
 }
 
-// H near zero may be a difference of large terms, of which every method misses a little. The terms count ½zᵀMz twice:
-// half of them are about H where none of it cancels.
+// H near zero may be a difference of ½zᵀMz and V that are large, of which every method misses a little.
 std::optional<EnergyDrift> EnergyBook::drift() const {
   if (!promise_.never_grows && !promise_.never_changes) return {};
   if (promise_.promised && (violation_.found || drowned_.found)) return {};
   const bool falls_more = fall_.from - fall_.to > rise_.to - rise_.from;
   EnergyDrift largest = promise_.never_changes && falls_more ? fall_ : rise_;
   const auto is_large = [this](const EnergyDrift& d) {
-    return std::abs(d.to - d.from) > 0.1 * std::max(std::abs(H_at_start_), largest_terms_ / 2);
+    return std::abs(d.to - d.from) > 0.1 * std::max(std::abs(H_at_start_), largest_size_);
   };
   if (!is_large(largest)) return is_large(parting_) ? std::optional(parting_) : std::nullopt;
   largest.is_damped = !promise_.never_changes;

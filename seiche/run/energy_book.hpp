@@ -36,12 +36,12 @@ class EnergyBook {
   bool reopened_ = false;
   bool has_increase_ = false;
   std::int64_t last_n_ = 0;
-  int records_ = 0;             // as far as they are counted
-  double size_ = 0.0;           // of the terms of the energy that is promised, at the start
-  bool rests_ = false;          // all of them were 0 there
-  double H_at_start_ = 0.0;     // or behind the last event
-  double largest_terms_ = 0.0;  // of H, in the whole run
-  EnergyDrift rise_, fall_;     // the largest
+  int records_ = 0;            // as far as they are counted
+  double size_ = 0.0;          // of the terms of the energy that is promised, at the start
+  bool rests_ = false;         // all of them were 0 there
+  double H_at_start_ = 0.0;    // or behind the last event
+  double largest_size_ = 0.0;  // of H, in the whole run
+  EnergyDrift rise_, fall_;    // the largest
   EnergyDrift parting_{.is_parting = true};
   EnergyReading last_;
   EnergySummary energy_, modified_;

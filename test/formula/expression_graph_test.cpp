@@ -152,6 +152,8 @@ TEST(ExpressionGraph, MeanSlopesOfFunctionsLoseNoDigits) {
       {"atanh", [](long double x) { return std::atanh(x); }, 0.3},
       {"exp", [](long double x) { return std::exp(x); }, 0.7},
       {"log", [](long double x) { return std::log(x); }, 0.7},
+      {"expm1", [](long double x) { return std::expm1(x); }, 0.7},
+      {"log1p", [](long double x) { return std::log1p(x); }, 0.7},
       {"sqrt", [](long double x) { return std::sqrt(x); }, 0.7},
       {"abs", [](long double x) { return std::fabs(x); }, 0.7},
       {"sign", [](long double x) -> long double { return x == 0 ? 0 : std::copysign(1.0L, x); }, -0.1},

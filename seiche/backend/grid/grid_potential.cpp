@@ -79,6 +79,13 @@ void GridPotential::mean_gradient(const Vector& a, const Vector& b, Vector& mean
   set_gradient(slope_, mean);
 }
 
+void GridPotential::gradient_round_off(const Vector& z, Vector& bounds) const {
+  bounds.setZero();
+  if (!pointwise_) return;
+  pointwise_->gradient_round_off(values_of(z, a_), all(slope_));
+  set_gradient(slope_, bounds);
+}
+
 void GridPotential::along(const Vector& p, const Vector& q, std::span<double> coefficients) const {
   if (!pointwise_) {
     std::fill(coefficients.begin(), coefficients.end(), 0.0);

@@ -20,6 +20,7 @@ class GridPotential final : public Potential {
   ValueAndMagnitude value_and_magnitude(const Vector& z) const override;
   double value_and_gradient(const Vector& z, Vector& gradient) const override;
   void mean_gradient(const Vector& a, const Vector& b, Vector& mean) const override;
+  void gradient_round_off(const Vector& z, Vector& bounds) const override;
   int degree() const override { return pointwise_ ? pointwise_->degree() : 1; }
   void along(const Vector& p, const Vector& q, std::span<double> coefficients) const override;
   void along_ray(const Vector& z, std::span<double> coefficients) const override;

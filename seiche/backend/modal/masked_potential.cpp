@@ -42,6 +42,11 @@ void MaskedPotential::mean_gradient(const Vector& a, const Vector& b, Vector& me
   mask(mean);
 }
 
+void MaskedPotential::gradient_round_off(const Vector& z, Vector& bounds) const {
+  potential_->gradient_round_off(masked(z, a_), bounds);
+  mask(bounds);
+}
+
 void MaskedPotential::along(const Vector& p, const Vector& q, std::span<double> coefficients) const {
   ++counts_.values;
   potential_->along(masked(p, a_), masked(q, b_), coefficients);

@@ -48,24 +48,26 @@ struct Loops {
 
 // The functions that SLEEF calls Sleef_sin…_u10…, with `set` for the end of their names: d8_u10avx512f.
 #define SEICHE_SLEEF_NAME(name, lanes, set) Sleef_##name##d##lanes##_u10##set
-#define SEICHE_VECTOR_FUNCTIONS(Set, lanes, set)                                                    \
-  {                                                                                                 \
-    .sin = Loops<Set>::one<SEICHE_SLEEF_NAME(sin, lanes, set)>,                                     \
-    .cos = Loops<Set>::one<SEICHE_SLEEF_NAME(cos, lanes, set)>,                                     \
-    .tan = Loops<Set>::one<SEICHE_SLEEF_NAME(tan, lanes, set)>,                                     \
-    .asin = Loops<Set>::one<SEICHE_SLEEF_NAME(asin, lanes, set)>,                                   \
-    .acos = Loops<Set>::one<SEICHE_SLEEF_NAME(acos, lanes, set)>,                                   \
-    .atan = Loops<Set>::one<SEICHE_SLEEF_NAME(atan, lanes, set)>,                                   \
-    .sinh = Loops<Set>::one<SEICHE_SLEEF_NAME(sinh, lanes, set)>,                                   \
-    .cosh = Loops<Set>::one<SEICHE_SLEEF_NAME(cosh, lanes, set)>,                                   \
-    .tanh = Loops<Set>::one<SEICHE_SLEEF_NAME(tanh, lanes, set)>,                                   \
-    .asinh = Loops<Set>::one<SEICHE_SLEEF_NAME(asinh, lanes, set)>,                                 \
-    .acosh = Loops<Set>::one<SEICHE_SLEEF_NAME(acosh, lanes, set)>,                                 \
-    .atanh = Loops<Set>::one<SEICHE_SLEEF_NAME(atanh, lanes, set)>,                                 \
-    .exp = Loops<Set>::one<SEICHE_SLEEF_NAME(exp, lanes, set)>,                                     \
-    .log = Loops<Set>::one<SEICHE_SLEEF_NAME(log, lanes, set)>, .sqrt = Loops<Set>::one<Set::sqrt>, \
-    .pow = Loops<Set>::two<SEICHE_SLEEF_NAME(pow, lanes, set)>, .instructions = #set,               \
-    .sincos = Loops<Set>::pair<SEICHE_SLEEF_NAME(sincos, lanes, set)>,                              \
+#define SEICHE_VECTOR_FUNCTIONS(Set, lanes, set)                                                        \
+  {                                                                                                     \
+    .sin = Loops<Set>::one<SEICHE_SLEEF_NAME(sin, lanes, set)>,                                         \
+    .cos = Loops<Set>::one<SEICHE_SLEEF_NAME(cos, lanes, set)>,                                         \
+    .tan = Loops<Set>::one<SEICHE_SLEEF_NAME(tan, lanes, set)>,                                         \
+    .asin = Loops<Set>::one<SEICHE_SLEEF_NAME(asin, lanes, set)>,                                       \
+    .acos = Loops<Set>::one<SEICHE_SLEEF_NAME(acos, lanes, set)>,                                       \
+    .atan = Loops<Set>::one<SEICHE_SLEEF_NAME(atan, lanes, set)>,                                       \
+    .sinh = Loops<Set>::one<SEICHE_SLEEF_NAME(sinh, lanes, set)>,                                       \
+    .cosh = Loops<Set>::one<SEICHE_SLEEF_NAME(cosh, lanes, set)>,                                       \
+    .tanh = Loops<Set>::one<SEICHE_SLEEF_NAME(tanh, lanes, set)>,                                       \
+    .asinh = Loops<Set>::one<SEICHE_SLEEF_NAME(asinh, lanes, set)>,                                     \
+    .acosh = Loops<Set>::one<SEICHE_SLEEF_NAME(acosh, lanes, set)>,                                     \
+    .atanh = Loops<Set>::one<SEICHE_SLEEF_NAME(atanh, lanes, set)>,                                     \
+    .exp = Loops<Set>::one<SEICHE_SLEEF_NAME(exp, lanes, set)>,                                         \
+    .expm1 = Loops<Set>::one<SEICHE_SLEEF_NAME(expm1, lanes, set)>,                                     \
+    .log = Loops<Set>::one<SEICHE_SLEEF_NAME(log, lanes, set)>,                                         \
+    .log1p = Loops<Set>::one<SEICHE_SLEEF_NAME(log1p, lanes, set)>, .sqrt = Loops<Set>::one<Set::sqrt>, \
+    .pow = Loops<Set>::two<SEICHE_SLEEF_NAME(pow, lanes, set)>, .instructions = #set,                   \
+    .sincos = Loops<Set>::pair<SEICHE_SLEEF_NAME(sincos, lanes, set)>,                                  \
   }
 
 }  // namespace seiche::sleef_kernels

@@ -12,7 +12,7 @@ namespace seiche {
 struct VectorFunctions {
   using One = void (*)(const double* x, double* y, std::size_t n);
   using Two = void (*)(const double* a, const double* b, double* y, std::size_t n);
-  One sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, log, sqrt;
+  One sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, asinh, acosh, atanh, exp, expm1, log, log1p, sqrt;
   Two pow;
   const char* instructions;  // that they are made of
   void (*sincos)(const double* x, double* sines, double* cosines, std::size_t n);

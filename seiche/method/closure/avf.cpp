@@ -25,13 +25,18 @@ class AvfClosure final : public Closure {
  private:
   Vector& midpoint_gradient() override { return start_.g; }
   bool sweep_to_fixed_point(const Vector& z, const Propagator& propagator, StepReport& report);
-  // next = z + FMz + Fḡ(z, z⁺); returns the size of the update in units of 4ε(|z⁺| + |Fḡ|).
+  // next = z + FMz + Fḡ(z, z⁺); returns the size of the update in units of 4ε(|z⁺| + |Fḡ|) and of noise_.
   double sweep(const Vector& z, const Vector& z_plus, const Propagator& propagator, Vector& next);
+
+  // Looks at what round-off makes of Fḡ at z, where terms of ∇V cancel, and not at an iterate, which may be anywhere;
+  // false: nothing, or that is known.
+  bool find_noise(const Vector& z, const Propagator& propagator);
 
   double residual(const Vector& z, const Propagator& propagator);
 
   ExplicitStep start_;
   Vector mean_, q_, next_;
+  double noise_ = 0;
 };
 
 double AvfClosure::sweep(const Vector& z, const Vector& z_plus, const Propagator& propagator, Vector& next) {
@@ -39,8 +44,17 @@ double AvfClosure::sweep(const Vector& z, const Vector& z_plus, const Propagator
   propagator.force(mean_, q_);
   next = z + start_.dz + q_;  // z⁺ = z + FMz + Fḡ: (A1)
   const double update = space().max_norm(next - z_plus);
-  return update /
-         std::max(4 * epsilon * (space().max_norm(next) + space().max_norm(q_)), std::numeric_limits<double>::min());
+  return update / std::max(4 * epsilon * (space().max_norm(next) + space().max_norm(q_)) + noise_,
+                           std::numeric_limits<double>::min());
+}
+
+bool AvfClosure::find_noise(const Vector& z, const Propagator& propagator) {
+  constexpr double of_mean = 8;  // gradients, whose terms may cancel elsewhere
+  if (noise_ > 0) return false;
+  potential().gradient_round_off(z, mean_);
+  propagator.force(mean_, q_);
+  noise_ = of_mean * epsilon * space().max_norm(q_);
+  return noise_ > 0;
 }
 
 bool AvfClosure::sweep_to_fixed_point(const Vector& z, const Propagator& propagator, StepReport& report) {
@@ -52,7 +66,7 @@ bool AvfClosure::sweep_to_fixed_point(const Vector& z, const Propagator& propaga
     // Beside infinite numbers every update is small.
     if (update <= 1 || (update <= stagnation && update >= previous)) return space().is_finite(start_.z_plus);
     if (!(update < 1e3 * previous)) return false;  // diverges, or is not a number
-    previous = update;
+    previous = update >= previous && find_noise(z, propagator) ? std::numeric_limits<double>::infinity() : update;
   }
   return false;
 }
@@ -70,11 +84,13 @@ double AvfClosure::residual(const Vector& z, const Propagator& propagator) {
 StepReport AvfClosure::advance(State& s, Propagators& propagators, double t, double h) {
   StepReport report;
   const Propagator& propagator = propagators.at(h);
+  noise_ = 0;
   predictor().predict(s, propagator, h, start_.z_mid);
   start_.prepare(potential(), propagator, s.z);
   if (!sweep_to_fixed_point(s.z, propagator, report)) {
     ++report.fallbacks;
     start_.prepare(potential(), propagator, s.z);
+    find_noise(s.z, propagator);
     const auto residual = [&](const Vector& z_plus, Vector& out) {
       const double size = sweep(s.z, z_plus, propagator, out);
       out = z_plus - out;

@@ -15,6 +15,7 @@ EnergyReading Closure::energy(const State& s) const {
   EnergyReading reading;
   reading.H = reading.modified = terms.sum();
   reading.round_off = reading.modified_round_off = terms.round_off();
+  reading.size = terms.size();
   read_modified(s, terms.quadratic, reading);
   return reading;
 }

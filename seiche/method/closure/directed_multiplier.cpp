@@ -44,7 +44,8 @@ StepReport DirectedMultiplier::finish(Vector& z, const ExplicitStep& start, Prop
   const Potential::Support support = system_.potential->support();
   const double correction = std::abs(root.x) * system_.space->stable_norm(d.segment(support.begin, support.size));
   const bool near =
-      correction <= 4 * equation_.gradient_gap() && equation_.gradient_gap() <= equation_.mean_gradient_norm();
+      correction <= 4 * equation_.gradient_gap() &&
+      (equation_.gradient_gap() <= equation_.mean_gradient_norm() || (root.converged && equation_.gap_is_round_off()));
   if (root.converged && (near || equation_.at(0).is_negligible())) {
     if (keeps_ledger_) report.ledger.scalar = equation_.change(root.x);
     z = start.z_plus + root.x * q_;  // (D1)

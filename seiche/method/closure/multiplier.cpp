@@ -34,12 +34,12 @@ void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
                  space_.absolute_dot(line.e, line.delta),
              space_.absolute_dot(line.e, line.q)};
 
+  delta_ = &line.delta;
+  start_ = &start;
   if (coefficients_.empty()) {
-    delta_ = &line.delta;
     q_ = &line.q;
     g_ = &line.g;
     e_ = &line.e;
-    start_ = &start;
     end_0_ = &end;
     direction_ = &direction;
     measured_elsewhere_ = measured_at != nullptr;
@@ -80,6 +80,22 @@ MultiplierEquation::Value MultiplierEquation::at_by_quadrature(double x) {
           scales_[0] + std::abs(x) * (scales_[1] + std::abs(x) * scales_[2])};
 }
 
+void MultiplierEquation::bound_round_off_of_gradient() {
+  constexpr double of_mean = 8;  // gradients, whose terms may cancel elsewhere
+  potential_.gradient_round_off(*start_, mean_);
+  mean_ *= of_mean * epsilon;
+}
+
+double MultiplierEquation::round_off() {
+  bound_round_off_of_gradient();
+  return space_.absolute_dot(mean_, *delta_);
+}
+
+bool MultiplierEquation::gap_is_round_off() {
+  bound_round_off_of_gradient();
+  return gap_norm_ <= space_.stable_norm(mean_);
+}
+
 MultiplierEquation::Root MultiplierEquation::newton(int max_iterations, Stop stop) {
   Root root;
   for (;;) {
@@ -88,7 +104,10 @@ MultiplierEquation::Root MultiplierEquation::newton(int max_iterations, Stop sto
       root.converged = true;
       return root;
     }
-    if (root.iterations == max_iterations || value.slope == 0 || !std::isfinite(value.F)) return root;
+    if (root.iterations == max_iterations || value.slope == 0 || !std::isfinite(value.F)) {
+      root.converged = std::isfinite(value.F) && std::abs(value.F) <= round_off();
+      return root;
+    }
     const double change = -value.F / value.slope;
     root.x += change;
     ++root.iterations;

@@ -59,16 +59,20 @@ class MultiplierEquation {
   }
 
   Value at(double x);
-  // |F| ≤ 4ε scale, or (lm) |Δx| ≤ 4ε max(1, |1 + x|).
+  // |F| ≤ 4ε scale, or (lm) |Δx| ≤ 4ε max(1, |1 + x|), or where neither comes about |F| ≤ what round-off may make of it.
   Root newton(int max_iterations, Stop stop);
 
   double cosine() const { return cosine_; }                 // cos(ĝ, δ₁) over the support of V
   double mean_gradient_norm() const { return mean_norm_; }  // |ḡ(0)|
   double gradient_gap() const { return gap_norm_; }         // |ḡ(0) − ĝ|
-  double change(double x) { return at(x).F - left_; }       // V(z⁺) − V(z) − fᵀδ itself
+  // Is that no more than round-off makes of a mean gradient, whose terms cancel?
+  bool gap_is_round_off();
+  double change(double x) { return at(x).F - left_; }  // V(z⁺) − V(z) − fᵀδ itself
 
  private:
   Value at_by_quadrature(double x);
+  double round_off();                  // of F, where the terms of ∇V cancel
+  void bound_round_off_of_gradient();  // in mean_, at the start: z⁺(x) may be anywhere
 
   const Space& space_;
   const Potential& potential_;
@@ -78,9 +82,9 @@ class MultiplierEquation {
   double left_ = 0;
   double gd_ = 0, linear_ = 0, eq_ = 0;  // f(x)ᵀδ(x) = ĝᵀδ₁ + x (ĝᵀq + eᵀδ₁) + x² eᵀq
   Vector mean_;
+  const Vector *delta_ = nullptr, *start_ = nullptr;
   // For general V only:
-  const Vector *delta_ = nullptr, *q_ = nullptr, *g_ = nullptr, *e_ = nullptr;
-  const Vector *start_ = nullptr, *end_0_ = nullptr, *direction_ = nullptr;
+  const Vector *q_ = nullptr, *g_ = nullptr, *e_ = nullptr, *end_0_ = nullptr, *direction_ = nullptr;
   bool measured_elsewhere_ = false;
   Vector end_, gradient_, increment_;
 };
