@@ -10,11 +10,11 @@ namespace seiche {
 
 struct ReplacedSteps {
   std::int64_t count = 0;
-  bool ruinous = false;                    // did what stands for one lose nine tenths of z?
+  bool lost_state = false;                 // what stands for one of them lost nine tenths of z
   std::string_view why = {}, remedy = {};  // why the first of them was replaced, and what helps; literals
 
   void archive(Archive& a) {
-    a(count, ruinous);
+    a(count, lost_state);
     a.literal(why);
     a.literal(remedy);
   }
@@ -24,7 +24,7 @@ struct ReplacedSteps {
       remedy = other.remedy;
     }
     count += other.count;
-    ruinous = ruinous || other.ruinous;
+    lost_state = lost_state || other.lost_state;
     return *this;
   }
 };

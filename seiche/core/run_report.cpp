@@ -48,9 +48,9 @@ std::string RunReport::remark_on_replaced() const {
                         count == 1 ? "was" : "were", replaced.why, it)
           : fmt::format("in {} no solution was found, because {}; what stands for {} keeps the energy law, and",
                         of_steps, replaced.why, it);
-  const char* worth = replaced.ruinous   ? "has lost most of the state"
-                      : lacks_solution() ? "has nothing to do with the equation any more"
-                                         : "may be as inaccurate as any guess, and everything after it with it";
+  const char* worth = replaced.lost_state ? "has lost most of the state"
+                      : lacks_solution()  ? "has nothing to do with the equation any more"
+                                          : "may be as inaccurate as any guess, and everything after it with it";
   return fmt::format("{} {}: take {}", replacement, worth, replaced.remedy);
 }
 

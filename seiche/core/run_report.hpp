@@ -13,7 +13,7 @@
 
 namespace seiche {
 
-// Is the energy law promised, and why (not)?
+// Whether the energy law is promised, and why (not).
 struct LawPromise {
   bool promised = false;
   std::string reason;  // the hypothesis that carries it, or the one that fails
@@ -76,11 +76,11 @@ struct RunReport {
   double wall_seconds = 0.0;
   bool step_failed = false;  // what ended the run: a step, or a state that is not finite, and no file
 
-  // Steps that were replaced: how many, why, what that means and what helps; "" where there are none.
+  // Steps that were replaced: how many, why, what that means and what helps; "" if no step was.
   std::string remark_on_replaced() const;
   // More than one step in ten was replaced, or one by next to nothing: what has come out is no solution of the
   // equation.
-  bool lacks_solution() const { return replaced.ruinous || 10 * replaced.count > steps; }
+  bool lacks_solution() const { return replaced.lost_state || 10 * replaced.count > steps; }
   void judge_replaced();                  // puts that remark into `message`; a run that lacks a solution has failed
   std::string remark_on_widened() const;  // where the energy interval was widened, which costs no accuracy; or ""
   std::string remark_on_halved() const;   // what it does not resolve of the rest; or ""
@@ -88,7 +88,7 @@ struct RunReport {
   // How far the auxiliary variable has taken H from the modified energy, where that is more than a thousandth and less
   // than a drift; else "".
   std::string remark_on_parting() const;
-  std::vector<std::string> remarks() const;  // but for the widened: what nobody should miss
+  std::vector<std::string> remarks() const;  // on steps that were replaced or halved, and on a drift
   std::string brief() const;                 // one line
   std::string full() const;                  // a paragraph for a terminal
 };

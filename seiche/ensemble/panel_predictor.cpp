@@ -51,7 +51,7 @@ void PanelPredictor::find_missed(const double* z, const double* z_mid, const Pan
   maps.missed(difference_.row(0), missed);
   sum_squared_distances(z_mid, z + system_.support_begin() * panel_members, rows, moved);
   for (std::size_t l = 0; l < unable_.size(); ++l) {
-    if (unable_[l] != 0 || midpoint_memory::foretells(missed[l], moved[l])) continue;
+    if (unable_[l] != 0 || midpoint_memory::predicts_well(missed[l], moved[l])) continue;
     unable_[l] = has_missed_[l] = 1;
   }
 }

@@ -56,11 +56,11 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
         steps * (has_modified_energy_ ? round_off(last_.modified_round_off, reading.modified_round_off, growth)
                                       : round_off(last_.round_off, reading.round_off, growth));
     if (increase > allowed && !violation_.found) violation_ = {t, increase, allowed, true};
-    // Round-off explains it, and would explain more than all there was at the start: nobody can tell any more. But in
+    // Round-off explains it, and would explain more than all there was at the start: the law cannot be checked. But in
     // the first step it is that rise itself which takes all there was.
     if (increase > size_ && increase <= allowed) {
       if (first && !violation_.found) violation_ = {t, increase, last_.round_off, true};
-      if (!first && !drowned_.found) drowned_ = {t, allowed, size_, true};
+      if (!first && !lost_in_round_off_.found) lost_in_round_off_ = {t, allowed, size_, true};
     }
   }
   reopened_ = false;
@@ -70,7 +70,7 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
 
 void EnergyBook::archive(Archive& a) {
   a(empty_, reopened_, has_increase_, last_n_, records_, size_, rests_, H_at_start_, largest_size_);
-  a(rise_, fall_, parting_, violation_, drowned_);
+  a(rise_, fall_, parting_, violation_, lost_in_round_off_);
   a.numbers(last_);
   a.numbers(energy_);
   a.numbers(modified_);
@@ -100,7 +100,7 @@ void EnergyBook::follow(const EnergyReading& reading, double t) {
 // H near zero may be a difference of ½zᵀMz and V that are large, of which every method misses a little.
 std::optional<EnergyDrift> EnergyBook::drift() const {
   if (!promise_.never_grows && !promise_.never_changes) return {};
-  if (promise_.promised && (violation_.found || drowned_.found)) return {};
+  if (promise_.promised && (violation_.found || lost_in_round_off_.found)) return {};
   const bool falls_more = fall_.from - fall_.to > rise_.to - rise_.from;
   EnergyDrift largest = promise_.never_changes && falls_more ? fall_ : rise_;
   const auto is_large = [this](const EnergyDrift& d) {
@@ -130,13 +130,13 @@ void EnergyBook::write_to(RunReport& report) const {
     report.law = LawVerdict::violated;
     report.law_reason = fmt::format("the {} rose by {:.3g} up to t = {:.6g}, and round-off explains only {:.3g}", name,
                                     violation_.increase, violation_.t, violation_.round_off);
-  } else if (drowned_.found) {
-    // A modified energy is drowned by its shift C, which is the method's; H by the solution, which has grown so much.
+  } else if (lost_in_round_off_.found) {
+    // A modified energy loses its digits to its shift C, which is the method's; H to the growth of the solution.
     report.law = has_modified_energy_ ? LawVerdict::violated : LawVerdict::not_promised;
     report.law_reason = fmt::format(
         "the {} can no longer be told from round-off: at t = {:.6g} that is {:.3g} in its terms, and all of them were {:.3g} at the "
         "start",
-        name, drowned_.t, drowned_.round_off, drowned_.size);
+        name, lost_in_round_off_.t, lost_in_round_off_.round_off, lost_in_round_off_.size);
   } else {
     report.law = LawVerdict::holds;
   }

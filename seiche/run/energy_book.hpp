@@ -15,7 +15,7 @@ class EnergyBook {
 
   // One reading per recorded step, in order. `n` counts steps, so that round-off may add up over those in between.
   void add(const EnergyReading& reading, double t, std::int64_t n);
-  bool has(std::int64_t n) const { return !empty_ && n == last_n_; }  // was the last reading taken at step n?
+  bool has(std::int64_t n) const { return !empty_ && n == last_n_; }  // the last reading was taken at step n
   // The next reading starts anew: no increase from the last one to it.
   void reopen() {
     reopened_ = true;
@@ -50,11 +50,11 @@ class EnergyBook {
     bool found = false;
     void archive(Archive& a) { a(t, increase, round_off, found); }
   } violation_;  // the first
-  struct Drowned {
+  struct LostInRoundOff {
     double t = 0.0, round_off = 0.0, size = 0.0;
     bool found = false;
     void archive(Archive& a) { a(t, round_off, size, found); }
-  } drowned_;  // where that happened first
+  } lost_in_round_off_;  // where that happened first
 };
 
 }  // namespace seiche

@@ -42,7 +42,7 @@ TEST(RunReport, StepsWithoutASolutionAreSaidAlwaysAndFailARunWhereTheyAreMany) {
 TEST(RunReport, OneStepThatLostMostOfTheStateFailsARun) {
   RunReport report;
   report.steps = 1'000'000;
-  report.replaced = {.count = 1, .ruinous = true, .why = "sweeps did not converge", .remedy = "a smaller h"};
+  report.replaced = {.count = 1, .lost_state = true, .why = "sweeps did not converge", .remedy = "a smaller h"};
   report.judge_replaced();
   EXPECT_EQ(report.status, Status::failed);
   EXPECT_THAT(report.message, HasSubstr("has lost most of the state"));
@@ -137,7 +137,7 @@ TEST(EnergyBook, SaysWhereHRoseThoughNoSolutionLetsItRise) {
   EXPECT_EQ(booked(damped, {1, 2, 3}, false).remarks().size(), 0U) << "the law that is violated says it";
 }
 
-// A per cent in 10⁷ steps is no drift that anybody has to act on, and yet it should be known.
+// A per cent in 10⁷ steps is no drift that calls for a change, and yet it should be known.
 TEST(RunReport, TellsHowFarTheAuxiliaryHasTakenHFromItsModifiedEnergy) {
   RunReport report;
   report.has_modified_energy = true;

@@ -13,7 +13,7 @@ double ratio(std::span<const double> lengths) { return (lengths[0] + lengths[1])
 
 bool reaches(double weight) { return weight > 0 && weight <= 4; }
 
-bool foretells(double missed, double moved) {
+bool predicts_well(double missed, double moved) {
   constexpr double share = 0.75, most_missed = 0.05;
   return share * std::sqrt(missed) <= most_missed * std::sqrt(moved);
 }
@@ -50,7 +50,7 @@ bool MidpointPredictor::recall(const State& s, const Propagator& propagator, dou
   Propagator::Recalled recalled;
   if (!propagator.recall(s.z, gradients, z_mid, before, recalled))
     recall_unfused(s, propagator, gradients, h, z_mid, before, recalled);
-  has_missed_ = !midpoint_memory::foretells(recalled.missed, recalled.moved);
+  has_missed_ = !midpoint_memory::predicts_well(recalled.missed, recalled.moved);
   return !has_missed_;
 }
 
@@ -74,7 +74,7 @@ void MidpointPredictor::recall_unfused(const State& s, const Propagator& propaga
   recalled.moved = space.squared_norm(of_support(z_mid) - of_support(pushed_));
   system_.linear->apply_S(difference_, pushed_);
   recalled.missed = space.squared_norm(pushed_) * (h / 2) * (h / 2);
-  if (midpoint_memory::foretells(recalled.missed, recalled.moved)) return;
+  if (midpoint_memory::predicts_well(recalled.missed, recalled.moved)) return;
   propagator.predict(at_rest_, difference_, pushed_);
   recalled.missed = space.squared_norm(of_support(pushed_));
 }

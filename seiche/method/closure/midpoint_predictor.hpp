@@ -21,9 +21,9 @@ namespace midpoint_memory {
 
 double weight(std::span<const double> lengths, double h);  // w
 double ratio(std::span<const double> lengths);  // of the second difference d = g₀ − g₁ − ratio·(g₁ − g₂)
-bool reaches(double weight);                    // is the step not much longer than those before?
-// Did the last extrapolation miss little of what a step moves, from |F_{h/2}d|² and |ẑ − z⁻|² in the components of V?
-bool foretells(double missed, double moved);
+bool reaches(double weight);                    // true if the step is not much longer than those before
+// True if the last extrapolation missed little of what a step moves, from |F_{h/2}d|² and |ẑ − z⁻|² in V's components.
+bool predicts_well(double missed, double moved);
 double resting(double before, bool has_missed);  // steps that are to take the gradient yet, behind one more
 
 }  // namespace midpoint_memory
@@ -38,7 +38,7 @@ class MidpointPredictor {
                Propagator::FieldFactors before = {});
   // Behind a step that succeeded: its ĝ goes into the memory of s, and g becomes some other vector of that size.
   void keep(State& s, double h, Vector& g) const;
-  void discard() { discards_ = true; }  // the ĝ of this step is none at its midpoint: the memory begins anew behind it
+  void discard() { discards_ = true; }  // the ĝ of this step is not that of its midpoint: the memory starts anew
 
  private:
   bool recall(const State& s, const Propagator& propagator, double h, Vector& z_mid, Propagator::FieldFactors before);

@@ -209,8 +209,11 @@ bool Projected::has_grown_beyond_reason(const EnergyProjection::Outcome& outcome
 // s is still as it was before the step, and z_ what it is to become.
 void Projected::note_replaced(StepReport& report, const State& s, std::string_view why) const {
   constexpr double least = 0.1;
-  const bool ruinous = system_.space->sum(squared_norm(z_)) < square(least) * system_.space->sum(squared_norm(s.z));
-  report.replaced = {.count = 1, .ruinous = report.replaced.ruinous || ruinous, .why = why, .remedy = base_.remedy()};
+  const bool lost_state = system_.space->sum(squared_norm(z_)) < square(least) * system_.space->sum(squared_norm(s.z));
+  report.replaced = {.count = 1,
+                     .lost_state = report.replaced.lost_state || lost_state,
+                     .why = why,
+                     .remedy = base_.remedy()};
 }
 
 Projected::Taken Projected::take_without_law(State& s, double t, double h, StepReport& report) {

@@ -204,7 +204,7 @@ class Auditor {
     Vector z;
     for (std::size_t k = 0; k < times.size(); ++k) {
       solution.state(static_cast<Index>(k), z);
-      if (std::string wrong = no_number(times, beside, modified, z, k); !wrong.empty())
+      if (std::string wrong = invalid_value(times, beside, modified, z, k); !wrong.empty())
         return book_.add(claim, Verdict::contradicted, std::move(wrong));
       const EnergyTerms terms = energies_.of(z);
       const double allowed = std::max({terms.round_off(), round_off_, std::numeric_limits<double>::min()});
@@ -232,12 +232,12 @@ class Auditor {
                     times.size(), in_both, at, worst));
   }
 
-  // No number is the worst of all.
+  // NaN is the worst of all.
   static double worse(double a, double b) { return std::isnan(a) ? a : std::isnan(b) ? b : std::max(a, b); }
 
-  // What of state k is no number, or no time behind the one before; else "".
-  static std::string no_number(const std::vector<double>& times, const std::vector<double>& energies,
-                               const std::vector<double>& modified, const Vector& z, std::size_t k) {
+  // What of state k is not finite, or that its time is not after the one before; else "".
+  static std::string invalid_value(const std::vector<double>& times, const std::vector<double>& energies,
+                                   const std::vector<double>& modified, const Vector& z, std::size_t k) {
     if (!std::isfinite(times[k]) || (k > 0 && !(times[k] > times[k - 1])))
       return fmt::format("state {} is at t = {:.17g}{}", k + 1, times[k],
                          k == 0 ? "" : fmt::format(", after {:.17g}", times[k - 1]));
