@@ -196,8 +196,8 @@ class Parser {
       throw error(
           fmt::format("two numbers stand side by side: '{}' and '{}'", shortened(last.text), shortened(next.text)));
     if (last.kind == FormulaToken::Kind::number && is_unit(next.text) && !is_known(next.text))
-      throw error(
-          fmt::format("units such as {} are none of the language: numbers are in those of the equation", next.text));
+      throw error(fmt::format("units such as {} are not part of the language: numbers are in those of the equation",
+                              next.text));
     const bool called = last.kind == FormulaToken::Kind::name && next.is('(');
     if (!called)
       throw error(

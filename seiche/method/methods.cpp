@@ -236,7 +236,7 @@ void MethodOptions::validate(const MethodEntry& method) const {
   if (linear != LinearTreatment::exact && !kind.takes_linear)
     throw Error("linear = \"explicit\" belongs to crkn4 and crkn6; {} takes the linear part in one piece", method.name);
   if (predictor != Predictor::remembered && !kind.takes_predictor)
-    throw Error("predictor = \"gradient\" belongs to the avf, sav, lm and dm families; {} has no midpoint to foretell",
+    throw Error("predictor = \"gradient\" belongs to the avf, sav, lm and dm families; {} does not predict a midpoint",
                 method.name);
   if (auxiliary == AuxiliaryMode::transport) return;
   if (!kind.takes_auxiliary)

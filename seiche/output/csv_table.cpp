@@ -39,7 +39,7 @@ bool CsvReader::next(std::vector<double>& row) {
     double value = 0;
     const auto [rest, error] = std::from_chars(at, end, value);
     if (error != std::errc{} || (rest != end && *rest != ','))
-      throw Error("{}:{}: '{}' is no number", file_.string(), line_number_,
+      throw Error("{}:{}: '{}' is not a number", file_.string(), line_number_,
                   std::string_view(at, std::find(at, end, ',')));
     row.push_back(value);
     at = rest + 1;

@@ -70,7 +70,7 @@ double TextTable::number(std::size_t row, const std::string& name) const {
   if (cell.empty()) return value;
   const auto [rest, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || rest != cell.data() + cell.size())
-    throw Error("{}: '{}' in row {} under {} is no number", file_.string(), cell, row + 1, name);
+    throw Error("{}: '{}' in row {} under {} is not a number", file_.string(), cell, row + 1, name);
   return value;
 }
 

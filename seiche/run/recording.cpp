@@ -206,8 +206,8 @@ void Recording::complete_message(const std::string& remark) {
   constexpr double lost = 1e6;  // times the energy at the start: of H̃ − H no more than some ten digits are left
   if (report_.has_modified_energy && state_.energy_scale > 0 && state_.shift > lost * state_.energy_scale)
     report_.message += fmt::format(
-        "; C of the modified energy rose to {:.3g}, {:.1g} times the energy at the start, because V fell, or r² "
-        "drifted from V + C, so far, and drowns it in round-off: take a smaller h, or a method without C (seilm, egc4); where these fail too, the solution blows up",
+        "; C was raised to {:.3g} ({:.1g} × the initial energy), and the modified energy has lost digits to round-off: "
+        "reduce h, or use seilm or egc4",
         state_.shift, state_.shift / state_.energy_scale);
   for (const std::string& unresolved : {report_.remark_on_widened(), report_.remark_on_halved()})
     if (!unresolved.empty()) report_.message += "; " + unresolved;

@@ -25,7 +25,8 @@ TEST(TextTables, HoldQuotedCellsOverSeveralLines) {
   EXPECT_EQ(table.text(0, "message"), "a, \"b\"\nand c");
   EXPECT_EQ(table.number(0, "H"), 0.5);
   EXPECT_TRUE(std::isnan(table.number(1, "H"))) << "nothing was written";
-  EXPECT_THAT(error_of([&] { table.number(0, "message"); }), testing::HasSubstr("in row 1 under message is no number"));
+  EXPECT_THAT(error_of([&] { table.number(0, "message"); }),
+              testing::HasSubstr("in row 1 under message is not a number"));
   EXPECT_THAT(error_of([&] { table.text(0, "t"); }), testing::HasSubstr("has no column t"));
   for (const auto& [text, complaint] :
        {std::pair("a,b\n1\n", "row 1 has 1 cells under 2 names"), {"a\n\"1\n", "ends inside quotes"}}) {

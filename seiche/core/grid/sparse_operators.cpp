@@ -13,7 +13,7 @@ void require_shape(const char* name, const SparseMatrix& a, Index size) {
   if (a.rows() != size) throw Error("{} is {} × {} but M is {} × {}", name, a.rows(), a.cols(), size, size);
   for_entries(a, [name](Index i, Index j, double value) {
     if (!std::isfinite(value))
-      throw Error("{} has the entry ({}, {}) = {}, which is no number", name, i + 1, j + 1, number_text(value));
+      throw Error("{} has the entry ({}, {}) = {}, which is not finite", name, i + 1, j + 1, number_text(value));
   });
 }
 

@@ -42,11 +42,11 @@ class SavClosure final : public Closure {
 
   std::optional<double> given_C_;
   AuxiliaryMode auxiliary_;
-  double error_rate_ = 0;  // that steps may have; 0: nobody knows
+  double error_rate_ = 0;  // that steps may have; 0: not given
   Vector g_, pushed_, physical_;
 };
 
-// C = 2E₀ keeps V + C well away from 0 where √(V + C) would lose digits, without drowning V in C.
+// C = 2E₀ keeps V + C well away from 0 where √(V + C) would lose digits, without losing the digits of V to C.
 void SavClosure::begin(State& s) {
   Closure::begin(s);
   const double v = potential().value(s.z);
@@ -55,8 +55,8 @@ void SavClosure::begin(State& s) {
   s.r_squared = v + s.shift;
   constexpr double largest = 1e10;
   if (given_C_ && s.energy_scale > 0 && std::abs(s.shift) > largest * s.energy_scale) {
-    throw Error("C = {} drowns the energy {:.6g} in round-off; at most {:.3g} makes sense, and C = \"auto\" is good",
-                s.shift, s.energy_scale, largest * s.energy_scale);
+    throw Error("C = {} leaves the energy {:.6g} fewer than six digits; give at most {:.3g}, or C = \"auto\"", s.shift,
+                s.energy_scale, largest * s.energy_scale);
   }
   if (!(s.r_squared > 0)) {
     throw Error("C = {} is too small: V(z₀) + C = {:.6g} must be > 0; C = {:.6g} would do, or C = \"auto\"", s.shift,
@@ -81,7 +81,7 @@ void SavClosure::impulse(State& s, double t, double h) {
   if (transports) s.r_squared += potential().value(s.z) - v_before;
 }
 
-// r² − (V + C), where somebody asks for it.
+// r² − (V + C) where an error rate is given; else 0.
 double SavClosure::drift(const State& s) const {
   return error_rate_ > 0 ? s.r_squared - (potential().value(s.z) + s.shift) : 0;
 }

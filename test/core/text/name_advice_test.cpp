@@ -117,9 +117,10 @@ TEST(NameAdvice, NeighboursAreReachedByTheDifference) {
   EXPECT_THAT(said(oscillator, {"problem.H=p^2/2 + q[1]^4"}), AllOf(HasSubstr("'['"), Not(HasSubstr("next point"))));
 }
 
-TEST(NameAdvice, UnitsAreNoneOfTheLanguage) {
-  EXPECT_THAT(said(oscillator, {"time.end=1 s"}), HasSubstr("units such as s are none of the language"));
-  EXPECT_THAT(said(oscillator, {"problem.force=cos(5 Hz*t)"}), HasSubstr("units such as Hz are none of the language"));
+TEST(NameAdvice, UnitsAreNotPartOfTheLanguage) {
+  EXPECT_THAT(said(oscillator, {"time.end=1 s"}), HasSubstr("units such as s are not part of the language"));
+  EXPECT_THAT(said(oscillator, {"problem.force=cos(5 Hz*t)"}),
+              HasSubstr("units such as Hz are not part of the language"));
   EXPECT_THAT(said(oscillator + "parameters = { s = 2 }", {"problem.H=p^2/2 + 2 s*q^4"}), HasSubstr("write 2*s"))
       << "a name of the user's own";
 }
