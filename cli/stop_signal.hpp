@@ -17,12 +17,12 @@ void answer_signals();
 
 // From now on; the flag is set by the first signal. HUP stays ignored where the program was started so (nohup).
 const std::atomic<bool>& stop_on_signal();
-bool has_stopped();  // has a signal come?
+bool has_stopped();  // true once a signal has come
 
 // Set by USR1; whoever answers clears it.
 std::atomic<bool>& save_on_signal();
 
-// From now on no signal ends the program: files are being written that nobody could write again. The first signal of
+// From now on no signal ends the program: files are being written that cannot be made later. The first signal of
 // all still lets everything be written. The flag, set by one behind it, asks to leave out what can be had later.
 const std::atomic<bool>& hold_signals();
 

@@ -17,7 +17,7 @@ Finding only_where_a_gradient_form_exists(const Evidence& evidence);
 Finding paper_reference_suffices(const PaperResults& results, const Evidence& evidence);
 Finding absolute_tolerance_is_enough(const Evidence& evidence);
 Finding efficient_at_any_tolerance(const PaperResults& results);
-Finding competitive(const PaperResults& results);  // is SEISAV ahead of what there was before, everywhere?
+Finding competitive(const PaperResults& results);  // SEISAV is ahead of earlier methods everywhere
 Finding needs_no_iteration(const PaperResults& results);
 Finding multiplier_is_cheap(const PaperResults& results, const Evidence& evidence);
 // Example 3 with μ = 0.1: the printed SEILM against the repaired one, and what is due to Newton's iteration alone.

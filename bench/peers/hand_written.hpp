@@ -1,4 +1,4 @@
-// Codes that somebody who knows the equation would write for it: fast, and without any promise about the energy.
+// Codes written by hand for one equation: fast, and without any promise about the energy.
 #pragma once
 
 #include <bench/peers/peer.hpp>

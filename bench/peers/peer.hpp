@@ -1,4 +1,4 @@
-// What the bench measures: an integrator that somebody could use for one of the equations.
+// What the bench measures: an integrator that can be used for one of the equations.
 #pragma once
 
 #include <bench/peers/equation.hpp>

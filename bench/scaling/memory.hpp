@@ -10,7 +10,7 @@ namespace seiche::bench {
 // the other one begins as its copy.
 double peak_bytes(Index points, double limit);
 
-// A part of what is free now, so that nobody else's is taken.
+// A part of what is free now, so that other programs keep theirs.
 double spare_memory();
 
 }  // namespace seiche::bench

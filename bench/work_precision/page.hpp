@@ -10,7 +10,7 @@
 
 namespace seiche::bench {
 
-// Embeds the pictures that draw_figures left in directory/figures; says why where there are none.
+// Embeds the pictures that draw_figures left in directory/figures; says why where they are missing.
 void write_page(const std::vector<ProblemResult>& results, const Manifest& manifest,
                 const std::filesystem::path& directory, const std::string& no_figures_because);
 

@@ -12,7 +12,7 @@ struct ProblemResult {
   TestProblem test;
   std::string reference = {};  // how it was computed
   double reference_difference = 0;
-  bool law_holds = false;  // does H of the exact solution never grow?
+  bool law_holds = false;  // H of the exact solution never grows
   std::string law_reason = {};
   std::vector<Row> rows = {};
 };

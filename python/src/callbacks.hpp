@@ -27,7 +27,7 @@ class Callable {
   std::shared_ptr<py::object> function_;
 };
 
-// Was the run on this thread interrupted by Ctrl-C? The outermost scope begins without an interruption. A run inside a
+// Whether Ctrl-C interrupted the run on this thread. The outermost scope begins without an interruption. A run inside a
 // callback of another one leaves what it has seen, so that both end.
 class Interruption {
  public:

@@ -5,11 +5,11 @@
 
 namespace seiche {
 
-// P projects on fields: it commutes with the constant part unless that couples a field of P with one that is none. Then
+// P projects on fields: it commutes with the constant part unless that couples a field of P with one outside. Then
 // the flow of D(t) is the product of the flows of its parts, in any order. True where one of them is missing.
 bool rate_commutes(const Problem& problem);
 
-// Are γ(t) and γ(x, t), where there are such rates, the same at all times?
+// True if γ(t) and γ(x, t), where there are such rates, are the same at all times.
 bool has_constant_rates(const LinearDamping& damping);
 
 }  // namespace seiche

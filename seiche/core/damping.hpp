@@ -13,7 +13,7 @@ class Damping {
  public:
   virtual ~Damping() = default;
   virtual bool is_zero() const = 0;
-  virtual bool touches_potential() const = 0;      // does it move a component that V depends on?
+  virtual bool touches_potential() const = 0;      // true if it moves a component that V depends on
   virtual bool is_linear() const { return true; }  // R = 0
   // z ← Ψ(t, t+h) z: exp(−∫ₜᵗ⁺ʰ D) z, or with R a symmetric composition of its flow and that one. The length h is
   // passed instead of the end so that equal steps reuse one matrix.
@@ -21,7 +21,7 @@ class Damping {
   virtual void apply(double t, const Vector& z, Vector& out) const = 0;  // D(t)z + R(t, z)
   // γ(t) where D(t)z + R(t, z) = γ(t)z for every z, and nothing where damping is no multiple of the state.
   virtual std::optional<double> factor_of_identity(double /*t*/) const { return std::nullopt; }
-  // Beside the constant D₀ that exponential methods take into L = SM − D₀ (constant_damping): is D(t)z + R(t, z) = D₀z?
+  // True if D(t)z + R(t, z) = D₀z, the constant part that exponential methods take into L = SM − D₀ (constant_damping).
   virtual bool is_constant() const = 0;
   virtual void apply_rest(double t, const Vector& z, Vector& out) const = 0;  // (D(t) − D₀)z + R(t, z)
   virtual void apply_D0(const Vector& z, Vector& out) const = 0;              // D₀z

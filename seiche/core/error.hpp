@@ -18,7 +18,7 @@ struct ErrorParts {
   std::string place = {};     // "case.toml:3:5" or "--set method.h=0"; empty where the sentence says enough
   std::string sentence = {};  // what() is "place: sentence", or the sentence alone
   std::string key = {};       // that the sentence begins with: "method.h"; or empty
-  // Of a name that nobody knows: "method", "seisv" and "seisav", or no nearest one.
+  // Of an unknown name: "method", "seisv" and "seisav", or no nearest one.
   std::string kind = {}, name = {}, nearest = {};
   std::vector<std::string> allowed = {};
 };

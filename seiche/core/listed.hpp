@@ -27,7 +27,7 @@ class Listed {
     for (const Row& row : rows_) names.emplace_back(row.name);
     return names;
   }
-  const Row* find(std::string_view name) const {  // null: there is none
+  const Row* find(std::string_view name) const {  // null: no such row
     const auto place = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) { return row.name == name; });
     return place == rows_.end() ? nullptr : &*place;
   }

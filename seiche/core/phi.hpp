@@ -57,7 +57,7 @@ class PhiEvaluator {
   };
 
   virtual ~PhiEvaluator() = default;
-  // Are maps tables, so that to apply one costs no more than a gradient of V or two? Where each is a Krylov space,
+  // True if maps are tables, so that applying one costs at most a gradient of V or two. Where each is a Krylov space,
   // methods must ask for as few as they can.
   virtual bool has_tables() const { return false; }
   // Solutions of ż = Lz turn and decay no faster than this: at least the largest modulus of an eigenvalue, and seldom
@@ -68,9 +68,9 @@ class PhiEvaluator {
   virtual std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const = 0;
 
   struct Dissipation {
-    bool is_quadratic = false;    // is −dH/dt = Q(z) along solutions, whatever V?
-    bool is_nonnegative = false;  // and Q ⪰ 0?
-    bool is_zero = false;         // and Q = 0?
+    bool is_quadratic = false;    // −dH/dt = Q(z) along solutions, whatever V
+    bool is_nonnegative = false;  // and Q ⪰ 0
+    bool is_zero = false;         // and Q = 0
   };
   virtual Dissipation dissipation() const = 0;
 

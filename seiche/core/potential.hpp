@@ -34,7 +34,7 @@ class PointwisePotential {
  public:
   virtual ~PointwisePotential() = default;
   virtual Index fields() const { return 1; }  // how many consecutive fields u holds
-  // Is V = Σ_j W(u_j)? Then parts of u may be given one at a time, on several threads.
+  // True if V = Σ_j W(u_j): then parts of u may be given one at a time, on several threads.
   virtual bool is_local() const { return false; }
   // What speaks against V, or "": a gradient that is not its own where it begins, at u, or nearby. Asked before a run.
   virtual std::string complaint(std::span<const double> /*u*/) const { return ""; }
@@ -53,7 +53,7 @@ class PointwisePotential {
   }
   // ∫₀¹ ∇V(a + s(b − a)) ds, or another mean of gradients with the contract above
   virtual void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const = 0;
-  // Degree of V as a polynomial, or 0 if V is none; `along` needs degree + 1 coefficients and a polynomial V.
+  // Degree of V as a polynomial, or 0 if it is not one; `along` needs degree + 1 coefficients and a polynomial V.
   virtual int degree() const = 0;
   virtual void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const = 0;
   // d if V(xu) = xᵈV(u) for every u, or 0 if there is no such d: then `along` from the origin is known from V(u).

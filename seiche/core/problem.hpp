@@ -48,8 +48,8 @@ struct Problem {
   bool has_damping() const;
   bool has_forces() const;
   bool has_constant_damping() const;      // beside γ
-  bool damping_moves(Index field) const;  // does the field change under Ψ?
-  bool damping_moves_potential() const;   // does V?
+  bool damping_moves(Index field) const;  // true if the field changes under Ψ
+  bool damping_moves_potential() const;   // true if V does
 };
 
 // P of LinearDamping, ones on the diagonal in the rows of `rate_fields`: as a matrix of all unknowns, and as the block

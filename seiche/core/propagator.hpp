@@ -23,7 +23,7 @@ class Propagator {
 
   // What an explicit closure asks for, in as few passes over z as the coordinates allow. Forces and gradients vanish
   // outside the components that V depends on. z stands for z⁻ = Λz, with Λ one number per field: a damping half-flow
-  // carried out on the way. No numbers: Λ = I.
+  // carried out on the way. Empty: Λ = I.
   using FieldFactors = std::span<const double>;
 
   // ẑ, a second-order approximation at the midpoint, from z⁻ and ∇V(z⁻): the components that V depends on, and no

@@ -14,7 +14,7 @@ namespace seiche {
 // ∇V at the midpoints of the last steps, the newest first, with the lengths of these steps: what the predictor
 // "remembered" starts from.
 struct MidpointMemory {
-  static constexpr int depth = 3;  // two foretell the next one, and the third tells how well they do
+  static constexpr int depth = 3;  // two predict the next one, and the third tells how well
 
   std::vector<Vector> gradients = {};  // none where the predictor is another
   std::vector<double> lengths = {};

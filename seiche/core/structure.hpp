@@ -19,7 +19,7 @@ class PointwiseStructure {
   virtual ~PointwiseStructure() = default;
   virtual void apply(std::span<const double> z, std::span<const double> w, Derivative derivative,
                      std::span<double> out) const = 0;  // S'(z)w
-  // Do solutions without damping keep the mean of every field? Then projections on an energy keep it too.
+  // True if solutions without damping keep the mean of every field: then projections on an energy keep it too.
   virtual bool keeps_means() const = 0;
   virtual std::string text() const = 0;  // "−(u∂ + ∂u)/3"
 };

@@ -19,8 +19,8 @@ struct FrictionFormula {
 FrictionPointer position_friction(FrictionFormula c, const Grid& grid);
 
 // r(v, u, t, x), by the midpoint discrete gradient v⁺ = v − wh r(m), m = (v + v⁺)/2, at the middle of h: ½v² falls by
-// whr(m)m exactly. Where r rises with v there is one such v⁺; elsewhere one near v is taken, and NaN where there is
-// none. Where r is stiff, wh r'(v) ≫ 2, the velocity changes its sign from step to step instead of coming to rest: the
+// whr(m)m exactly. Where r rises with v there is one such v⁺; elsewhere one near v is taken, and NaN if none exists.
+// Where r is stiff, wh r'(v) ≫ 2, the velocity changes its sign from step to step instead of coming to rest: the
 // closed forms of frictions.hpp do not.
 FrictionPointer formula_friction(FrictionFormula r, const Grid& grid);
 

@@ -34,7 +34,7 @@ class CaseRun {
   void make_files();
   void describe(SavedRun& saved);
 
-  // Why it was interrupted, if not by somebody, and how it goes on.
+  // The report, with a message that says whether a time limit interrupted the run, and how it can be continued.
   RunReport with_way_on(RunReport report) const;
   RunReport with_notes(RunReport report) const;
   std::string summary(const RunReport& report);

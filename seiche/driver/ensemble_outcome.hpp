@@ -12,13 +12,13 @@ struct EnsembleOutcome {
   explicit EnsembleOutcome(const EnsembleResult& result);
 
   std::int64_t succeeded, failed, interrupted, replaced, drifted;
-  std::int64_t holds, violated, not_promised;  // a law that was kept up to a failure is none of these
+  std::int64_t holds, violated, not_promised;  // a law kept up to a failure counts in none of these
   std::string message;
-  bool is_written = true;  // is all on disk?
+  bool is_written = true;  // false: a file could not be written
 
   void fail_to_write(const std::string& reason);
   RunReport::Status status() const;  // failed, if one member is
-  bool is_remarkable() const;        // is there anything in the message that nobody should miss?
+  bool is_remarkable() const;        // members failed, broke a law, drifted or had steps replaced, or files are missing
   std::string law() const;           // "" where every member failed and none broke a law
 };
 

@@ -1,4 +1,4 @@
-// What a run leaves first when its time loop has ended: the files that nobody could write again.
+// What a run writes first when its time loop has ended: the files that cannot be made later from others.
 #pragma once
 
 #include <seiche/core/observer.hpp>

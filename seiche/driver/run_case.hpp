@@ -26,7 +26,7 @@ struct RunCaseOptions {
   // Before the first step, when nothing is refused any more: what there is to say. Returns a flag that ends the run
   // after the step in which it is set, or null.
   std::function<const std::atomic<bool>*(const std::vector<std::string>& notes)> begins = {};
-  // When the time loop has ended and files are written that nobody could write again. Returns a flag that asks to leave
+  // When the time loop has ended and the files are written that cannot be made later. Returns a flag that asks to leave
   // out what can be had later, or null.
   std::function<const std::atomic<bool>*()> ends = {};
   std::function<void(const std::string& note)> warn = {};  // what has gone wrong with files that can be had later

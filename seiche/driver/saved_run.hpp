@@ -50,10 +50,10 @@ Checkpoint read_checkpoint(const std::filesystem::path& file);
 std::string complaint_about(const Folder& folder, const SavedRun& run);
 
 // The newest checkpoint of a folder that is whole, and with whose beginning the files of the folder agree. `notes` gets
-// a sentence for each that is not. Throws Error, with these, where there is none.
+// a sentence for each that is not. Throws Error, with these, where no checkpoint is left.
 Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& notes);
 
 bool has_checkpoint(const std::filesystem::path& directory);
-void remove_checkpoints(const Folder& folder);  // fine if there is none
+void remove_checkpoints(const Folder& folder);  // does nothing where it holds none
 
 }  // namespace seiche

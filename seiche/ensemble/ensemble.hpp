@@ -43,7 +43,7 @@ struct MemberResult {
 
 struct EnsembleResult {
   std::vector<MemberResult> members;
-  bool side_by_side = false;  // were members stepped side by side?
+  bool side_by_side = false;  // members were stepped side by side
   std::string failure;        // what on_record threw, or ""
   double wall_seconds = 0.0;
 };

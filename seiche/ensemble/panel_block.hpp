@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// Steps that a member cannot take (V(ẑ) + C ≤ 0, a fixed point that does not contract, a number that is none) go to
-// the ordinary stepper of that member, which finds the way or says why there is none. Where a member has no
+// Steps that a member cannot take (V(ẑ) + C ≤ 0, a fixed point that does not contract, NaN or infinity) go to
+// the ordinary stepper of that member, which takes the step another way or says why it cannot. Where a member has no
 // propagator for the step, the ordinary steppers take over the whole block.
 class PanelBlock final : public MemberBlock {
  private:

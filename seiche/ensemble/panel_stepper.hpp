@@ -85,7 +85,7 @@ class PanelStepper {
   double step_size_ = 0.0;
   Decay none_, before_, after_;
   PanelValues quadratic_{};
-  bool is_measured_ = false;  // is quadratic_ that of the substep?
+  bool is_measured_ = false;  // quadratic_ is that of the substep
   PanelState first_, second_, work_;
   PanelState* state_ = &first_;  // before the step
   PanelState* next_ = &second_;  // after it

@@ -19,7 +19,7 @@ class PanelQuadratic {
  public:
   PanelQuadratic() = default;
   explicit PanelQuadratic(std::span<const Eigen::MatrixXd> matrices);
-  const double* diagonal() const { return diagonal_.rows() > 0 ? diagonal_.row(0) : nullptr; }  // null: A is none
+  const double* diagonal() const { return diagonal_.rows() > 0 ? diagonal_.row(0) : nullptr; }  // null: not diagonal
   void operator()(const double* x, PanelValues& sum) const;
 
  private:
@@ -37,7 +37,7 @@ struct PanelStep {
   BlockMap step;          // (z, g) → FMz + Fg
   BlockMap all_forces;    // g → Fg
   // The constant part of a half-flow, e^{−hD/2}; e^{−hD/4}, to be applied twice, where the rates do not commute with
-  // it. No rows if there is none.
+  // it. No rows without a constant part.
   BlockMap flow;
 };
 

@@ -6,7 +6,7 @@
 namespace seiche {
 
 // Quantiles interpolate linearly between order statistics (type 7 of Hyndman and Fan, 1996; the default of NumPy and
-// R); the standard deviation divides by the count less one. All are NaN for no numbers; the deviation is 0 for one.
+// R); the standard deviation divides by the count less one. All are NaN without values; the deviation is 0 for one.
 struct Statistics {
   double mean, standard_deviation, minimum, low, median, high, maximum;  // low, high: 5 % and 95 %
 };

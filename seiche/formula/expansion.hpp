@@ -14,11 +14,11 @@ inline constexpr double most_bits = 20'000;  // of a number whose powers still t
 double most_terms_multiplied_out(const Expression& expression);
 inline constexpr double most_terms = 2000;  // that are multiplied out in milliseconds
 
-// Is it a polynomial in `symbols` that can be multiplied out, with all symbols `beside` them, in a time that nobody
-// notices?
+// True for a polynomial in `symbols` that can be multiplied out, with all symbols `beside` them, in some
+// milliseconds.
 bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols, const Symbols& beside);
-// Does a polynomial in `symbols` hold a third or higher power about a point that is not the origin, as (q − 10)⁴ is?
-// Multiplied out, its terms are far larger than their sum, and its square is no stiffness that anybody feels.
+// True if a polynomial in `symbols` holds a third or higher power about a point that is not the origin, as (q − 10)⁴.
+// Multiplied out, its terms are far larger than their sum, and its quadratic term does not show how stiff it is.
 bool has_shifted_power(const Expression& expression, const GiNaC::lst& symbols);
 
 }  // namespace seiche

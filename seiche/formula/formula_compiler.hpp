@@ -19,7 +19,7 @@ FormulaPointer compile_formula(const std::string& text, const std::vector<std::s
 FormulaPointer formula_of(std::string text, const std::vector<std::string>& variables, FormulaProgram program);
 
 // ∂f/∂variable. `formula` must come from compile_formula or differentiate; throws Error for min and max, and where the
-// variable is none of the formula's.
+// variable is not one of the formula's.
 FormulaPointer differentiate(const Formula& formula, const std::string& variable);
 
 }  // namespace seiche

@@ -26,7 +26,7 @@ struct FormulaFunction {
 };
 
 std::span<const FormulaFunction> formula_functions();
-const FormulaFunction* find_formula_function(std::string_view name);  // null where there is none
+const FormulaFunction* find_formula_function(std::string_view name);  // null: no such function
 
 // The same for xⁿ with whole n, and for xᶜ.
 double mean_slope_of_whole_power(double a, double b, int n);

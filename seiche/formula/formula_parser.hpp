@@ -25,7 +25,7 @@ using FormulaConstants = std::map<std::string, double>;
 
 enum class FunctionsAllowed { all, differentiable };  // of what varies: of numbers alone, min(eps, 1) is a number
 
-// `advice` is asked about names that are none of these.
+// `advice` is asked about all other names.
 ParsedFormula parse_formula(std::string_view text, const std::vector<std::string>& variables,
                             const FormulaConstants& constants = {}, const NameAdvice& advice = {},
                             FunctionsAllowed allowed = FunctionsAllowed::all);

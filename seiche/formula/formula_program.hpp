@@ -1,5 +1,5 @@
 // A formula as instructions for a stack machine: evaluated in double, without allocation, from any number of threads.
-// Computer algebra objects are none of these things, so they are gone once a formula is compiled.
+// Computer algebra objects have none of these properties: a compiled formula holds none.
 #pragma once
 
 #include <seiche/formula/formula_function.hpp>
@@ -21,7 +21,7 @@ using FormulaProgram = std::vector<Instruction>;
 
 inline constexpr int formula_stack_size = 256;
 
-// Does it name a variable of which `is_asked(index)` holds?
+// True if it names a variable of which `is_asked(index)` holds.
 template <class IsAsked>
 bool names_variable(std::span<const Instruction> program, const IsAsked& is_asked) {
   for (const Instruction& i : program)

@@ -1,4 +1,4 @@
-// What is known about one hypothesis, how, and who stands against it.
+// One hypothesis of an energy law: its grade, how it was decided, and a witness if it fails.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 
 namespace seiche {
 
-// Does H never grow along exact solutions on [0, t_end], and with it the energy of every method? Needs M ⪰ 0,
+// Whether H never grows along exact solutions on [0, t_end], and with it the energy of every method. Needs M ⪰ 0,
 // sym(S) ⪯ 0 and the energy-compatible damping condition sym(P_H D) ⪰ 0 (paper (1.2)); each is decided mode by mode
 // from the stencils and from the form of V.
 LawPromise promise_energy_law(const Problem& problem, double t_end);

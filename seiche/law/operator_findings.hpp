@@ -22,7 +22,7 @@ struct SmallestEigenvalue {
   bool is_nonnegative() const;  // to round-off of the size
 };
 
-// Is a symmetric matrix positive semidefinite? Of the two, the one that fits the problem.
+// The evidence that a symmetric matrix is, or is not, positive semidefinite: of the two, the one that fits the problem.
 struct Semidefiniteness {
   std::optional<SmallestEigenvalue> over_modes = std::nullopt;         // on grids
   std::optional<NegativeDirection> negative_direction = std::nullopt;  // of matrices, where there is one

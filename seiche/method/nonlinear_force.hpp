@@ -19,7 +19,7 @@ class NonlinearForce {
   double evaluate(double t, Vector& z);           // z ← N(t, z), or ∇V(z); returns V(z)
   void evaluate(double t, Vector& z, Look look);  // the same, after a look at z and ∇V(z)
 
-  // The norm of f at a time, which a state and the forces at another time need not foretell; 0 without external forces.
+  // The norm of f at a time, which no state and no force at another time determines; 0 without external forces.
   double external(double t);
 
  private:

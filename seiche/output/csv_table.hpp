@@ -13,7 +13,7 @@ class CsvReader {
  public:
   explicit CsvReader(const std::filesystem::path& file);
   const std::vector<std::string>& names() const { return names_; }
-  bool next(std::vector<double>& row);  // false: there is none left
+  bool next(std::vector<double>& row);  // false: no row is left
 
  private:
   std::filesystem::path file_;
@@ -30,7 +30,7 @@ struct CsvTable {
   // Throws Error as CsvReader does, and for a table without a row.
   static CsvTable read(const std::filesystem::path& file);
   bool has(const std::string& name) const;
-  std::vector<double> column(const std::string& name) const;  // throws Error if there is none
+  std::vector<double> column(const std::string& name) const;  // throws Error where it is missing
 };
 
 }  // namespace seiche

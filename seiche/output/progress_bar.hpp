@@ -11,7 +11,7 @@ namespace seiche {
 class ProgressBar {
  public:
   explicit ProgressBar(std::FILE* terminal);
-  // Is stderr a terminal, and may it be drawn on?
+  // True if stderr is a terminal that may be drawn on.
   static bool is_wanted(bool quiet);
 
   void begin() { begin_ = Clock::now(); }  // anew: what came before was no work that it shows

@@ -16,8 +16,8 @@ struct PointFormula {
   FormulaPointer value;
   std::vector<FormulaPointer> gradient;  // with respect to each field
   bool uses_place = false;
-  int degree = 0;                             // as a polynomial in the fields; 0: it is none
-  int homogeneity = 0;                        // d if W(xu) = xᵈW(u); 0: there is none
+  int degree = 0;                             // as a polynomial in the fields; 0: not one
+  int homogeneity = 0;                        // d if W(xu) = xᵈW(u); 0: no such d
   bool grows_outward = false;                 // u·∇W(u) ≥ 0 for all u, by the form of W
   std::vector<bool> grows_outward_from = {};  // the same of the fields from each one on, whatever the others are
 };

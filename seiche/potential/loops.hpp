@@ -16,14 +16,14 @@
 
 namespace seiche {
 
-// Can W be evaluated at eight points at a time?
+// W can be evaluated at eight points at a time.
 template <class W>
 concept TakesLanes = requires(const W w, Lanes u) {
   { w.value(u) } -> std::same_as<Lanes>;
   { w.slope(u) } -> std::same_as<Lanes>;
 };
 
-// Is W made of elementary functions, and evaluated at a block of points by vector functions?
+// W is made of elementary functions, and evaluated at a block of points by vector functions.
 template <class W>
 concept TakesBlocks = requires(const W w, const double* u, double* out, std::size_t n) {
   w.values(u, out, n);

@@ -14,7 +14,7 @@ struct OwnPotential {
   std::function<double(std::span<const double> u)> value;
   std::function<void(std::span<const double> u, std::span<double> gradient)> gradient;
   Index fields = 1;            // how many consecutive ones u holds
-  bool grows_outward = false;  // is u·∇V(u) ≥ 0 for every u? Only the user knows
+  bool grows_outward = false;  // u·∇V(u) ≥ 0 for every u, which only the user knows
 };
 
 // The mean gradient is a Gauss quadrature with four nodes, moved along b − a to mean·(b − a) = V(b) − V(a) where it

@@ -1,4 +1,4 @@
-// When a run shows everything that evolves in it to somebody who keeps it, so that it can go on from there.
+// When a run hands over everything that evolves in it to a keeper of checkpoints, so that it can go on from there.
 #pragma once
 
 #include <seiche/core/control/archive.hpp>
@@ -16,7 +16,7 @@ class Checkpoints {
   enum class Wish { none, save, save_and_stop };
 
   virtual ~Checkpoints() = default;
-  // After n steps; costs a comparison as long as nobody could want one. Keepers that follow a clock, or wait for a
+  // After n steps; costs a comparison as long as none can be due. Keepers that follow a clock, or wait for a
   // signal, look at it a hundred times a second at most.
   Wish wish(std::int64_t n) { return n < next_look_ ? Wish::none : look(n); }
   // run(archive) writes the run, behind whatever is in the archive.

@@ -29,9 +29,9 @@ class EventFinder {
   using Inside = FunctionRef<void(double t, Vector& z)>;  // z ← the solution at a time inside the last step
 
   // The first events inside the last step, located on the solution inside it to round-off in t (TOMS 748). Throws Error
-  // where an event function is no number.
+  // where an event function is not finite.
   Found find(const State& state, Inside inside);
-  bool any_crossing(const State& state, Inside inside);  // is there any, without locating it?
+  bool any_crossing(const State& state, Inside inside);  // true if there is one; does not locate it
 
  private:
   double value(std::size_t i, double t, const Vector& z) const;

@@ -27,9 +27,9 @@ class Recording {
   std::int64_t steps() const { return state_.n - first_n_; }
 
   void count(const StepReport& step);  // its work, whatever came of it
-  void enter(const StepReport& step);  // of a step that stands: its ledger, and was it replaced?
+  void enter(const StepReport& step);  // of a step that stands: its ledger, and whether it was replaced
   bool anyone_due() const;
-  // Energy of the state, judged and shown to whom it is due; false if there is none: then the run has failed.
+  // Energy of the state, judged and shown to the observers that are due; false if it is not finite: the run has failed.
   bool record(bool last);
   bool check_finite();  // the same look at z alone
 
@@ -49,7 +49,7 @@ class Recording {
   RunReport finish(const std::function<std::string()>& objection, const std::string& remark);
   void abandon(const std::string& reason);  // an Error of a propagator, a full disk
 
-  // Is the run to stop between two steps? `run` writes it for whoever keeps checkpoints (null: nobody) before that, and
+  // True if the run is to stop between two steps. `run` writes it to `checkpoints` (null: not kept) before that, and
   // whenever one is wanted; never where the state is not finite.
   bool pauses(bool stops, Checkpoints* checkpoints, FunctionRef<void(Archive&)> run) const;
   // The state, and what a run has counted and judged so far. `objection` as for `finish`: what has been met stays met

@@ -1,4 +1,4 @@
-// Will a run with variable steps come to its end?
+// Detects that a run with variable steps will not come to its end.
 #pragma once
 
 #include <seiche/core/control/archive.hpp>
@@ -13,7 +13,7 @@ namespace seiche {
 
 // Where a solution blows up, or a method cannot have the error it is asked for, steps shrink or stay so short that a
 // run never ends, and none of them fails. Three signs, looked at whenever the number of attempts has doubled, so that
-// layers, pulses and near collisions, which are over in a share of the run, are none
+// layers, pulses and near collisions, which are over in a share of the run, show none
 // (docs/decisions/0004-when-a-run-ends.md):
 //   runaway    doublings of the work lead less and less far, to a sum that ends before t_end;
 //   collapse   three quarters of the work led nowhere beside the first quarter;

@@ -26,9 +26,9 @@ struct MethodChoice {
 struct MethodRequest {
   double tolerance = 0.0;  // of values at the end; 0 where steps have one size, then as for 1e-6
   double duration = 0.0;   // of the run; 0: not known
-  bool by_kicks = false;   // may a method that asks for no exponential have the backend that suits it?
+  bool by_kicks = false;   // a method that asks for no exponential may have the backend that suits it
   bool by_krylov =
-      false;  // are exact flows Krylov spaces, which take as many products as kicks, or more, however long a step is?
+      false;  // exact flows are Krylov spaces, which take as many products as kicks, or more, however long a step is
 };
 
 // The numbers it decides by are measurements (docs/performance.md, The choice of "auto").

@@ -1,4 +1,4 @@
-// Which hypotheses of the energy laws a problem meets, how that is known, and who stands against one that fails.
+// Which hypotheses of the energy laws a problem meets, how that was decided, and a witness against one that fails.
 #pragma once
 
 #include <seiche/core/run_report.hpp>

@@ -1,4 +1,4 @@
-// Does a step size suit the method: its explicit parts, its splitting, and the work of its exponentials?
+// Whether a step size suits the method: its explicit parts, its splitting, and the work of its exponentials.
 #pragma once
 
 #include <seiche/simulation/simulation.hpp>

@@ -49,7 +49,7 @@ class PreparedRun {
 
  private:
   RunPlan plan_;
-  bool varies_;  // does damping change in time, or with the state?
+  bool varies_;  // damping changes in time, or with the state
   std::shared_ptr<Simulation> simulation_;
   AdaptiveStepper* adaptive_;
   std::vector<std::string> notes_;

@@ -58,7 +58,7 @@ class Simulation {
   State state_;
 };
 
-// Is the energy law of its method promised up to t_end, and why (not)? Options of the method may give it up.
+// Whether the energy law of its method is promised up to t_end, and why (not). Options of the method may give it up.
 LawPromise promise_energy_law(const Simulation& simulation, double t_end);
 
 }  // namespace seiche

@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-// From one reading to the next: the largest increase, 0 of fewer than two readings, and NaN where one is no number.
+// From one reading to the next: the largest increase, 0 of fewer than two readings, and NaN where one is NaN.
 struct LargestIncreases {
   double H = 0.0, modified = 0.0;
   bool of_all = true;  // every reading of the run is in its files; else each increase is that of several steps

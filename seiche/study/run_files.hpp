@@ -41,7 +41,7 @@ struct RunFiles {
   std::string law_reason, theorem;  // why (not); "" if none is promised
 };
 
-// Throws Error where `directory` is none of a single finished run, saying what is missing.
+// Throws Error where `directory` is not that of a single finished run, saying what is missing.
 RunFiles read_run(const std::filesystem::path& directory);
 
 // What titles call the run: its problem, or its folder where the problem was written down and has no name of its own.

@@ -1,4 +1,4 @@
-// Is this damping physical? The decay and the frequency that one step of a method gives each mode of the linear part,
+// The numerical damping: the decay and the frequency that one step of a method gives each mode of the linear part,
 // against those of the equation.
 #pragma once
 
@@ -60,7 +60,7 @@ struct SpectrumVerdict {
   double relative = 0.0;   // that of worst_relative
   double round_off = 0.0;  // the largest, of the rates
   std::size_t aliased = 0, unresolved = 0;
-  // Does every mode decay as in the equation, and is that known?
+  // True if every mode is known to decay as in the equation.
   bool is_physical() const { return most_spurious == nullptr && most_missing == nullptr && unresolved == 0; }
 };
 SpectrumVerdict judge(const Spectrum& spectrum);  // points into `spectrum`

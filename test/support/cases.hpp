@@ -38,7 +38,7 @@ std::vector<NamedProblem> written_cases();
 // Every problem that each method is to be tried on: all of the above and a few more.
 std::vector<NamedProblem> all_cases();
 
-// Does the method apply (whole methods need the damping in S, splitting ones a constant S)?
+// True if the method applies (whole methods need the damping in S, splitting ones a constant S).
 bool applies(std::string_view method, const Problem& problem);
 // The backends that take it: modal no matrices, sparse no spectral derivatives.
 std::vector<BackendEntry> backends_for(const Problem& problem);

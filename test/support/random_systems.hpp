@@ -1,4 +1,4 @@
-// Problems that nobody has thought of: random S, M, D, V and z₀ that meet the hypotheses of the energy law.
+// Problems drawn at random: S, M, D, V and z₀ that meet the hypotheses of the energy law.
 #pragma once
 
 #include <seiche/core/problem.hpp>

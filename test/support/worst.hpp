@@ -7,7 +7,7 @@
 
 namespace seiche::test {
 
-// std::max(x, NaN) is x, and so may be Eigen's largest entry: a test of either passes on results that are no numbers.
+// std::max(x, NaN) is x, and so may be Eigen's largest entry: a test of either passes on results that are NaN.
 // Here NaN is the worst there is.
 inline double worse(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 

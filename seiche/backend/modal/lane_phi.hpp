@@ -26,7 +26,7 @@ struct Halvings {
 
   [[gnu::always_inline]] inline explicit Halvings(const Lanes& size) {
     constexpr std::int64_t bias = 1023, mantissa_bits = 52;
-    constexpr std::int64_t most_halvings = 1000;  // infinity and what is no number among them
+    constexpr std::int64_t most_halvings = 1000;  // for infinity and NaN too
     const Lanes twice = 2.0 * size;
     LaneIntegers bits;
     static_assert(sizeof bits == sizeof twice);

@@ -40,7 +40,7 @@ struct PhiColumn {
   Index field;
 };
 
-// Can the sums be filled in this way? Blocks of up to 2 × 2, and φ-functions of orders that are in use; complex 2 × 2
+// True if the sums can be filled so: blocks of up to 2 × 2, and φ-functions of orders that are in use; complex 2 × 2
 // blocks where hL is not large, since the moduli of two eigenvalues are not known from the determinant.
 bool fits_lanes(const ModeBlockArrays& blocks, const PhiRows& rows, double h);
 

@@ -12,8 +12,8 @@ System sparse_system(const Problem& problem, const BackendOptions& options);
 // A bound of the fastest rate of a problem, the spectral radius of SM − D₀. Throws Error as sparse_system.
 double sparse_rate(const Problem& problem);
 
-// Has its system Kicks: is it of the form q̇ = p, ṗ = −Kq − ∇V(q) with differences on a grid, and V of all positions or
-// none?
+// True if its system has Kicks: q̇ = p, ṗ = −Kq − ∇V(q) with differences on a grid, and V of all positions or
+// of none.
 bool has_grid_kicks(const Problem& problem);
 
 // Of matrices, and where propagators are factorised of their factors.

@@ -11,7 +11,7 @@ namespace seiche {
 
 std::vector<std::string> case_sections();
 
-// Of one section; `problem` has its own, and null is a problem that nobody knows yet.
+// Of one section; `problem` has its own, and null is a problem that is not known yet.
 std::vector<std::string> case_keys(const std::string& section, const ProblemEntry* problem);
 
 // Sentences for what stands where it means nothing. What a word means in other programs comes before what it looks

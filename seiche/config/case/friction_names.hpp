@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// v, u, t, x, y, z, in the order of FrictionFormula's arguments; places that are not there have names that nobody can
-// write.
+// v, u, t, x, y, z, in the order of FrictionFormula's arguments; without places x, y and z are "", which no formula can
+// name.
 std::vector<std::string> friction_variables(bool has_place = true);
 
 // Throws Error with the place in the formula for a name that means nothing, and for v or u where a field of that name

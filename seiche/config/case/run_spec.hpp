@@ -94,7 +94,7 @@ SimulationOptions simulation_options(const RunSpec& spec);
 // Those that the case names: initial states and matrices, each once.
 std::vector<std::filesystem::path> input_files(const RunSpec& spec);
 
-// What the case and the problem have to say before a run, and a step size that nobody asked for.
+// Notes before a run on the case and the problem, and on a step size that was chosen for the case.
 std::vector<std::string> case_notes(const RunSpec& spec, const Problem& problem);
 
 // Where the method is "auto": what Simulation chooses for the case takes its place, with the reason among the notes.

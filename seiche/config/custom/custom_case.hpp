@@ -25,7 +25,7 @@ void read_custom_key(CustomProblem& custom, const std::string& key, const CaseVa
 // values as defaults; its initial state is zero.
 ProblemEntry custom_entry(const CustomProblem& custom, bool has_grid);
 
-// Are all formulas, with these values of the parameters and tried on a small grid, what they should be? Throws as
+// Checks all formulas, with these values of the parameters and on a small grid. Throws as
 // custom_problem does.
 void try_formulas(const CustomProblem& custom, const ParameterValues& values);
 

@@ -23,7 +23,7 @@ OperatorFormula compile_operator(const std::string& key, const std::string& text
                                  Discretisation discretisation, const FormulaConstants& constants, bool may_vary,
                                  const NameAdvice& advice = {});
 
-// Are two rates in t, x, y, z the same function, as far as algebra shows it?
+// True if two rates in t, x, y, z are the same function, as far as algebra shows it.
 bool is_one_rate(const std::string& a, const std::string& b, const FormulaConstants& constants);
 
 }  // namespace seiche

@@ -1,4 +1,4 @@
-// Does an energy fall when its fields shrink together?
+// Tests whether the form of an energy shows that it falls when its fields shrink together.
 #pragma once
 
 #include <seiche/formula/formula_expression.hpp>

@@ -13,7 +13,7 @@ namespace seiche {
 Vector read_initial_file(const std::filesystem::path& file, const Problem& problem);
 
 // What to say before a run from t_start that begins with such a file, where z is not all that a continued run would
-// know; else "". `written_at`: the time of the state in the file, NaN where nobody knows.
+// know; else "". `written_at`: the time of the state in the file, NaN where that is unknown.
 std::string lost_between_runs(Simulation& simulation, double t_start, double written_at);
 
 }  // namespace seiche

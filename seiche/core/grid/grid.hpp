@@ -30,7 +30,7 @@ struct GridAxis {
 // Points are numbered with the last axis running fastest.
 struct Grid {
   std::vector<GridAxis> axes = {GridAxis{}};
-  // Points that lie on no grid: the one axis only numbers them. They are at `nodes`, or nowhere if there are none.
+  // Points that lie on no grid: the one axis only numbers them. They are at `nodes`, or nowhere if that is empty.
   bool only_numbers = false;
   std::vector<Place> nodes = {};
   // What stands between nodes, for pictures: both ends of every bar, as numbers of `nodes` and behind them of

@@ -22,7 +22,7 @@ void for_entries(const SparseMatrix& a, const Visit& visit) {
 struct SparseOperators {
   SparseMatrix S = {}, M = {}, D = {};  // D: the constant part of the damping
 
-  bool damping_moves(Index begin, Index size) const;  // has D an entry in these rows?
+  bool damping_moves(Index begin, Index size) const;  // D has an entry in these rows
 
   // Throws Error, with the entries or the direction that show it, where a matrix is not square, has another size than
   // M, or holds a number that is not finite, and where M is not symmetric or M ⪰ 0 fails. An S that feeds is a problem

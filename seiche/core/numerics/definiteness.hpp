@@ -1,4 +1,4 @@
-// Is a sparse symmetric matrix positive semidefinite, and if not, who says so?
+// Tests a sparse symmetric matrix for positive semidefiniteness; returns a direction of negative curvature if it fails.
 #pragma once
 
 #include <seiche/core/grid/sparse_operators.hpp>

@@ -12,10 +12,10 @@
 
 namespace seiche {
 
-// The caller is the first of the team. Everybody begins with a share of the blocks that lie together, the same in
+// The caller is the first of the team. Each thread begins with a share of the blocks that lie together, the same in
 // every loop of as many, so that data stays in the caches where it is; whoever is done takes blocks from the end of
 // another's.
-// So nobody waits for a thread that has no core to run on, but for the one block that it may be in the middle of.
+// So a loop waits for a thread that has no core to run on only until the one block is done that it may be in.
 class ThreadTeam {
  public:
   // Where the system has no more threads to give, the team is smaller.
@@ -24,7 +24,7 @@ class ThreadTeam {
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-  // Is the calling thread in the middle of a block? Then loops inside it are its own, and no team is to be asked for.
+  // True if the calling thread is in the middle of a block: loops inside it are its own, and need no team.
   static bool is_in_a_block();
   // The calling thread's own, made when it is first asked for and kept while the same number is.
   static ThreadTeam& of_caller(int threads);

@@ -1,4 +1,4 @@
-// Files that a user names, looked at before they are opened: a pipe that nobody writes to would be waited for, and a
+// Files that a user names, looked at before they are opened: a pipe without a writer would be waited for, and a
 // device has no end.
 #pragma once
 

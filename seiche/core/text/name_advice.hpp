@@ -20,7 +20,7 @@ struct FormulaContext {
   Kind kind;
   std::vector<std::string> fields;
   Index axes = 0;                 // of the grid; 0: there is no place
-  bool takes_parameters = false;  // may the user name numbers of his own?
+  bool takes_parameters = false;  // the user may name numbers of their own
 };
 
 NameAdvice advice_in(FormulaContext context);

@@ -16,7 +16,7 @@ std::string shortened_path(std::string_view path, std::size_t most = 120);
 // with the name of the program before it, its line has at most 400 bytes.
 std::string one_line(std::string_view sentence, std::size_t most = 380);
 
-// Is this text in UTF-8, as what is written to TOML and JSON must be?
+// True if the text is in UTF-8, as what is written to TOML and JSON must be.
 bool is_utf8(std::string_view text);
 
 }  // namespace seiche

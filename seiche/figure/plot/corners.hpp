@@ -1,4 +1,4 @@
-// Curves through states that are too far apart: nobody shall take a corner of the picture for one of the solution.
+// Draws curves through states too far apart as dots, so that corners of the picture are not taken for the solution's.
 #pragma once
 
 #include <seiche/figure/plot/plot.hpp>

@@ -19,7 +19,7 @@ std::vector<Index> spread(Index count, Index most);
 // Indices of points for the markers of curve `index` of `count`.
 std::vector<std::size_t> staggered(const std::vector<double>& t, int index, int count);
 
-// True if the reference (the last curve if there is none of that name) stays positive and falls a hundredfold.
+// True if the reference (the last curve if none has that name) stays positive and falls a hundredfold.
 bool falls_by_decades(const std::vector<Curve>& energies);
 
 // The largest value in each of `envelope_stretches` stretches, each where it is reached: for errors that change sign.

@@ -15,7 +15,7 @@ struct ColourScale {
   double low = 0, high = 1;
   bool diverging = false;
   double beyond = 0;                  // the largest size of a value, where the scale ends before it; else 0
-  bool above = false, below = false;  // then: are there values beyond its upper end, its lower one?
+  bool above = false, below = false;  // then: values lie beyond its upper end, its lower one
 };
 
 struct MapPanel {

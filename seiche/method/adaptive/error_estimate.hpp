@@ -16,9 +16,8 @@ namespace seiche {
 // stepper.
 std::unique_ptr<AdaptiveStepper> with_error_estimate(const System& system, std::unique_ptr<Stepper> stepper);
 
-// For a method of order p, the errors of which no other formula knows: a step of two halves, beside one of the whole
-// length that is thrown away; the difference over 2ᵖ − 1 is the error of the two. Between steps, a shorter step of the
-// same method from the left end of either half.
+// Step doubling (Richardson), for a method of order p without an estimate of its own: error ≈ ‖z_h − z_{h/2}‖/(2ᵖ − 1);
+// the two half steps are kept. Between steps, a shorter step of the same method from the left end of either half.
 std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<ProjectedStepper> stepper,
                                                     int order);
 std::unique_ptr<AdaptiveStepper> with_step_doubling(const System& system, std::unique_ptr<Stepper> stepper, int order);

@@ -21,7 +21,7 @@ namespace sav_algebra {
 
 // By how much C and r² rise together, which leaves H̃ as it is: where V + C or r² has become small against the energy,
 // or against `against_drift`, the V + C at which the drift of r² does no harm. A large positive V(ẑ) is no reason to:
-// at steps far too long ẑ is meaningless, and a C to match it would drown H̃ in round-off.
+// at steps far too long ẑ is meaningless, and with a C to match it H̃ would lose its digits to round-off.
 [[gnu::always_inline]] inline double rise(const SavAuxiliary& a, double v_mid, double quadratic_energy,
                                           double against_drift) {
   constexpr double tiny = 1e-300;

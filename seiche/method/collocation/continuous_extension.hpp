@@ -33,7 +33,7 @@ class ContinuousExtension {
   // The difference at the end, in the coordinates of the state; a reference to scratch. history_h must not be 0.
   const Vector& defect(const Step& step, std::span<const Vector> forces_before, std::span<const Vector> forces);
   // m ← h²∫₀¹ (1 − θ)d(θ) dθ of the difference d of the two polynomials, as a force. With L = 0 the defect above is
-  // none, since Gauss's rule integrates d, which vanishes at its nodes, exactly: what is left of the error is N′m.
+  // zero, since Gauss's rule integrates d, which vanishes at its nodes, exactly: what is left of the error is N′m.
   void moment(const Step& step, std::span<const Vector> forces_before, std::span<const Vector> forces, Vector& m);
 
  private:

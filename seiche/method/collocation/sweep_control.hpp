@@ -9,7 +9,7 @@ namespace seiche {
 class SweepControl {
  public:
   // `from_history`: the first guess extrapolates the forces of the step before. Otherwise 2s sweeps are made.
-  // `may_save`: is error() below to be asked for at all?
+  // `may_save`: fewer sweeps may do, where error() below says so.
   SweepControl(int stages, bool from_history, bool may_save)
       : stages_(stages), from_history_(from_history), may_save_(from_history && may_save && stages > 2) {}
 
@@ -27,7 +27,7 @@ class SweepControl {
     return !converges || change / before * change > small * error();
   }
 
-  // The sweep to come?
+  // True if the next sweep may be the last.
   bool may_be_last() const { return sweeps_ + 1 >= (may_save_ ? least : from_history_ ? stages_ : 2 * stages_); }
 
  private:

@@ -12,7 +12,7 @@
 
 namespace seiche {
 
-// May ẑ be a solution? `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN; a
+// True if ẑ may be a solution. `size`: |zⁿ| + h|force|, by what is known of the force before the step. False for NaN; a
 // solution that has faded until its square underflows is one.
 inline bool may_be_solution(const Space& space, const Vector& z, double size) {
   constexpr double gross_growth = 1e3;
@@ -30,7 +30,7 @@ class BaseStep {
   virtual std::string_view remedy() const { return "a smaller h"; }
 
   // Of the step just computed, where a projection is a part of it: how often that found nothing better than bisection,
-  // and did it move anything far?
+  // and whether it moved anything far.
   virtual int fallbacks() const { return 0; }
   virtual bool moved_far() const { return false; }
 

@@ -12,8 +12,8 @@ namespace seiche {
 struct EnergyTarget {
   double H = 0.0;        // E*
   double cap = 0.0;      // no more than this is accepted
-  bool strong = false;   // does damping act so strongly in the step that only the guard is left?
-  bool widened = false;  // does E* show that the quadratures missed some of the dissipation?
+  bool strong = false;   // damping acts so strongly in the step that only the guard is left
+  bool widened = false;  // E* shows that the quadratures missed some of the dissipation
   double terms = std::numeric_limits<double>::infinity();  // the sizes of the terms of Hⁿ, where they bound round-off
 };
 

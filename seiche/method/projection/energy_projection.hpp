@@ -1,4 +1,4 @@
-// The last part of a step that keeps the law by projection: the point near ẑ where H is what it is to be.
+// The last part of a step that keeps the law by projection: a point near ẑ with H = E*, on the line ẑ + λ(ẑ − Πẑ).
 #pragma once
 
 #include <seiche/method/projection/energy_interval.hpp>
@@ -40,7 +40,7 @@ class EnergyProjection {
   // H(0) > cap and H(z) > cap. H ≤ cap is meant up to round-off: of the terms of H at z, or where |½zᵀMz| + |V| has
   // grown by more than `gross_growth` over target.terms, those before the step, of so many of these.
   Outcome project(Vector& z, const EnergyTarget& aim);
-  // Was z, which came out of it, moved by more than a tenth of its length? Moves of accurate steps are of the size of
+  // True if z, which came out of it, was moved by more than a tenth of its length; accurate steps move it by about
   // their error.
   bool moved_far(const Outcome& outcome, const Vector& z) const;
 

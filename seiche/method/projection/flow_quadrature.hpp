@@ -21,8 +21,8 @@ class FlowQuadrature {
 
   // The quadrature of Q along x minus its integral; 0 where that is no more than round-off of terms of H of this size.
   double miss(double h, const Vector& z, const Vector& n, double terms);
-  // Do the nodes follow the fastest rate of the flow? Then what they miss is far less than what a rule of fewer nodes
-  // does, and nobody need ask. With m nodes the error is of the order of (m!)⁴/((2m + 1)(2m)!³) (2hρ)²ᵐ for a rate ρ.
+  // True if the nodes follow the fastest rate of the flow: then they miss far less than a rule of fewer nodes does, and
+  // `miss` is not needed. With m nodes the error is of the order of (m!)⁴/((2m + 1)(2m)!³) (2hρ)²ᵐ for a rate ρ.
   bool resolves(double h) const { return h * phi_.rate() <= 2; }
   void prepare(double h) {  // so that `miss` allocates nothing
     if (!resolves(h)) error(h);

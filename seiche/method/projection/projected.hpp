@@ -34,7 +34,7 @@ class Projected {
     double energy_terms = 0.0;  // of Hⁿ
     double displacement = 0.0;  // Euclidean norm of the projection
     double blur = 0.0;          // what of it round-off in H may have asked for: near rest, where H is flat, much
-    bool gained = false;        // has damping fed energy anywhere in it?
+    bool gained = false;        // damping fed energy somewhere in it
   };
   const Last& last() const { return last_; }   // the step taken last
   const Vector& before() const { return z_; }  // its zⁿ
@@ -67,7 +67,7 @@ class Projected {
   const PhiEvaluator& phi_;
   BaseStep& base_;
   EnergyLaw law_;
-  bool may_flow_freely_;  // does e^{hL}z leave out neither a force nor friction?
+  bool may_flow_freely_;  // e^{hL}z leaves out neither a force nor friction
   bool feeds_;            // Q is a form of z that is negative somewhere: H may rise in any step
   EnergyProjection projection_;
   StepCache<PhiMap> free_;  // e^{hL}z

@@ -47,7 +47,7 @@ class StepDissipation {
   struct Sum {
     double taken = 0.0;  // ∫Q − ∫∇Hᵀf
     double work = 0.0;   // ∫∇Hᵀf, what external forces give
-    // Is some integrand beyond round-off below zero? Then the energy-compatible damping condition fails, or a force
+    // Some integrand is beyond round-off below zero: then the energy-compatible damping condition fails, or a force
     // feeds: so much.
     bool negative = false;
     double gain = 0.0;
@@ -66,7 +66,7 @@ class StepDissipation {
   // sum += weight · the integrands at (t, z).
   void add(double t, const Vector& z, const Vector& potential_gradient, double weight, Sum& sum);
 
-  // Of kind `general`, but does Q follow from K = ½zᵀMz and V? With D = γI, S skew and V homogeneous of degree d, it is
+  // Of kind `general`, but Q follows from K = ½zᵀMz and V: with D = γI, S skew and V homogeneous of degree d, it is
   // γ(2K + dV): the ends of a step then cost no gradient and no transform, and the nodes between no gradient.
   bool follows_energies() const { return follows_energies_; }
   struct Energies {

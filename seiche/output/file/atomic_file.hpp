@@ -96,9 +96,9 @@ class AtomicFile {
 void write_file(const Folder& folder, const std::string& name, std::string_view text);
 void write_file(const std::filesystem::path& path, std::string_view text);
 
-// Fine if there is none.
+// Does nothing if `from` does not exist.
 void rename_file(const Folder& folder, const std::string& from, const std::string& to);
-// Fine if there is none; not where the lock of the folder is no longer ours.
+// Does nothing if it does not exist, or where the lock of the folder is no longer ours.
 void remove_file(const Folder& folder, const std::string& name) noexcept;
 
 // The end of the last line that has one; what is behind it was torn off by a full disk or the end of the program.

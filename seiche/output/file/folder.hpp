@@ -9,11 +9,11 @@ namespace seiche {
 
 class Folder {
  public:
-  explicit Folder(const std::filesystem::path& path);  // throws Error where it is none, or cannot be opened
+  explicit Folder(const std::filesystem::path& path);  // throws Error where it is not a folder, or cannot be opened
 
   const std::filesystem::path& path() const;  // by which it was opened
   int descriptor() const;
-  bool is_at_its_path() const;  // or does the path lead elsewhere by now?
+  bool is_at_its_path() const;  // false: the path leads elsewhere by now
   // Throws Error where the folder is gone, or the lock that was taken in it (FolderLock) is no longer there: then
   // another run may have taken the names.
   void require_lock() const;

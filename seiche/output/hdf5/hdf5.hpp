@@ -102,7 +102,7 @@ class Hdf5File {
 
 // Of a file or a data set. Texts are of variable length, in UTF-8.
 void set_attribute(Hdf5Handle::Id object, const std::string& name, std::string_view text);
-std::string text_attribute(Hdf5Handle::Id object, const std::string& name);  // "" if there is none
+std::string text_attribute(Hdf5Handle::Id object, const std::string& name);  // "" if it is missing
 
 // Dimension scales, by which xarray and NetCDF-4 know the axes: every data set that is no scale itself, with the
 // scales of its axes in their order.
