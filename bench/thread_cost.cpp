@@ -1,4 +1,4 @@
-// What two threads gain on an idle machine, and what they lose where every core has somebody else to serve as well: a
+// What two threads gain on an idle machine, and what they lose where every core has another program to run as well: a
 // step on one thread and on two, in turns, in wall-clock time.
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/klein_gordon.hpp>

@@ -46,7 +46,7 @@ double step_size(const std::string& text) {
   return h;
 }
 
-// Options of the case that some of the methods do not know, and by whom they are left out; "" if there are none.
+// Options of the case that some of the methods do not know, and by whom they are left out; "" if all know them.
 std::string options_left_out(const std::vector<std::string>& methods, const MethodOptions& given) {
   const MethodOptions defaults;
   std::vector<std::string> all;

@@ -40,7 +40,7 @@ bool is_ignored(int signal) {
 
 void handle_all(void (*handler)(int), int flags) {
   for (const int signal : {SIGINT, SIGTERM}) handle(signal, handler, flags);
-  // These come again, whether anybody has lost patience or not.
+  // The system may send these more than once: a second one is no request to end at once.
   if (!is_ignored(SIGHUP)) handle(SIGHUP, handler);
   handle(SIGXCPU, handler);
 }

@@ -177,7 +177,7 @@ Axis abscissa_axis(bool logarithmic, const std::vector<double>& x) {
   return from_zero ? axis_from_zero(tight.high) : tight;
 }
 
-// Moves zeros, which a logarithmic axis cannot show, to a line of their own; false if there are none.
+// Moves zeros, which a logarithmic axis cannot show, to a line of their own; false without zeros.
 bool draw_zeros(std::vector<Series>& all, Axis& y) {
   const AxisWithZero extended = with_zero_line(y);
   bool any = false;

@@ -54,7 +54,7 @@ const std::map<std::string, Folders> may_include = {
       "config", "study", "figure", "ensemble", "driver"}},
 };
 
-// Which folders may include a third-party header; the longest prefix decides. fmt is for everybody.
+// Which folders may include a third-party header; the longest prefix decides. fmt is for all folders.
 struct ThirdParty {
   std::string prefix;
   Folders folders;

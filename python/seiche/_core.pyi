@@ -52,7 +52,7 @@ class Solution:
     status: str
     message: str
     remarks: list[str]
-    """What nobody should miss: steps that were replaced, an energy that no solution has."""
+    """Warnings: steps that were replaced, an energy that no solution has."""
     ended_by_event: bool
     nfev: int
     steps: int

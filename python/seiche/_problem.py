@@ -364,7 +364,7 @@ def as_problem(given: "Problem | Case | str") -> "Problem":
 
 
 def require_start(given: Problem, *callers: str) -> None:
-    """Refuses a problem whose initial state nobody gave: its zeros would look like an answer."""
+    """Refuses a problem without a given initial state: its zeros would look like an answer."""
     if given._has_initial:
         return
     if given._text is None:
@@ -397,7 +397,7 @@ def refuse_other_names(options: Mapping[str, Any]) -> None:
 def run_case(given: "Problem | Case", options: Mapping[str, Any]) -> _core.Case:
     """The case of one run: what is given, over what the case file says, over the defaults."""
     for name, value in options.items():
-        if callable(value):  # an observer or events, where there are none
+        if callable(value):  # an observer or events, which a case does not take
             raise ValueError(f"unknown argument '{name}'")
     overrides = [override(_SECTIONS.get(k, f"method.{k}"), v) for k, v in options.items() if v is not None]
     if isinstance(given, Case):

@@ -18,7 +18,7 @@ namespace {
 struct CaseRun {
   std::string summary;
   std::vector<std::string> notes,
-      remarks;  // what there was to say before the run, and what nobody should miss after it
+      remarks;  // notes from before the run, and warnings after it
 };
 
 CaseRun with_result(CaseRun done, CaseResult result) {

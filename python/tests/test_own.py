@@ -196,7 +196,7 @@ def test_a_structure_that_feeds_is_solved_and_promised_nothing():
         assert r.energy[-1] > r.energy[0]
 
 
-def test_a_function_that_returns_no_number_is_a_type_error():
+def test_a_function_that_does_not_return_a_number_is_a_type_error():
     with pytest.raises(TypeError, match="V must return a number, but it returned <class 'str'>"):
         pendulums(V=lambda u: "x")
 

@@ -72,7 +72,7 @@ def test_what_makes_no_sense_is_a_value_error_in_a_sentence(call, sentence):
         lambda: duffing(friction={"kind": "cubik"}),
     ],
 )
-def test_no_sentence_speaks_of_a_file_that_nobody_wrote(call):
+def test_no_sentence_speaks_of_a_file_that_was_never_written(call):
     with pytest.raises(ValueError) as refused:
         call()
     assert "keywords" not in str(refused.value)

@@ -70,7 +70,7 @@ Error Error::under(std::string_view key) const {
 
 std::string nearest_name(std::string_view wanted, const std::vector<std::string>& names) {
   std::string best;
-  constexpr std::size_t longest = 1000;  // nobody wrote more by mistake, and the effort is that of all pairs of letters
+  constexpr std::size_t longest = 1000;  // longer is no misspelling, and the effort is that of all pairs of letters
   if (wanted.size() > longest) return best;
   std::size_t best_distance = farthest_help(wanted);
   for (const std::string& name : names) {

@@ -136,14 +136,14 @@ class OwnFlow final : public Friction {
     const double before = squares(v);
     own_.flow(t, h, w, q, v);
     const double after = squares(v);
-    if (!(after > before * (1 + 8 * epsilon))) return;  // or no number: the caller sees it
+    if (!(after > before * (1 + 8 * epsilon))) return;  // or NaN: the caller sees it
     fed_.store(t, std::memory_order_relaxed);
     const double scale = std::sqrt(before / after);
     for (double& x : v) x *= scale;
     corrections_.fetch_add(1, std::memory_order_relaxed);
   }
   bool uses_coordinates() const override { return own_.uses_coordinates; }
-  bool is_dissipative() const override { return false; }  // nobody knows: the run looks
+  bool is_dissipative() const override { return false; }  // not known: the run checks
   std::string feeds_at(double) const override { return ""; }
   std::string fed_at() const override {
     const double t = fed_.load(std::memory_order_relaxed);

@@ -75,7 +75,7 @@ void write_page(const fs::path& directory, bool ledger) {
   write_run_report(read_run(directory), history, {});
 }
 
-// For ParaView and for people, unless nobody waits for it any more. Returns why the page could not be written, or "".
+// Writes solution.xdmf and report.html until `leave` is set. Returns why the page could not be written, or "".
 std::string write_for_readers(const Folder& folder, const RunSpec& spec, const SolutionFile& solution,
                               const std::atomic<bool>* leave, const std::function<void(const std::string&)>& warn,
                               std::uint64_t& xdmf_every) {

@@ -138,7 +138,7 @@ class Run {
     publish(records);
   }
 
-  // Nobody waits long for the end after `stop`, and threads are started seldom; results do not depend on it.
+  // Short enough that a run ends soon after `stop`, long enough that threads start seldom; results do not depend on it.
   void set_batch_steps(std::chrono::duration<double> took) {
     constexpr double seconds = 0.1;
     if (took.count() < seconds / 2) batch_steps_ = std::min(2 * batch_steps_, std::max<std::int64_t>(1, grid_.steps));

@@ -14,7 +14,7 @@ struct Powers {
   PanelValues v_mid{}, quadratic{}, of_increment{}, of_force{};  // V(ẑ), zᵀMz, ĝᵀFMz, ĝᵀFĝ
 };
 struct Force {
-  PanelValues factor{}, rise{}, trouble{};  // of Fĝ; of C and r²; ≠ 0 where V(ẑ) + C ≤ 0 or is no number
+  PanelValues factor{}, rise{}, trouble{};  // of Fĝ; of C and r²; ≠ 0 where V(ẑ) + C ≤ 0 or V(ẑ) is not finite
 };
 
 SEICHE_MULTIVERSION void take_force(const Powers& __restrict powers, bool guarded, PanelState& __restrict next,

@@ -25,7 +25,7 @@ std::string power_of_ten(const std::string& scientific) {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_part_of_a_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; }
 
-// Length of the number in scientific notation that begins at `begin`; 0 if there is none, or if it is part of a word.
+// Length of the number in scientific notation that begins at `begin`; 0 where none begins, or if it is part of a word.
 std::size_t scientific_number(std::string_view text, std::size_t begin) {
   if (begin > 0 && (is_part_of_a_word(text[begin - 1]) || text[begin - 1] == '-')) return 0;
   std::size_t at = begin;

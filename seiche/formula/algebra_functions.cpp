@@ -8,8 +8,8 @@ namespace {
 
 using GiNaC::ex;
 
-// abs, its derivative sign, and sech are declared here. GiNaC writes |x|' as x/|x|, which is no number at 0 — and so
-// neither is the force of |q|³ at rest — and has no sech.
+// abs, its derivative sign, and sech are declared here. GiNaC writes |x|' as x/|x|, which is NaN at 0 — and so
+// is the force of |q|³ at rest — and has no sech.
 constexpr const char* own_abs = "magnitude";  // GiNaC warns of a second one with the same name
 
 ex function_of(unsigned serial, const ex& x) { return GiNaC::function(serial, x); }

@@ -94,7 +94,7 @@ FormulaPointer differentiate(const Formula& formula, const std::string& variable
 
   ParsedFormula derivative;
   derivative.program = derivative_program(*compiled, static_cast<std::size_t>(found - variables.begin()));
-  // A polynomial stays one; where f is none, its derivative is not asked.
+  // The derivative of a polynomial is one; that of another f is not examined.
   const auto& c = compiled->polynomial();
   std::optional<std::vector<double>> polynomial;
   if (c) {

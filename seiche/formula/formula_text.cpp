@@ -90,7 +90,7 @@ Error formula_error(std::string_view text, std::size_t position, std::string_vie
 }
 
 std::string hint_on_neighbours(std::string_view whole_name, const std::vector<std::string>& names) {
-  const std::string name = shortened(whole_name);  // one that is longer is none of theirs
+  const std::string name = shortened(whole_name);  // a longer one is not among them
   const auto known = [&](const std::string& other) {
     return std::find(names.begin(), names.end(), other) != names.end();
   };

@@ -73,7 +73,7 @@ class AdaptiveLoop {
     return true;
   }
 
-  // Is the run to stop here? It is saved before that, and whenever somebody wants it; but not behind a first step whose
+  // True if the run is to stop here. It is saved before that, and at every request; but not behind a first step whose
   // error is not known yet.
   bool pauses() {
     const bool stops = options_.stop && options_.stop->load(std::memory_order_relaxed);

@@ -53,7 +53,7 @@ class FixedLoop {
     return true;
   }
 
-  // Is the run to stop here? It is saved before that, and whenever somebody wants it.
+  // True if the run is to stop here. It is saved before that, and at every request.
   bool pauses() {
     const bool stops = options_.stop && options_.stop->load(std::memory_order_relaxed);
     return recording_.pauses(stops, checkpoints_, [this](Archive& a) { archive(a); });

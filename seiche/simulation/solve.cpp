@@ -36,7 +36,7 @@ void validate(const Problem& problem, const SolveOptions& o) {
       throw Error("t_eval holds {}, which is outside the run from {} to {}", t, o.t_start, o.t_end);
 }
 
-// Of what is recorded; with variable steps nobody knows.
+// Of what is recorded; not known with variable steps.
 void require_memory(const Problem& problem, const SolveOptions& o) {
   const double steps = o.tolerance ? 0.0 : (o.t_end - o.t_start) / o.h;
   const double recorded =

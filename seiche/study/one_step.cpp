@@ -38,7 +38,7 @@ class FrozenFieldRate final : public FieldRate {
 };
 
 // ∂R/∂v at rest and t = 0, of each point, times w: what friction adds to γ there. Nothing where R has no such
-// derivative (it jumps, or is no number), or where components of a velocity have slopes of their own.
+// derivative (it jumps, or is not finite), or where components of a velocity have slopes of their own.
 std::optional<Vector> slope_of_friction(const Problem& problem, const Momenta& p) {
   constexpr double small = 1e-100;  // beside it v|v| and v³ are nothing
   const Index n = problem.grid.unknowns();

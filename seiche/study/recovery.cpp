@@ -84,7 +84,7 @@ class Rescue {
     if (!has("case.toml")) throw Error("{} holds no run: there is no case.toml in it", directory_.string());
     return directory_ / "case.toml";
   }
-  // A link under such a name leads to a file that is none of the run.
+  // A link under such a name leads to a file that is not the run's.
   bool has(const char* name) const {
     std::error_code not_there;
     return fs::is_regular_file(fs::symlink_status(directory_ / name, not_there));
@@ -200,7 +200,7 @@ class Rescue {
     nlohmann::ordered_json json = nlohmann::ordered_json::parse(summary_json(identity, report));
     json["status"] = "unfinished";
     if (spec_.tolerance) json["steps"] = nullptr;
-    json["counts"] = nullptr;  // nobody has counted to the end
+    json["counts"] = nullptr;  // the counts up to the end are not known
     write_file(folder_, "summary.json", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     found_.saved.emplace_back("summary.json, with the status unfinished");
   }

@@ -41,7 +41,7 @@ class CheckpointCli : public test::Cli {
     return fs::last_write_time(directory / "out" / name, none);
   }
   bool computes() const { return has("energy.csv.partial") && fs::file_size(directory / "out/energy.csv.partial") > 0; }
-  // What is there is what a run leaves that nobody stops.
+  // What is there is what a run leaves that is never stopped.
   void expect_whole(const std::string& more = "") const {
     if (!fs::exists(directory / "whole")) {
       ASSERT_EQ(seiche("run case.toml --quiet --out whole --set " + keys() + more).exit, 0);
@@ -205,7 +205,7 @@ TEST_F(CheckpointCli, HoldsTheCaseWhateverBecameOfTheFile) {
     EXPECT_EQ(resumed.exit, 0) << way << resumed.err;
     EXPECT_THAT(resumed.err, HasSubstr("case.toml was")) << way;
     EXPECT_EQ(text("out/case.toml"), whole) << way;
-    EXPECT_EQ(has("case_before_resume.toml"), way != "rm F") << "what somebody wrote is kept";
+    EXPECT_EQ(has("case_before_resume.toml"), way != "rm F") << "what the user wrote is kept";
     EXPECT_EQ(seiche("audit out").exit, 0) << way << text("stdout.txt");
   }
 }

@@ -132,7 +132,7 @@ TEST_F(HostileInput, EntriesAtOnePlaceAddUpAndThatIsSaid) {
   EXPECT_THAT(seiche("run case.toml --out out").err, Not(HasSubstr("several entries")));
 }
 
-TEST_F(HostileInput, TwoSignsMakeNoNumber) {
+TEST_F(HostileInput, TwoSignsAreNotANumber) {
   write_matrices(market + "2 2 2\n1 1 +-1\n2 2 1\n");
   EXPECT_THAT(refused_in_a_line("check case.toml"), HasSubstr("M.mtx:3: '+-1' is not a number"));
   write_matrices(market + "2 2 2\n1 1 +1\n2 2 1\n");

@@ -101,7 +101,7 @@ TEST_F(Survival, WhicheverWriteFailsTheRowsBeforeItAreReadable) {
   EXPECT_GT(most, whole.count() / 2) << "late writes failed too";
 }
 
-// In a checkpoint too, whose rows nobody takes for damaged ones.
+// In a checkpoint too, whose rows are not called damaged.
 TEST_F(Survival, ADiskThatIsFullIsCalledSo) {
 #if defined(SEICHE_SANITIZED)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";
@@ -474,7 +474,7 @@ TEST_F(Survival, PicturesGoThroughNoLink) {
   EXPECT_EQ(std::distance(fs::directory_iterator(directory / "victim"), fs::directory_iterator()), 1);
 }
 
-// The loader takes an empty entry for the current folder, where anybody may have put a library.
+// The loader takes an empty entry for the current folder, where any user may have put a library.
 TEST_F(Survival, NoLibraryIsLookedForInTheCurrentFolder) {
   const std::string read =
       "readelf -d '" + test::program_path() + "' >'" + (directory / "dynamic.txt").string() + "' 2>/dev/null";

@@ -133,7 +133,7 @@ TEST(VectorFunctions, DependOnTheNumberAloneAndNotOnItsPlace) {
   }
 }
 
-TEST(VectorFunctions, KeepWhatIsNoNumberAndWhatIsInfinite) {
+TEST(VectorFunctions, KeepNaNAndInfinity) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const std::array<double, 5> x = {std::nan(""), inf, -inf, 0.0, -0.0};
   for (const VectorFunctions& functions : all_vector_functions()) {

@@ -1,5 +1,5 @@
 // To be loaded before a program (LD_PRELOAD): the time of the day is eight years late at one look and early at the
-// next, as when somebody sets the clock. What counts seconds goes on as before.
+// next, as when the clock is set. What counts seconds goes on as before.
 #include <dlfcn.h>
 #include <sys/time.h>
 

@@ -86,7 +86,7 @@ TEST(Ledger, ASkewSubstepKeepsItsEnergyAndTheDampingTakesTheRest) {
 }
 
 // gKdV with a frozen auxiliary: V is measured outside the half-flows, and H of the substep is missed by all of that.
-// What the scalar equation leaves is told apart from the dissipation of S, which is none.
+// What the scalar equation leaves is told apart from the dissipation of S, which is 0.
 TEST(Ledger, TellsWhatAScalarEquationLeavesFromTheDissipationOfS) {
   const Problem p = gkdv_case(0.5, 1.0, 1.0);
   Simulation frozen(

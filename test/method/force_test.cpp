@@ -91,7 +91,7 @@ TEST(Force, ASystemAtRestIsSetInMotionByEveryMethodWithItsOrder) {
   }
 }
 
-TEST(Force, AForceThatIsNoNumberEndsTheRunWithASentence) {
+TEST(Force, AForceThatIsNaNEndsTheRunWithASentence) {
   Problem p = driven_oscillator();
   p.forces[1] = uniform_space_rate(formula_rate(compile_formula("sqrt(1-t)", {"t"})))->on(p.grid);
   for (const char* method : {"egc4", "etdrk4", "seimp", "strang_exact", "seisav"}) {

@@ -409,7 +409,7 @@ TEST_F(AuditedSolution, AChangedDigitIsSeen) {
         << entry.claim;
 }
 
-TEST_F(AuditedSolution, WhatIsNoNumberOrAtNoTimeOfTheRunIsRefuted) {
+TEST_F(AuditedSolution, WhatIsNaNOrAtNoTimeOfTheRunIsRefuted) {
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (const char* name : {"t", "u", "v", "H", "H_modified"}) {
     change(solution(), name, [](std::vector<double>& values) { values.back() = nan; });
@@ -434,7 +434,7 @@ TEST_F(AuditedSolution, WhatIsNoNumberOrAtNoTimeOfTheRunIsRefuted) {
   EXPECT_EQ(exit_of_audit(), 0);
 }
 
-TEST_F(AuditedSolution, WhatIsNoNumberInTheEnergiesIsRefuted) {
+TEST_F(AuditedSolution, NaNInTheEnergiesIsRefuted) {
   const std::string rows = text("out/energy.csv");
   for (const std::size_t row : {std::size_t{1}, std::size_t{30}, std::size_t{65}}) {
     for (const int column : {0, 1, 2}) {

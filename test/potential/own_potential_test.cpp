@@ -148,7 +148,7 @@ TEST(OwnPotential, OneWrongComponentIsSeenBesideLargeOnesAndAmongMany) {
 }
 
 // Of V = Σ cosh 50u, whose fourth differences are large too; and of one that is computed in single precision.
-TEST(OwnPotential, SteepPotentialsHideNoWrongGradientAndNoiseIsNone) {
+TEST(OwnPotential, SteepPotentialsHideNoWrongGradientAndNoiseIsAccepted) {
   const auto steep = [](double factor) {
     return OwnPotential{.value =
                             [](Values u) {

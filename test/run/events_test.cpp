@@ -84,7 +84,7 @@ TEST(Adaptive, ABounceInAnyDirectionIsMetOnce) {
   EXPECT_EQ(report.events.size(), 3);
 }
 
-TEST(Adaptive, ATinyEventFunctionIsNoEventAndOneThatIsNoNumberEndsTheRun) {
+TEST(Adaptive, ATinyEventFunctionIsNoEventAndOneThatIsNaNEndsTheRun) {
   const auto run_with = [](const std::function<double(double, const Vector&)>& g) {
     Simulation simulation(duffing_case(), {.method = "egc6", .variable_steps = true});
     const std::vector<Event> events = {{.g = g}};

@@ -62,7 +62,7 @@ class AllSteps final : public Observer {
 };
 
 // The solution blows up at t ≈ 0.36 and C follows it until round-off alone exceeds everything there was.
-TEST(FailureMode, RoundOffThatDrownsTheEnergyIsNoExcuseForARise) {
+TEST(FailureMode, RoundOffAboveTheEnergyIsNoExcuseForARise) {
   Problem problem = klein_gordon_case(0.1, -1.0);
   problem.initial.head(20).setConstant(5);
   problem.initial.tail(20).setZero();

@@ -27,7 +27,7 @@ TEST(Adaptive, TheSolutionBetweenStepsEndsWhereTheStepDoes) {
   }
 }
 
-TEST(Adaptive, TheControllerTakesNoNumberForNoError) {
+TEST(Adaptive, TheControllerRejectsAStepWhoseErrorIsNaN) {
   StepController controller(4, 1e-6);
   EXPECT_FALSE(controller.accepts(std::nan(""), 0.1, 0));
   EXPECT_LT(controller.next(0.1), 0.1);

@@ -53,7 +53,7 @@ TEST(StopRequest, EndsARunInsideAStepAtItsLastRecord) {
   const RunReport report =
       integrate(simulation.system(), stepper, simulation.state(), {.h = 1.0 / 64, .t_end = 1.0, .stop = &stop});
   EXPECT_EQ(report.status, RunReport::Status::interrupted);
-  EXPECT_EQ(report.t, 0.0) << "nobody recorded any other state";
+  EXPECT_EQ(report.t, 0.0) << "no other state was recorded";
   EXPECT_EQ(simulation.state().z, Simulation(klein_gordon_case(), {.method = "seisav"}).state().z);
 }
 
@@ -74,7 +74,7 @@ TEST(StopRequest, LetsAStepEndThatIsNearlyDone) {
   EXPECT_NO_THROW(end_if_asked());
 }
 
-TEST(StopRequest, OfNobodyIsNone) { EXPECT_NO_THROW(end_if_asked()); }
+TEST(StopRequest, IsNotThereUnlessMade) { EXPECT_NO_THROW(end_if_asked()); }
 
 TEST(StopRequest, OfARunInsideAnotherIsItsOwn) {
   const std::atomic<bool> stop = true, go_on = false;

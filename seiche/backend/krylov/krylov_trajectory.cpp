@@ -141,7 +141,7 @@ void KrylovTrajectory::integrate(double x, const Vector* z, const Eigen::MatrixX
   while (!outputs.empty()) {
     const double norm = begin(equation, sigma);
     const Walk walked = norm > 0 && std::isfinite(norm) ? substep(equation, sigma, outputs) : Walk{};
-    if (walked.length == 0) {  // w = 0 for ever, or no number
+    if (walked.length == 0) {  // w stays 0, or is not finite
       for (const Output& output : outputs)
         output.value->segment(range.begin, range.size)
             .setConstant(norm == 0 ? 0.0 : std::numeric_limits<double>::quiet_NaN());

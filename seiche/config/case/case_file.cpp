@@ -46,7 +46,7 @@ class Sections {
   }
 
  private:
-  // Of each kind the first, since all are in the order of the source: of a million nobody asks for the nearest names.
+  // Only the first of each kind, since all are in the order of the source: nearest names of a million take too long.
   void refuse_unknown() {
     const std::vector<std::string> sections = case_sections();
     bool is_told = false;

@@ -55,7 +55,7 @@ double constant(const std::string& text, const FormulaConstants& constants) {
   return (*compile_formula(text, {}, constants))(std::span<const double>());
 }
 
-// Does the formula name one of these variables of friction? A parameter of the same name is none.
+// True if the formula names one of these variables of friction; a parameter of the same name does not count.
 bool names_one_of(const std::string& text, const std::vector<std::string>& names, const FormulaConstants& constants) {
   const std::vector<std::string> variables = friction_variables();
   const FormulaProgram program = parse_formula(text, variables, constants).program;

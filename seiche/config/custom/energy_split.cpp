@@ -23,8 +23,8 @@ struct NamedFactor {
   Factor factor;
 };
 
-// Fields, places, derivatives and bonds: one name for each variable of the formula. Places that are not there have
-// names that nobody can write.
+// Fields, places, derivatives and bonds: one name for each variable of the formula. Axes that the grid lacks have
+// the name "", which no formula can contain.
 struct Layout {
   std::vector<std::string> variables;
   std::vector<NamedFactor> factors;  // beside the fields

@@ -9,7 +9,7 @@ namespace seiche {
 namespace {
 
 // Longer than what lies between two loops of a step, and a small part of what a scheduler gives to a thread at a time.
-// A thread that sleeps at once comes back too late for most loops wherever its core has somebody else to serve.
+// A thread that sleeps at once comes back too late for most loops wherever its core has another thread to run.
 constexpr std::chrono::microseconds longest_spin(60);
 
 thread_local bool in_a_block = false;
@@ -63,7 +63,7 @@ ThreadTeam::ThreadTeam(int threads)
 
 ThreadTeam::~ThreadTeam() {
   if (forks_ != forks()) {
-    static_cast<void>(others_.release());  // nobody to be joined
+    static_cast<void>(others_.release());  // there is no thread to join
     return;
   }
   ends_ = true;

@@ -79,7 +79,7 @@ double combine(const Space& space, const Eigen::MatrixXd& weights, std::span<con
     space.sum({squares.data(), static_cast<std::size_t>(count)});
     for (Index i = 0; i < count; ++i) {
       const double square = squares[static_cast<std::size_t>(i)];
-      largest = square <= largest ? largest : square;  // no number is the largest
+      largest = square <= largest ? largest : square;  // NaN counts as the largest
     }
   }
   return std::sqrt(largest);

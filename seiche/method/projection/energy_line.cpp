@@ -3,8 +3,8 @@
 namespace seiche {
 namespace {
 
-// d = z without its linear Casimirs, or where S changes with z without the means that solutions keep; false: there are
-// none.
+// d = z without its linear Casimirs, or where S changes with z without the means that solutions keep; false: S has no
+// Casimirs.
 bool without_casimirs(const System& system, const PhiEvaluator& phi, const Vector& z, Vector& d) {
   return system.structure ? system.structure->without_means(z, d) : phi.without_casimirs(z, d);
 }
@@ -31,7 +31,7 @@ EnergyLine::EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLine
 }
 
 void EnergyLine::prepare_ray() {
-  if (!polynomial_) {  // slope() takes the gradient, if anybody asks
+  if (!polynomial_) {  // slope() takes the gradient, when it is called
     scratch_.d = z_;
     return;
   }

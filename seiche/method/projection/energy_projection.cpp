@@ -73,7 +73,7 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarge
   return outcome;
 }
 
-// Is H(ẑ) what it should be, to round-off? Near rest, where H is flat, to all that round-off makes of it: to mend that,
+// True where H(ẑ) = E* to round-off. Near rest, where H is flat, to all that round-off makes of it: to mend that,
 // z would move by far more than its own.
 bool EnergyProjection::is_there(const EnergyTarget& aim) {
   const double miss = std::abs(start_.H() - aim.H);
@@ -93,7 +93,7 @@ bool EnergyProjection::solve(EnergyLine& line, EnergyLine::Parts here, const Ene
   const auto miss = [&](const EnergyLine::Parts& p) { return std::abs(p.H() - aim.H); };
   double lambda = (aim.H - here.H()) / line.slope().value;
   for (int i = 0; miss(here) > here.round_off() && i < max_secants; ++i) {
-    if (!(std::abs(lambda) < max_lambda)) return false;  // or no number
+    if (!(std::abs(lambda) < max_lambda)) return false;  // or NaN
     const EnergyLine::Parts next = line.at(lambda);
     ++outcome.iterations;
     if (next.H() == here.H()) break;  // as near as numbers come

@@ -93,7 +93,7 @@ class OrderedFile : public H5FD_t {
   bool write(H5FD_mem_t kind, haddr_t at, const char* from, std::size_t count) {
     changed_ = true;
     // Rows of t, H and uncompressed chunks are written again with the same bytes before the new ones.
-    // A new file is none of HDF5 before all is in it that it begins with.
+    // A new file is not an HDF5 file before everything that it begins with is in it.
     const bool is_harmless = (at >= settled_ && kind != H5FD_MEM_SUPER) || kind == H5FD_MEM_DRAW;
     if (!is_harmless || failure_ != 0) {
       if (kind != H5FD_MEM_DRAW) hold(kind, at, {from, count});
@@ -115,7 +115,7 @@ class OrderedFile : public H5FD_t {
   }
 
   // What was held back is in the file, or as much of it as leaves it whole. HDF5 may have met the failure where it
-  // tells nobody: a flush does; closing goes on, so that nothing of HDF5 is left open.
+  // reports none: a flush does; closing goes on, so that nothing of HDF5 is left open.
   bool settle(bool closing) {
     if (failure_ != 0) return closing || said(failure_, "write");
     if (!changed_) return true;

@@ -73,7 +73,7 @@ class MemberEnergies {
   std::optional<RecomputedEnergy> energy_;
 };
 
-// The largest of the ratios distance/allowed, and whose it is; no number is the worst of all.
+// The largest of the ratios distance/allowed, and whose it is; NaN is the worst of all.
 class Worst {
  public:
   void add(std::size_t member, double distance, double allowed) {

@@ -1,4 +1,4 @@
-// The midpoint that closures foretell from the gradients of the last steps, beside the paper's.
+// The midpoint that closures predict from the gradients of the last steps, beside the paper's.
 #include <test/support/cases.hpp>
 #include <test/support/convergence.hpp>
 #include <test/support/written_problem.hpp>
@@ -76,7 +76,7 @@ TEST(Predictor, KeepsTheLawAtEveryStepSize) {
 }
 
 // α = 25: without the guard the memory feeds on itself, and the run overflows.
-TEST(Predictor, TakesTheGradientWhereTheMemoryForetellsBadly) {
+TEST(Predictor, TakesTheGradientWhereTheMemoryPredictsBadly) {
   const Problem problem = klein_gordon_case(0.1, 25.0);
   const std::vector<double> step_sizes = {0.5, 1.0, 2.0};
   for (const double h : step_sizes) {
