@@ -133,12 +133,14 @@ def add_first_run(program):
 
 def add_project():
     """The documents of the repository, which know nothing of the site."""
-    (PAGES / "project").mkdir()
-    for document in [*SOURCE.glob("docs/*.md"), SOURCE / "CHANGELOG.md"]:
+    (PAGES / "project/decisions").mkdir(parents=True)
+    pages = {document: document.name for document in SOURCE.glob("docs/*.md")}
+    pages |= {document: f"decisions/{document.name}" for document in SOURCE.glob("docs/decisions/*.md")}
+    for document, page in {**pages, SOURCE / "CHANGELOG.md": "changelog.md"}.items():
         text = document.read_text(encoding="utf-8")
         # A list that follows its sentence without an empty line is one for GitHub, and not for mkdocs.
         text = re.sub(r"(?m)^(?!\s*[-|]|\s*\d+\.\s|\s*$)(.*)\n(?=(?:- |1\. ))", r"\1\n\n", text)
-        (PAGES / "project" / document.name.lower()).write_text(text, encoding="utf-8")
+        (PAGES / "project" / page).write_text(text, encoding="utf-8")
 
 
 def main():

@@ -96,6 +96,11 @@ class Pages(unittest.TestCase):
                 self.assertIn(f"<!-- file: cases/{page.stem}.toml -->", text)
                 self.assertEqual("\n<!-- film -->\n" in text, page.stem in build.FILMED)
 
+    def test_the_index_of_decisions_has_every_page(self):
+        decisions = run_blocks.SOURCE / "docs/decisions"
+        index = (decisions / "README.md").read_text(encoding="utf-8")
+        self.assertEqual(re.findall(r"\]\((\d{4}-[a-z-]+\.md)\)", index), sorted(page.name for page in decisions.glob("0*.md")))
+
 
 class Grounds(unittest.TestCase):
     def test_every_picture_of_a_page_is_dark_where_the_page_is(self):

@@ -80,7 +80,7 @@ class Split {
 
 // Half of the numbers leave with each split; the sines of what is left are the Fourier transform of its odd
 // continuation, of twice the length. On the whole line that would take twice the time, and FFTW's own sine transform
-// still more, except on the longest lines (docs/performance.md).
+// still more, except on the longest lines (docs/decisions/0013).
 class SineRows final : public RowTransform {
  public:
   SineRows(Index intervals, bool measure) : intervals_(intervals), rest_(intervals) {
