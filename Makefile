@@ -37,7 +37,7 @@ test:  ## build and run all tests
 	@cmake --build --preset release --parallel $(JOBS)
 	@ctest --preset release --parallel $(JOBS)
 
-verify: build  ## wrong numbers looked for on systems of its own, docs/verification.md (VERIFY="--only morse", --help)
+verify: build  ## wrong numbers looked for on systems of its own: build/verification_rows.md (VERIFY="--only morse", --help)
 	@bash scripts/install-deps --python
 	@/usr/bin/python3 -m verification --program build/release/seiche $(VERIFY)
 

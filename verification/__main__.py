@@ -30,6 +30,7 @@ OF_SYSTEMS = {"order": order, "linear": linear, "projection": projection, "toler
 OF_THEIR_OWN = {"certificate": certificate, "scale": scale, "ensemble": ensemble, "drift": drift, "ending": ending}
 LEFT_OUT_OF_QUICK = {"ending"}
 REFERENCES = reference.load()
+ROWS = Path(__file__).resolve().parents[1] / "build/verification_rows.md"  # docs/site/build.py takes it from there
 
 
 def judge(task) -> list[Row]:
@@ -62,7 +63,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--only", default="", help="systems, by name")
     parser.add_argument("--check", default="", help="checks, by name: " + ", ".join([*OF_SYSTEMS, *OF_THEIR_OWN]))
     parser.add_argument("--json", action="store_true", help="rows as one JSON document on stdout")
-    parser.add_argument("--page", type=Path, help="write the page, Markdown, to this file")
+    parser.add_argument("--page", type=Path, help="write the page of results, docs/verification.md, to this file, and every row to build/verification_rows.md, as a whole run does anyway")
     parser.add_argument("--references", action="store_true", help="compute the references anew; runs nothing")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
     parser.add_argument("--program", type=Path, help="the program; by default build/release/seiche")
@@ -89,6 +90,16 @@ def tasks(given: argparse.Namespace, names: list[str]) -> list[tuple]:
         if check in checks or (not checks and not given.only and not (given.quick and check in LEFT_OUT_OF_QUICK)):
             found += [(check, *task) for task in module.tasks([], methods, given.quick)]
     return found
+
+
+def write_pages(given: argparse.Namespace, rows: list[Row], seconds: float) -> None:
+    version = subprocess.run([program.PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
+    command = "make verify" + (' VERIFY="--quick"' if given.quick else "")
+    results, every = table.pages(rows, version, seconds, list(SYSTEMS.values()), command)
+    ROWS.parent.mkdir(exist_ok=True)
+    ROWS.write_text(every, encoding="utf-8")
+    if given.page:
+        given.page.write_text(results, encoding="utf-8")
 
 
 def main() -> int:
@@ -131,10 +142,8 @@ def main() -> int:
         for r in wrong:
             name = "_".join((r.system, r.method, r.check)).replace(" ", "-").replace("/", "-")
             (given.cases / f"{name}.toml").write_text(r.case)
-    if given.page:
-        version = subprocess.run([program.PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
-        command = "make verify" + (' VERIFY="--quick"' if given.quick else "")
-        given.page.write_text(table.page(rows, version, seconds, list(SYSTEMS.values()), command))
+    if given.page or not (given.quick or only or given.check):
+        write_pages(given, rows, seconds)
     return 1 if wrong else 0
 
 

@@ -16,6 +16,8 @@ import tempfile
 SITE = pathlib.Path(__file__).resolve().parent
 SOURCE = SITE.parents[1]
 PAGES = SOURCE / "build/docs_pages"
+VERIFICATION_ROWS = SOURCE / "build/verification_rows.md"  # of the last whole run of `make verify`, minutes long
+NO_ROWS = "# Verification: every row\n\n`make verify` writes the rows; it had not run where these pages were made.\n"
 JQUERY = pathlib.Path("/usr/share/javascript/jquery/jquery.min.js")  # Debian's pages of the theme ask for it by another name
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(SOURCE / "test/documentation")]
@@ -141,6 +143,8 @@ def add_project():
         # A list that follows its sentence without an empty line is one for GitHub, and not for mkdocs.
         text = re.sub(r"(?m)^(?!\s*[-|]|\s*\d+\.\s|\s*$)(.*)\n(?=(?:- |1\. ))", r"\1\n\n", text)
         (PAGES / "project" / page).write_text(text, encoding="utf-8")
+    rows = VERIFICATION_ROWS.read_text(encoding="utf-8") if VERIFICATION_ROWS.is_file() else NO_ROWS
+    (PAGES / "project/verification_rows.md").write_text(rows, encoding="utf-8")
 
 
 def main():
