@@ -6,8 +6,11 @@
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/nls.hpp>
+#include <seiche/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
+
+#include <map>
 
 namespace seiche::test {
 namespace {
@@ -26,16 +29,32 @@ std::vector<double> errors_of(const Reference& reference, const Problem& problem
   return list;
 }
 
+// Steps in which damping is so weak that the energy interval does not give way to it (energy_interval.hpp), where the
+// constant of the error is another one.
+std::vector<double> weak_steps(const Problem& problem, const MethodEntry& method) {
+  const Simulation simulation(problem, {.method = std::string(method.name)});
+  const Vector& z = simulation.state().z;
+  const double rate =
+      simulation.system().damping->largest_rate(*simulation.system().space, 0, 10, z, Vector::Zero(z.size()));
+  std::vector<double> weak = step_sizes;
+  while (rate * weak.front() > 0.01)
+    for (double& h : weak) h /= 2;
+  return weak;
+}
+
 TEST(OrderSlow, OfEveryMethodOfOrderTwoIsTwoOnEveryProblem) {
   for (const auto& [name, problem] : all_cases()) {
-    const Reference reference = make_reference(problem, sample_times(step_sizes, 10.0));
+    std::map<double, Reference> references;  // by the longest step
     for (const MethodEntry& method : methods()) {
       if (!applies(method.name, problem) || method.order > 2) continue;
-      const std::vector<double> errors =
-          errors_of(reference, problem, {.method = std::string(method.name)}, step_sizes);
+      const std::vector<double> h = method.projects() ? weak_steps(problem, method) : step_sizes;
+      if (!references.contains(h.front()))
+        references.emplace(h.front(), make_reference(problem, sample_times(h, 10.0)));
+      const Reference& reference = references.at(h.front());
+      const std::vector<double> errors = errors_of(reference, problem, {.method = std::string(method.name)}, h);
       const double tolerance = method.kind.takes_solver ? 0.3 : 0.1;
-      EXPECT_NEAR(fitted_order(step_sizes, errors), method.order, tolerance) << name << " " << method.name << "\n"
-                                                                             << table(step_sizes, errors);
+      EXPECT_NEAR(fitted_order(h, errors), method.order, tolerance) << name << " " << method.name << "\n"
+                                                                    << table(h, errors);
     }
   }
 }

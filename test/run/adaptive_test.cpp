@@ -299,79 +299,81 @@ TEST(Adaptive, TheToleranceHoldsThroughLayersOfFriction) {
     const char *V, *friction, *q, *method;
     double tolerance;
   };
-  for (const Case& of : {
-    Case{"q^2/2 + q^4/8", R"(kind = "tanh", coefficient = 0.425, width = 0.02)", "2.68", "egc8", 1e-8},
-        Case{"q^2", R"(kind = "tanh", coefficient = 0.6, width = 0.02)", "2", "egc4", 1e-4},
-        Case{"q^2", R"(kind = "tanh", coefficient = 0.449, width = 0.0061)", "1.9", "egc6", 1e-8},
-        Case{"1 - cos(q)", R"(kind = "tanh", coefficient = 0.3, width = 0.004)", "2.5", "egc6", 1e-6}, Case {"q^2/2", R"(kind = "formula", r = "0.2*v*(1 + 40*exp(-(u/0.01)^2))")", "1", "egc6", 1e-6}}) {
-    const Problem problem = make_problem(read(fmt::format(
-        "H = \"p^2/2 + {}\"\nfriction = {{ {} }}\ninitial = {{ q = \"{}\", p = \"0\" }}", of.V, of.friction, of.q)));
-      constexpr double t_end = 6;
-      const auto end = [&](const char* method, double tolerance, double h_max) {
-        Simulation simulation(problem, {.method = method, .variable_steps = true});
-        const RunReport report =
-            integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                               {.tolerance = tolerance, .largest_h = h_max, .t_end = t_end});
-        EXPECT_EQ(report.status, RunReport::Status::success) << of.friction << ": " << report.message;
-        return simulation.physical();
-      };
-      const Vector exact = end("etdrk4", 1e-10, 1e-3);
-      const double error = (end(of.method, of.tolerance, 0) - exact).lpNorm<Eigen::Infinity>();
-      EXPECT_LE(error, 10 * of.tolerance * t_end) << of.V << ", " << of.friction << ", " << of.method;
-    }
+  for (const Case& of :
+       {Case{"q^2/2 + q^4/8", R"x(kind = "tanh", coefficient = 0.425, width = 0.02)x", "2.68", "egc8", 1e-8},
+        Case{"q^2", R"x(kind = "tanh", coefficient = 0.6, width = 0.02)x", "2", "egc4", 1e-4},
+        Case{"q^2", R"x(kind = "tanh", coefficient = 0.449, width = 0.0061)x", "1.9", "egc6", 1e-8},
+        Case{"1 - cos(q)", R"x(kind = "tanh", coefficient = 0.3, width = 0.004)x", "2.5", "egc6", 1e-6},
+        Case{"q^2/2", R"x(kind = "formula", r = "0.2*v*(1 + 40*exp(-(u/0.01)^2))")x", "1", "egc6", 1e-6}}) {
+    const Problem problem =
+        make_problem(read(fmt::format("H = \"p^2/2 + {}\"\nfriction = {{ {} }}\ninitial = {{ q = \"{}\", p = \"0\" }}",
+                                      of.V, of.friction, of.q)));
+    constexpr double t_end = 6;
+    const auto end = [&](const char* method, double tolerance, double h_max) {
+      Simulation simulation(problem, {.method = method, .variable_steps = true});
+      const RunReport report =
+          integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                             {.tolerance = tolerance, .t_end = t_end, .largest_h = h_max});
+      EXPECT_EQ(report.status, RunReport::Status::success) << of.friction << ": " << report.message;
+      return simulation.physical();
+    };
+    const Vector exact = end("etdrk4", 1e-10, 1e-3);
+    const double error = (end(of.method, of.tolerance, 0) - exact).lpNorm<Eigen::Infinity>();
+    EXPECT_LE(error, 10 * of.tolerance * t_end) << of.V << ", " << of.friction << ", " << of.method;
+  }
 }
 
 TEST(Adaptive, AShortPulseOfARateIsSeen) {
-    const std::string pulse =
-        "[problem]\nname = \"oscillator\"\nomega_squared = 1.0\nalpha = 1.0\ngamma = \"40*exp(-((t - 7.77)/0.01)^2)\"";
-    const Vector exact = piecewise(pulse, 10, {7.5, 7.7, 7.77, 7.84, 8});
-    for (const std::string method : {"egc4", "egc6", "egc8"}) {
-      const Problem p = make_problem(parse_case(pulse, "x.toml"));
-      Simulation simulation(p, {.method = method, .variable_steps = true});
-      integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                         {.tolerance = 1e-6, .t_end = 10});
-      const Vector distance = simulation.physical() - exact;
-      EXPECT_LE(distance.lpNorm<Eigen::Infinity>(), 2e-5) << method;
-    }
+  const std::string pulse =
+      "[problem]\nname = \"oscillator\"\nomega_squared = 1.0\nalpha = 1.0\ngamma = \"40*exp(-((t - 7.77)/0.01)^2)\"";
+  const Vector exact = piecewise(pulse, 10, {7.5, 7.7, 7.77, 7.84, 8});
+  for (const std::string method : {"egc4", "egc6", "egc8"}) {
+    const Problem p = make_problem(parse_case(pulse, "x.toml"));
+    Simulation simulation(p, {.method = method, .variable_steps = true});
+    integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                       {.tolerance = 1e-6, .t_end = 10});
+    const Vector distance = simulation.physical() - exact;
+    EXPECT_LE(distance.lpNorm<Eigen::Infinity>(), 2e-5) << method;
+  }
 }
 
 // Without V there are no forces, and the φ-maps of the error estimate have no columns.
 TEST(Adaptive, LinearEquationsTakeATolerance) {
-    for (const NamedProblem& linear :
-         {NamedProblem{"wave", klein_gordon({.alpha = 0.0})},
-          NamedProblem{"dirichlet",
-                       klein_gordon({.grid = {.points = {16}, .length = {2.0}, .boundary = {Boundary::dirichlet}},
-                       .alpha = 0.0})}}) {
-      for (const std::string method : {"egc2", "egc4", "egc6", "egc8"})
-        for (const std::string backend : {"modal", "dense", "sparse"}) {
-          Problem p = linear.problem;
-          p.potential = nullptr;
-          Simulation simulation(p, {.method = method, .backend = backend, .variable_steps = true});
-          const std::vector<double> asked = every_unit(3);
-          const Reference reference = make_reference(p, asked);
-          Judge judge(reference, *simulation.system().space);
-          const std::vector<Observer*> observers = {&judge};
-          const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(),
-                                                      simulation.state(), {.tolerance = 1e-6, .t_end = 3}, observers);
-          EXPECT_EQ(report.status, RunReport::Status::success) << linear.name << " " << method << " " << report.message;
-          EXPECT_LE(judge.error, 1e-9) << linear.name << " " << method << " " << backend;
-        }
-    }
+  for (const NamedProblem& linear :
+       {NamedProblem{"wave", klein_gordon({.alpha = 0.0})},
+        NamedProblem{"dirichlet",
+                     klein_gordon({.grid = {.points = {16}, .length = {2.0}, .boundary = {Boundary::dirichlet}},
+                     .alpha = 0.0})}}) {
+    for (const std::string method : {"egc2", "egc4", "egc6", "egc8"})
+      for (const std::string backend : {"modal", "dense", "sparse"}) {
+        Problem p = linear.problem;
+        p.potential = nullptr;
+        Simulation simulation(p, {.method = method, .backend = backend, .variable_steps = true});
+        const std::vector<double> asked = every_unit(3);
+        const Reference reference = make_reference(p, asked);
+        Judge judge(reference, *simulation.system().space);
+        const std::vector<Observer*> observers = {&judge};
+        const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(),
+                                                    simulation.state(), {.tolerance = 1e-6, .t_end = 3}, observers);
+        EXPECT_EQ(report.status, RunReport::Status::success) << linear.name << " " << method << " " << report.message;
+        EXPECT_LE(judge.error, 1e-9) << linear.name << " " << method << " " << backend;
+      }
+  }
 }
 
 TEST(Adaptive, AToleranceIsMeasuredByTheStateItIsAbout) {
-    Problem small = oscillator({.alpha = 0.0});
-    small.initial *= 1e-9;
-    Simulation simulation(small, {.method = "egc4", .variable_steps = true});
-    const auto run_with = [&](double tolerance) {
-      simulation.restart();
-      return integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
-                                {.tolerance = tolerance, .t_end = 1})
-          .message;
-    };
-    EXPECT_NE(run_with(1e-6).find("is more than the largest number of the initial state, 1e-09"), std::string::npos);
-    EXPECT_EQ(run_with(1e-12).find("more than"), std::string::npos);
-    EXPECT_THROW(run_with(1e-24), Error);
+  Problem small = oscillator({.alpha = 0.0});
+  small.initial *= 1e-9;
+  Simulation simulation(small, {.method = "egc4", .variable_steps = true});
+  const auto run_with = [&](double tolerance) {
+    simulation.restart();
+    return integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                              {.tolerance = tolerance, .t_end = 1})
+        .message;
+  };
+  EXPECT_NE(run_with(1e-6).find("is more than the largest number of the initial state, 1e-09"), std::string::npos);
+  EXPECT_EQ(run_with(1e-12).find("more than"), std::string::npos);
+  EXPECT_THROW(run_with(1e-24), Error);
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ MethodOptions with_law(std::optional<EnergyLaw> law) {
   return options;
 }
 
-// The errors of the default law are at most twice the smaller one of the guard and of no law, as far as that keeps H from
-// rising by a thousandth of what it was, beside `rounding` of the reference.
+// The errors of the default law are at most twice the smaller one of the guard and of no law, as far as that keeps H
+// from rising by a thousandth of what it was, beside `rounding` of the reference.
 void expect_no_worse(const Strong& of, int& compared) {
   constexpr double rounding = 2e-11, resolved = 0.02, rise = 1e-3;
   const Problem problem = make_problem(read(of.text));
