@@ -72,6 +72,20 @@ TEST_P(EveryMethod, RaisesItsEnergyInNoStepOfAnySize) {
   EXPECT_GE(finished, runs - runs / 10);  // a few of avf and lm at h = 10 say that they did not solve
 }
 
+TEST_P(EveryMethod, RaisesItsEnergyInNoStepFarTooLong) {
+  const MethodEntry& method = find_method(GetParam());
+  for (const auto& [name, problem] : golden_cases()) {
+    if (!promise_energy_law(problem, 50).promised || !applies(method.name, problem)) continue;
+    for (const double h : {25.0, 300.0}) {
+      const LawRun result = run(problem, method.name, "auto", h, 20 * h);
+      EXPECT_LE(result.worst_increase, 1) << name << " h = " << h;
+      if (method.kind.takes_C) {
+        EXPECT_EQ(result.steps, 20) << name << " h = " << h;
+      }
+    }
+  }
+}
+
 // Methods that integrate the dissipation by quadratures of high order take longest.
 std::vector<std::string> methods_that_are(bool slow) {
   std::vector<std::string> names;
