@@ -68,7 +68,8 @@ RunReport booked(const LawPromise& promise, const std::vector<double>& H, bool h
     book.add({.H = H[n],
               .modified = lowest - 1e-9 * static_cast<double>(n),
               .round_off = 50 * epsilon * std::max(terms, std::abs(H[n])),
-              .modified_round_off = 50 * epsilon},
+              .modified_round_off = 50 * epsilon,
+              .size = std::max(terms, std::abs(H[n])) / 2},
              static_cast<double>(n), static_cast<std::int64_t>(n));
   }
   RunReport report;
