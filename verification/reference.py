@@ -85,7 +85,7 @@ def make(system: System) -> dict:
     others = by_collocation(system, 7, 3e-14) if system.exact is None else states
     if system.exact is not None:
         states = np.array([system.exact(t) for t in times(system)], float)
-    unit = np.abs(system.z0).max()
+    unit = np.abs(system.z0).max() or np.abs(states).max()  # from rest: of the largest state kept
     return {
         "fingerprint": fingerprint(system),
         "by": "a closed form" if system.exact is not None else "Radau IIA of order 17 and 13",

@@ -79,7 +79,7 @@ def stiff_in_V(name, H, forces, D, start, end, gross, about):
     )
 
 
-def fading(name, V, force, q, D=0.8, end=60.0):
+def fading(name, V, force, q, D=0.8, end=30.0):
     return System(
         name=name,
         problem=one_mass(V, f"D = {{ p = {D} }}", q),
@@ -166,9 +166,9 @@ SYSTEMS = [
     ),
     fading("fading_log", "log(1 + q^2)", lambda q: -2 * q / (1 + q * q), 0.5),
     fading("fading_steep_log", "50*log(1 + 20*q^2)", lambda q: -2000 * q / (1 + 20 * q * q), 0.1),
-    fading("fading_morse", "(1 - exp(-q))^2", lambda q: -2 * (1 - np.exp(-q)) * np.exp(-q), 0.5),
-    fading("fading_lennard_jones", "(1 + q)^(-12) - 2*(1 + q)^(-6) + 1", lambda q: 12 * ((1 + q) ** -13 - (1 + q) ** -7), 0.1),
-    fading("fading_exponential", "exp(q) - q - 1", lambda q: 1 - np.exp(q), 0.5),
+    fading("fading_morse", "(1 - exp(-q))^2", lambda q: 2 * np.expm1(-q) * np.exp(-q), 0.5),
+    fading("fading_lennard_jones", "(1 + q)^(-12) - 2*(1 + q)^(-6) + 1", lambda q: -12 * (1 + q) ** -13 * np.expm1(6 * np.log1p(q)), 0.1),
+    fading("fading_exponential", "exp(q) - q - 1", lambda q: -np.expm1(q), 0.5),
     fading("fading_root", "sqrt(1 + 4*q^2) - 1", lambda q: -4 * q / np.sqrt(1 + 4 * q * q), 0.5),
     translated("far_flow", "12*(1 - cos(q))", lambda x: -12 * np.sin(x), 40 * PI, 2.5, 3.0, flow=True),
     translated("far_pendulum", "1 - cos(q)", lambda x: -np.sin(x), 400 * PI, 2.0, 8.0),
