@@ -32,8 +32,8 @@ class Damping {
   virtual void add_quadrature_error(double /*t*/, double /*h*/, std::span<const double> /*c*/,
                                     std::span<const double> /*w*/, const Vector& /*before*/, const Vector& /*after*/,
                                     Vector& /*out*/) const {}
-  // The largest rate, in 1/time, at which D(t) + ∂R/∂z acts in a step h from `before` to `after`. What varies is sampled
-  // in time at the ends and in the middle; R at both states, and at rest where a velocity changes its sign. The first
+  // The largest rate, in 1/time, at which D(t) + ∂R/∂z acts in a step h from `before` to `after`: of what varies in
+  // time, at the ends and in the middle; of R, at both states, and at rest where a velocity changes its sign. The first
   // call may allocate.
   virtual double largest_rate(const Space& space, double t, double h, const Vector& before,
                               const Vector& after) const = 0;

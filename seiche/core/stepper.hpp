@@ -45,7 +45,7 @@ struct StepReport {
   int scalar_iterations = 0;  // Newton or fixed-point sweeps
   int fallbacks = 0;          // times a solver left its first choice
   int unresolved = 0;         // scalar equations whose root was not found (plain Newton only)
-  // 1 where h does not resolve what the damping acts on, and the energy interval, widened for that, decided; 1 where the
+  // 1 where h does not resolve what the damping acts on and the energy interval, widened for that, decided; 1 where the
   // step was taken in parts, since the whole of it found no solution.
   int widened = 0, halved = 0;
   ReplacedSteps replaced = {};  // itself, where that is so in some part of it

@@ -24,8 +24,8 @@ void sizes_of_slopes(const ExpressionGraph& graph, const double* at, const doubl
 
 // By how much the values of a table as after evaluate may be off, in units of ε: a running error bound, in which the
 // variables are off by ε of themselves, numbers by nothing, and every operation adds ε of its result to what it carries
-// on (Wilkinson 1963; Higham 2002, section 3.3). Of the nodes before `end`. Where that is no number, as beside an
-// infinite one, |value|.
+// on (Wilkinson 1963; Higham 2002, section 3.3). Of the nodes before `end`. Where that is not finite, as beside an
+// infinite value, |value|.
 void error_bounds(const ExpressionGraph& graph, const double* table, std::size_t points, std::size_t end,
                   double* bounds);
 

@@ -59,7 +59,7 @@ class MultiplierEquation {
   }
 
   Value at(double x);
-  // |F| ≤ 4ε scale, or (lm) |Δx| ≤ 4ε max(1, |1 + x|), or where neither comes about |F| ≤ what round-off may make of it.
+  // |F| ≤ 4ε scale, or (lm) |Δx| ≤ 4ε max(1, |1 + x|); or else |F| ≤ what round-off may make of it.
   Root newton(int max_iterations, Stop stop);
 
   double cosine() const { return cosine_; }                 // cos(ĝ, δ₁) over the support of V
