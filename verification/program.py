@@ -152,10 +152,12 @@ def run_system(system: System, method: dict, end: float | None = None, **options
     return run(case_text(system.problem, method, system.end if end is None else end, **options), system.files)
 
 
-def run_against(system: System, method: dict, reference: dict, coarsest: float | None = None) -> tuple[Run, float]:
+def run_against(
+    system: System, method: dict, reference: dict, coarsest: float | None = None, energy_every: int = 10**9
+) -> tuple[Run, float]:
     """A run, and its largest error at those of the reference's times that steps of `coarsest` meet; all, with a tolerance."""
     kept = [system.end * k / 4 for k in (1, 2, 3, 4)]
-    output: dict = {"energy_every": 10**9}
+    output: dict = {"energy_every": energy_every}
     if coarsest is None:
         output["snapshot_interval"] = system.end / 4
     else:
