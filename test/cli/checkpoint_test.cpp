@@ -24,6 +24,7 @@ class CheckpointCli : public test::Cli {
  protected:
   void SetUp() override { write_case("", "h = \"1/512\""); }
   static std::string keys() { return "time.end=8000 output.energy_every=64 output.snapshot_every=8192"; }
+  static std::string few_steps() { return "time.end=400 output.energy_every=64 output.snapshot_every=512"; }
   std::vector<std::string> arguments(const std::string& more = "time.end=8000") const {
     return {"run",
             "case.toml",
@@ -169,7 +170,7 @@ TEST_F(CheckpointCli, StopsAfterANumberOfHoursThatIsOne) {
 
 // A pipe without a writer, a device without an end, a folder, a hole of 8 GiB: the older one serves, and that is said.
 TEST_F(CheckpointCli, IsPassedOverWithAWordWhereItIsNoPlainFile) {
-  ASSERT_EQ(seiche("run case.toml --out stopped --quiet --max-hours 1e-9 --set " + keys()).exit, 130);
+  ASSERT_EQ(seiche("run case.toml --out stopped --quiet --max-hours 1e-9 --set " + few_steps()).exit, 130);
   fs::copy_file(directory / "stopped/checkpoint.seiche", directory / "stopped/checkpoint_prev.seiche");
   const std::vector<std::pair<std::string, std::string>> ways = {
       {"rm F; mkfifo F", "is not a file"},
@@ -185,14 +186,14 @@ TEST_F(CheckpointCli, IsPassedOverWithAWordWhereItIsNoPlainFile) {
     for (std::size_t at = command.find('F'); at != std::string::npos; at = command.find('F'))
       command.replace(at, 1, "checkpoint.seiche");
     ASSERT_EQ(std::system(("cd '" + directory.string() + "/out' && " + command).c_str()), 0) << way;
-    const Result resumed = seiche("resume out --quiet", "timeout 20");
+    const Result resumed = seiche("resume out --quiet", "timeout 200");
     EXPECT_EQ(resumed.exit, 0) << way << resumed.err;
     EXPECT_THAT(resumed.err, AllOf(HasSubstr("checkpoint.seiche is of no use"), HasSubstr(word))) << way;
   }
 }
 
 TEST_F(CheckpointCli, HoldsTheCaseWhateverBecameOfTheFile) {
-  ASSERT_EQ(seiche("run case.toml --out stopped --quiet --max-hours 1e-9 --set " + keys()).exit, 130);
+  ASSERT_EQ(seiche("run case.toml --out stopped --quiet --max-hours 1e-9 --set " + few_steps()).exit, 130);
   const std::string whole = text("stopped/case.toml");
   for (const std::string way : {"rm F", "echo '[[[' >F", "rm F; mkfifo F", "rm F; mkdir F", "echo '# mine' >>F"}) {
     fs::remove_all(directory / "out");
@@ -201,7 +202,7 @@ TEST_F(CheckpointCli, HoldsTheCaseWhateverBecameOfTheFile) {
     for (std::size_t at = command.find('F'); at != std::string::npos; at = command.find('F'))
       command.replace(at, 1, "case.toml");
     ASSERT_EQ(std::system(("cd '" + directory.string() + "/out' && " + command).c_str()), 0) << way;
-    const Result resumed = seiche("resume out --quiet", "timeout 20");
+    const Result resumed = seiche("resume out --quiet", "timeout 200");
     EXPECT_EQ(resumed.exit, 0) << way << resumed.err;
     EXPECT_THAT(resumed.err, HasSubstr("case.toml was")) << way;
     EXPECT_EQ(text("out/case.toml"), whole) << way;
