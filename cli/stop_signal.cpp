@@ -19,10 +19,12 @@ void end_set_up(int) {
   ::_exit(interrupted);
 }
 
-// The first signal ends the run, whose files are then completed; a second one that comes meanwhile hurries that.
-void ask_to_stop(int) {
+// The first signal ends the run, whose files are then completed; a second INT or TERM meanwhile hurries that.
+// A terminal that is closed and a limit of processor time repeat theirs.
+void ask_to_stop(int signal) {
   const bool is_first = !stop.exchange(true, std::memory_order_relaxed);
-  if (!is_first && is_held.load(std::memory_order_relaxed)) leave.store(true, std::memory_order_relaxed);
+  if (!is_first && (signal == SIGINT || signal == SIGTERM) && is_held.load(std::memory_order_relaxed))
+    leave.store(true, std::memory_order_relaxed);
 }
 void ask_to_save(int) { save.store(true, std::memory_order_relaxed); }
 

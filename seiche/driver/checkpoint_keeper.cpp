@@ -36,13 +36,6 @@ Checkpoints::Wish CheckpointKeeper::look(std::int64_t n) {
   return Wish::save;
 }
 
-// So many hours that no clock counts them are never over.
-CheckpointKeeper::Clock::time_point CheckpointKeeper::deadline() const {
-  constexpr double most = 1e9;
-  if (!(options_.seconds > 0) || options_.seconds > most) return StopRequest::never;
-  return begin_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options_.seconds));
-}
-
 // In about a hundredth of a second, and no later than at the next step that wants a checkpoint.
 void CheckpointKeeper::plan_next_look(std::int64_t n, Clock::time_point now) {
   constexpr double interval = 0.01;

@@ -326,7 +326,7 @@ RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, Sta
       throw Error("the first and the largest step size must be finite and ≥ 0, but one is {}", h);
   Recording recording(system, stepper, state, options.law, observers);
   AdaptiveLoop loop(system, stepper, state, options, recording);
-  const StopRequest stoppable(options.stop, options.resumption.deadline());
+  const StopRequest stoppable(options.stop);
   try {
     loop.run();
   } catch (const Stopped&) {

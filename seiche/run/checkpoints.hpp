@@ -2,10 +2,8 @@
 #pragma once
 
 #include <seiche/core/control/archive.hpp>
-#include <seiche/core/control/stop_request.hpp>
 #include <seiche/core/function_ref.hpp>
 
-#include <chrono>
 #include <cstdint>
 
 namespace seiche {
@@ -21,8 +19,6 @@ class Checkpoints {
   Wish wish(std::int64_t n) { return n < next_look_ ? Wish::none : look(n); }
   // run(archive) writes the run, behind whatever is in the archive.
   virtual void save(FunctionRef<void(Archive&)> run) = 0;
-  // When a run has to end, be it inside a step.
-  virtual std::chrono::steady_clock::time_point deadline() const { return StopRequest::never; }
 
  protected:
   virtual Wish look(std::int64_t n) = 0;
@@ -37,10 +33,6 @@ class Checkpoints {
 struct Resumption {
   Checkpoints* checkpoints = nullptr;
   Archive* from = nullptr;  // read up to where the run begins
-
-  StopRequest::Clock::time_point deadline() const {
-    return checkpoints != nullptr ? checkpoints->deadline() : StopRequest::never;
-  }
 };
 
 }  // namespace seiche

@@ -149,7 +149,7 @@ RunReport integrate(const System& system, Stepper& stepper, State& state, const 
   const TimeGrid grid(state.t, options.h, options.t_end);
   Recording recording(system, stepper, state, options.law, observers);
   FixedLoop loop(system, stepper, state, options, grid, recording);
-  const StopRequest stoppable(options.stop, options.resumption.deadline());
+  const StopRequest stoppable(options.stop);
   try {
     loop.run();
   } catch (const Stopped&) {

@@ -16,13 +16,12 @@ namespace {
 // Never ends its fourth step, in which it has moved the state already, and is asked to stop there.
 class HangsInAStep : public Stepper {
  public:
-  HangsInAStep(Stepper& stepper, std::atomic<bool>& stop, bool asked = true)
-      : stepper_(stepper), stop_(stop), asked_(asked) {}
+  HangsInAStep(Stepper& stepper, std::atomic<bool>& stop) : stepper_(stepper), stop_(stop) {}
   void begin(State& state) override { stepper_.begin(state); }
   StepReport step(State& state, double h) override {
-    const StepReport report = stepper_.step(state, h);
+    StepReport report = stepper_.step(state, h);
     if (++steps_ == 4)
-      for (stop_ = asked_;;) end_if_asked();
+      for (stop_ = true;;) end_if_asked();
     return report;
   }
   EnergyReading energy(const State& state) const override { return stepper_.energy(state); }
@@ -32,18 +31,7 @@ class HangsInAStep : public Stepper {
  private:
   Stepper& stepper_;
   std::atomic<bool>& stop_;
-  bool asked_;
   int steps_ = 0;
-};
-
-// Wants no checkpoint, and a run that has ended before it began.
-class Late : public Checkpoints {
- public:
-  void save(FunctionRef<void(Archive&)>) override {}
-  StopRequest::Clock::time_point deadline() const override { return StopRequest::Clock::now(); }
-
- private:
-  Wish look(std::int64_t) override { return Wish::none; }
 };
 
 TEST(StopRequest, EndsARunInsideAStepAtItsLastRecord) {
@@ -55,17 +43,6 @@ TEST(StopRequest, EndsARunInsideAStepAtItsLastRecord) {
   EXPECT_EQ(report.status, RunReport::Status::interrupted);
   EXPECT_EQ(report.t, 0.0) << "no other state was recorded";
   EXPECT_EQ(simulation.state().z, Simulation(klein_gordon_case(), {.method = "seisav"}).state().z);
-}
-
-TEST(StopRequest, EndsARunInsideAStepAtItsDeadline) {
-  Simulation simulation(klein_gordon_case(), {.method = "seisav"});
-  std::atomic<bool> stop = false;
-  HangsInAStep stepper(simulation.stepper(), stop, false);
-  Late late;
-  const RunReport report =
-      integrate(simulation.system(), stepper, simulation.state(),
-                {.h = 1.0 / 64, .t_end = 1.0, .stop = &stop, .resumption = {.checkpoints = &late}});
-  EXPECT_EQ(report.status, RunReport::Status::interrupted);
 }
 
 TEST(StopRequest, LetsAStepEndThatIsNearlyDone) {

@@ -4,7 +4,6 @@
 #include <seiche/core/error.hpp>
 
 #include <atomic>
-#include <chrono>
 
 namespace seiche {
 
@@ -14,24 +13,20 @@ class Stopped : public Error {
   Stopped() : Error("stopped inside a step") {}
 };
 
-// As long as it lives, `stop` and `deadline` are what end_if_asked looks at on this thread; null: nothing.
+// As long as it lives, `stop` is what end_if_asked looks at on this thread; null: nothing.
 class StopRequest {
  public:
-  using Clock = std::chrono::steady_clock;
-  static constexpr Clock::time_point never = Clock::time_point::max();
-
-  explicit StopRequest(const std::atomic<bool>* stop, Clock::time_point deadline = never);
+  explicit StopRequest(const std::atomic<bool>* stop);
   ~StopRequest();
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
 
  private:
   const std::atomic<bool>* before_;
-  Clock::time_point deadline_before_;
 };
 
-// Throws Stopped where the flag has been set, or the deadline over, for half a second: a step that is nearly done comes
-// to its end. Costs a few loads as long as the flag is not set, and a look at the clock where there is a deadline.
+// Throws Stopped where the flag has been set for half a second: a step that is nearly done comes to its end. Costs two
+// loads as long as it is not set.
 void end_if_asked();
 
 }  // namespace seiche
