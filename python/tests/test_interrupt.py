@@ -87,13 +87,13 @@ def test_a_study_can_be_interrupted(study):
 import os, seiche, signal, threading, time
 def interrupt():
     global sent
-    sent = time.process_time()  # as much of it as there is, on a machine with other work
+    sent = time.process_time()  # one step of a study of a million modes takes seconds, and minutes are a failure
     os.kill(os.getpid(), signal.SIGINT)
 threading.Timer(0.5, interrupt).start()
 try:
     {study}
 except KeyboardInterrupt:
-    print("raised", time.process_time() - sent < 5)
+    print("raised", time.process_time() - sent < 20)
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
     assert done.stdout == "raised True\n", done.stderr
