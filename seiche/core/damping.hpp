@@ -27,8 +27,8 @@ class Damping {
   virtual void apply_D0(const Vector& z, Vector& out) const = 0;              // D₀z
   // out += ∫ₜᵗ⁺ʰ f(s) ds − h Σ wᵢf(t + cᵢh): what a quadrature with these nodes and weights does not see of a step
   // between two states. Of the linear part, f(s) = D(s)z with z behind the step, and what its integral does not see of
-  // jumps at the ends (EndExtrapolation); of friction, f(s) = R on the straight line between the states, which crosses
-  // its layers. The first call may allocate.
+  // jumps at the ends (EndExtrapolation); of friction, f(s) = R on the straight line between the states, where layers
+  // at v = 0 are seen. The first call may allocate.
   virtual void add_quadrature_error(double /*t*/, double /*h*/, std::span<const double> /*c*/,
                                     std::span<const double> /*w*/, const Vector& /*before*/, const Vector& /*after*/,
                                     Vector& /*out*/) const {}

@@ -82,7 +82,7 @@ struct RunReport {
   // equation.
   bool lacks_solution() const { return replaced.lost_state || 10 * replaced.count > steps; }
   void judge_replaced();                  // puts that remark into `message`; a run that lacks a solution has failed
-  std::string remark_on_widened() const;  // where the energy interval was widened, which costs no accuracy; or ""
+  std::string remark_on_widened() const;  // where the energy interval was widened beyond its doubt; or ""
   std::string remark_on_halved() const;   // what it does not resolve of the rest; or ""
   std::string remark_on_drift() const;    // what H did that no solution does, and what helps; "" where it did not
   // How far the auxiliary variable has taken H from the modified energy, where that is more than a thousandth and less

@@ -1,4 +1,3 @@
-#include <seiche/core/vector.hpp>
 #include <seiche/formula/cancellation.hpp>
 
 #include <cmath>
@@ -106,16 +105,17 @@ class Rewriter {
     return inside.number > 0 && !inside.terms.empty() ? std::sqrt(inside.number) : 0;
   }
 
-  // What the sum is at rest, as far as it is known, and to round-off: is it `value`?
-  static bool rests_at(const Sum& sum, double value) {
-    double rest = sum.number - value, size = std::abs(sum.number) + std::abs(value);
+  // Is the sum `value` at rest, to the bit, with functions there that have another form? Exponentials vanish far away,
+  // where eˣ − 1 would lose what they are: a number of their size must stand in the sum, so that it is lost already.
+  bool rests_at(const Sum& sum, double value) const {
+    double rest = sum.number - value, exponentials = 0;
     bool has_functions = false;
     for (const Term& term : sum.terms) {
       rest += term.factor * term.at_rest;
-      size += std::abs(term.factor * term.at_rest);
       has_functions |= term.at_rest != 0;
+      if (calls(term.node, "exp")) exponentials += std::abs(term.factor);
     }
-    return (has_functions || value != 0) && std::abs(rest) <= 4 * epsilon * size;
+    return (has_functions || value != 0) && rest == 0 && exponentials <= 4 * std::abs(sum.number);
   }
 
   void put(Kind kind) { out_.push_back({.kind = kind}); }

@@ -1,3 +1,4 @@
+#include <seiche/core/vector.hpp>
 #include <seiche/formula/expression_slopes.hpp>
 
 #include <algorithm>
@@ -154,8 +155,9 @@ void error_bounds(const ExpressionGraph& graph, const double* table, std::size_t
         break;
       case Kind::whole_power:
         set([&](std::size_t j) {
-          const double n = std::abs(node.index);
-          return n * std::abs(value[j]) * (1 + of_x[j] / std::abs(x[j]));
+          const double n = std::abs(node.index), size = std::abs(x[j]);
+          const double slope = node.index > 0 ? std::pow(size + epsilon * of_x[j], n - 1) : std::abs(value[j]) / size;
+          return n * (std::abs(value[j]) + (n > 0 ? slope * of_x[j] : 0.0));
         });
         break;
       case Kind::power:

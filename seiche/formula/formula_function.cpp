@@ -138,7 +138,7 @@ double slope_of_log1p(double a, double b) {
 double as_far(double, double, double off) { return off; }
 double carried_by_root(double y, double off) {  // √(x + off) − √x is no more than √off, at 0 too
   const double most = std::sqrt(off / epsilon);
-  return off > 2 * y * most ? most : off / (2 * y);
+  return off >= 2 * y * most ? most : off / (2 * y);
 }
 double carried_by_sine(double, double y, double off) { return std::sqrt(std::max(0.0, (1 - y) * (1 + y))) * off; }
 // Of a function whose slope is 1/√c, and infinite at the end of its domain, c = 0.

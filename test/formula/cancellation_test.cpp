@@ -112,6 +112,25 @@ TEST(Cancellation, OfTanhSquaredAtInfinityIsAvoidedToo) {
   }
 }
 
+// Far from rest, where exponentials vanish and constants are small beside what they stand next to.
+TEST(Cancellation, LosesNothingFarFromRest) {
+  const std::vector<std::pair<std::string, std::function<Long(Long)>>> list = {
+      {"log(0.5*exp(-(u-3)^2) + 0.5*exp(-(u+3)^2))",
+       [](Long u) { return std::log(std::exp(-(u - 3) * (u - 3)) / 2 + std::exp(-(u + 3) * (u + 3)) / 2); }},
+      {"2*exp(-u) - 2*exp(-2*u)", [](Long u) { return 2 * std::exp(-u) * -std::expm1(-u); }},
+      {"log(0.25*exp(-u) + 0.75*exp(-2*u))",
+       [](Long u) { return std::log(std::exp(-u) / 4 + 3 * std::exp(-2 * u) / 4); }}};
+  for (const auto& [text, exact] : list) {
+    const FormulaProgram program = without_cancellation(compile_formula(text, {"u"})->program());
+    for (const double u : {5.0, 8.5, 10.0, 20.0}) {
+      const Long right = exact(u);
+      EXPECT_LE(std::abs(run_program(program, {{u}}) - right), 1e-14L * std::abs(right)) << text << " at " << u;
+    }
+  }
+  const FormulaPointer small = compile_formula("1e8*cos(u) - 1e8*cos(u) + 5e-8", {"u"});
+  EXPECT_EQ(run_program(without_cancellation(small->program()), {{0.0}}), 5e-8);
+}
+
 TEST(Cancellation, LeavesOtherFormulasAsTheyAre) {
   for (const char* text :
        {"u^2/2 - v^4/4 + 1", "exp(u) + exp(-u)", "exp(u) - 2", "log(2 + u^2)", "log(u) - 1", "u*cos(v) - 1",
