@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace seiche {
@@ -15,18 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  if (look_at(path).kind != InputKind::file) return "";
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 constexpr const char *case_name = "case.toml", *other_case_name = "case_before_resume.toml";
 
 // What others did to case.toml is kept, and does not count.
 void restore_case(const Folder& folder, const std::string& text, std::vector<std::string>& notes) {
   const fs::path path = folder.path() / case_name;
-  if (text_of(path) == text) return;
+  if (text_of_file(path) == text) return;
   const bool is_there = look_at(path).kind != InputKind::missing;
   if (is_there) rename_file(folder, case_name, other_case_name);
   notes.push_back(is_there ? fmt::format("{} was not that of the checkpoint, which counts: it is {} now", case_name,
@@ -40,7 +32,7 @@ void restore_case(const Folder& folder, const std::string& text, std::vector<std
 CaseResult run_case(RunSpec spec, const fs::path& folder, const RunCaseOptions& options) {
   spec.output_directory = folder.string();
   // A run repeated in its folder plans its transforms the same way.
-  if (spec.measure_plans) use_planning_wisdom(text_of(folder / CaseRun::wisdom_name));
+  if (spec.measure_plans) use_planning_wisdom(text_of_file(folder / CaseRun::wisdom_name));
   const Problem problem = make_problem(spec);
   settle_snapshots(spec, problem);
   return CaseRun(std::move(spec), problem, options).result();
@@ -65,7 +57,7 @@ CaseResult resume_case(const fs::path& folder, std::optional<double> t_end, cons
     from.run.hashes["case.toml"] = sha256(from.run.case_text);
     write_file(case_folder.folder(), case_name, from.run.case_text);
   }
-  if (spec.measure_plans) use_planning_wisdom(text_of(folder / CaseRun::wisdom_name));
+  if (spec.measure_plans) use_planning_wisdom(text_of_file(folder / CaseRun::wisdom_name));
   const Problem problem = make_problem(spec);
   return CaseRun(std::move(spec), problem, options, &case_folder, &from).result();
 }

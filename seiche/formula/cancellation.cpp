@@ -23,12 +23,9 @@ class Rewriter {
     };
     for (const Instruction& i : program) {
       Node node{.is = i};
-      const bool is_binary =
-          i.kind == Kind::call ? i.function->arity == 2 : i.kind != Kind::negate && i.kind != Kind::whole_power;
-      if (i.kind != Kind::number && i.kind != Kind::variable) {
-        if (is_binary) node.b = pop();
-        node.a = pop();
-      }
+      const int count = operands(i);
+      if (count == 2) node.b = pop();
+      if (count > 0) node.a = pop();
       stack.push_back(static_cast<int>(nodes_.size()));
       nodes_.push_back(node);
     }

@@ -106,22 +106,17 @@ int ExpressionGraph::add_program(std::span<const Instruction> program, Known& kn
     return top;
   };
   for (const Instruction& instruction : program) {
-    Node node{.kind = instruction.kind, .number = instruction.number, .function = instruction.function};
-    switch (instruction.kind) {
-      case Kind::number: break;
-      case Kind::variable: stack.push_back(instruction.index); continue;
-      case Kind::whole_power: node.index = instruction.index; [[fallthrough]];
-      case Kind::negate: node.a = pop(); break;
-      case Kind::call:
-        if (instruction.function->arity == 2) node.b = pop();
-        node.a = pop();
-        break;
-      default:
-        node.b = pop();
-        node.a = pop();
-        // The order of operands makes no other value.
-        if ((node.kind == Kind::add || node.kind == Kind::multiply) && node.a > node.b) std::swap(node.a, node.b);
+    if (instruction.kind == Kind::variable) {
+      stack.push_back(instruction.index);
+      continue;
     }
+    Node node{.kind = instruction.kind, .number = instruction.number, .function = instruction.function};
+    if (node.kind == Kind::whole_power) node.index = instruction.index;
+    const int count = operands(instruction);
+    if (count == 2) node.b = pop();
+    if (count > 0) node.a = pop();
+    // The order of operands makes no other value.
+    if ((node.kind == Kind::add || node.kind == Kind::multiply) && node.a > node.b) std::swap(node.a, node.b);
     stack.push_back(add(node, known));
   }
   return stack.back();

@@ -26,8 +26,9 @@ PowerFactors power_factors(double xa, double xb, double ya, double yb, bool expo
   return {outer * (ya + yb) / 2 * log.mean_slope(xa, xb), outer * (la + lb) / 2};
 }
 
-// `sizes`: null for the slopes themselves; else what stands for a factor of a product, and no term has a sign.
-void add_up(const ExpressionGraph& graph, const double* a, const double* b, const double* sizes, int directions,
+// Sums of products; or, with `bounds` for the factors of products, the same where no term has a sign.
+template <bool unsigned_terms>
+void add_up(const ExpressionGraph& graph, const double* a, const double* b, const double* bounds, int directions,
             std::size_t points, double* slopes) {
   const std::span<const ExpressionGraph::Node> nodes = graph.nodes();
   const auto width = static_cast<std::size_t>(directions) * block;
@@ -35,14 +36,15 @@ void add_up(const ExpressionGraph& graph, const double* a, const double* b, cons
   const auto at = [](const double* table, int node, std::size_t j) {
     return table[static_cast<std::size_t>(node) * block + j];
   };
+  const auto sized = [](double x) { return unsigned_terms ? std::abs(x) : x; };
   // out ← f·(slopes of x) + g·(slopes of y), where x and y are nodes and f and g functions of the point
   const auto combine = [&](std::size_t i, int x, int y, const auto& f, const auto& g) {
     double* const out = slopes + i * width;
     const double* const of_x = slopes + static_cast<std::size_t>(x) * width;
     const double* const of_y = y < 0 ? of_x : slopes + static_cast<std::size_t>(y) * width;
     for (std::size_t j = 0; j < points; ++j) {
-      const double fx = sizes == nullptr ? f(j) : std::abs(f(j));
-      const double gy = y < 0 ? 0.0 : sizes == nullptr ? g(j) : std::abs(g(j));
+      const double fx = sized(f(j));
+      const double gy = y < 0 ? 0.0 : sized(g(j));
       for (std::size_t d = 0; d < width; d += block)
         out[d + j] = y < 0 ? fx * of_x[d + j] : fx * of_x[d + j] + gy * of_y[d + j];
     }
@@ -59,7 +61,8 @@ void add_up(const ExpressionGraph& graph, const double* a, const double* b, cons
                            nodes[static_cast<std::size_t>(exponent)].kind == Kind::number);
     };
     const auto mean = [&](int of, std::size_t j) {
-      return sizes == nullptr ? (at(a, of, j) + at(b, of, j)) / 2 : std::max(std::abs(at(a, of, j)), at(sizes, of, j));
+      if constexpr (unsigned_terms) return std::max(std::abs(at(a, of, j)), at(bounds, of, j));
+      return (at(a, of, j) + at(b, of, j)) / 2;
     };
     switch (node.kind) {
       case Kind::number:
@@ -115,12 +118,12 @@ void add_up(const ExpressionGraph& graph, const double* a, const double* b, cons
 
 void mean_slopes(const ExpressionGraph& graph, const double* a, const double* b, int directions, std::size_t points,
                  double* slopes) {
-  add_up(graph, a, b, nullptr, directions, points, slopes);
+  add_up<false>(graph, a, b, nullptr, directions, points, slopes);
 }
 
 void sizes_of_slopes(const ExpressionGraph& graph, const double* at, const double* bounds, int directions,
                      std::size_t points, double* sizes) {
-  add_up(graph, at, at, bounds, directions, points, sizes);
+  add_up<true>(graph, at, at, bounds, directions, points, sizes);
 }
 
 void error_bounds(const ExpressionGraph& graph, const double* table, std::size_t points, std::size_t end,

@@ -136,7 +136,7 @@ double slope_of_log1p(double a, double b) {
 }
 
 double as_far(double, double, double off) { return off; }
-double carried_by_root(double y, double off) {  // √(x + off) − √x is no more than √off, at 0 too
+double carried_by_root(double, double y, double off) {  // √(x + off) − √x is no more than √off, at 0 too
   const double most = std::sqrt(off / epsilon);
   return off >= 2 * y * most ? most : off / (2 * y);
 }
@@ -183,8 +183,8 @@ constexpr std::array<FormulaFunction, 22> function_table = {{
      [](double x, double, double off) { return off / (1 + x); }, true, &VectorFunctions::log1p},
     {"expm1", 1, [](double x) { return std::expm1(x); }, nullptr, slope_of_exp,
      [](double, double y, double off) { return (1 + y) * off; }, true, &VectorFunctions::expm1, slopes_of_exp},
-    {"sqrt", 1, [](double x) { return std::sqrt(x); }, nullptr, slope_of_sqrt,
-     [](double, double y, double off) { return carried_by_root(y, off); }, true, &VectorFunctions::sqrt},
+    {"sqrt", 1, [](double x) { return std::sqrt(x); }, nullptr, slope_of_sqrt, carried_by_root, true,
+     &VectorFunctions::sqrt},
     {"abs", 1, [](double x) { return std::fabs(x); }, nullptr, slope_of_abs, as_far},
     {"sign", 1, sign, nullptr, slope_of_sign, [](double, double, double) { return 0.0; }, false},
     {"sech", 1, sech, nullptr, slope_of_sech, [](double, double y, double off) { return y * off; }},

@@ -20,6 +20,8 @@ double whole_power(double x, int exponent) {
   }
 }
 
+}  // namespace
+
 int operands(const Instruction& instruction) {
   switch (instruction.kind) {
     case Kind::number:
@@ -30,8 +32,6 @@ int operands(const Instruction& instruction) {
     default: return 2;
   }
 }
-
-}  // namespace
 
 int stack_needed(std::span<const Instruction> program) {
   int depth = 0;

@@ -29,6 +29,7 @@ bool names_variable(std::span<const Instruction> program, const IsAsked& is_aske
   return false;
 }
 
+int operands(const Instruction& instruction);  // how many: 0, 1 or 2
 int stack_needed(std::span<const Instruction> program);
 
 // The program must need at most formula_stack_size. Never throws; what is not real comes back as NaN.

@@ -1,6 +1,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
 #include <seiche/output/csv_table.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/reserve_file.hpp>
@@ -18,8 +19,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 namespace seiche {
@@ -178,9 +177,7 @@ class Rescue {
 
   // So that the folder says what it holds. A case that was written by a person is of no run.
   void summary_without_rows() {
-    std::ifstream file(case_file());
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (spec_.ensemble || text != write_case(spec_)) return;
+    if (spec_.ensemble || text_of_file(case_file()) != write_case(spec_)) return;
     RunReport report;
     report.message = "the run ended, killed or without a disk to write to, before it had written a row";
     report.t = report.energy.initial = report.energy.final = report.energy.max_increase = std::nan("");

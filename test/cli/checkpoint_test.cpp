@@ -25,6 +25,14 @@ class CheckpointCli : public test::Cli {
   void SetUp() override { write_case("", "h = \"1/512\""); }
   static std::string keys() { return "time.end=8000 output.energy_every=64 output.snapshot_every=8192"; }
   static std::string few_steps() { return "time.end=400 output.energy_every=64 output.snapshot_every=512"; }
+  // A resume of a copy of `stopped`, in which a command of the shell has done something to the file that it calls F.
+  Result resumed_behind(std::string way, const std::string& file) {
+    fs::remove_all(directory / "out");
+    fs::copy(directory / "stopped", directory / "out");
+    for (std::size_t at = way.find('F'); at != std::string::npos; at = way.find('F')) way.replace(at, 1, file);
+    EXPECT_EQ(std::system(("cd '" + directory.string() + "/out' && " + way).c_str()), 0) << way;
+    return seiche("resume out --quiet", "timeout 200");
+  }
   std::vector<std::string> arguments(const std::string& more = "time.end=8000") const {
     return {"run",
             "case.toml",
@@ -180,13 +188,7 @@ TEST_F(CheckpointCli, IsPassedOverWithAWordWhereItIsNoPlainFile) {
       {"truncate -s 8G F", "its last bytes are missing"},
       {"printf x | dd of=F bs=1 seek=40 conv=notrunc status=none", "its checksum is another"}};
   for (const auto& [way, word] : ways) {
-    fs::remove_all(directory / "out");
-    fs::copy(directory / "stopped", directory / "out");
-    std::string command = way;
-    for (std::size_t at = command.find('F'); at != std::string::npos; at = command.find('F'))
-      command.replace(at, 1, "checkpoint.seiche");
-    ASSERT_EQ(std::system(("cd '" + directory.string() + "/out' && " + command).c_str()), 0) << way;
-    const Result resumed = seiche("resume out --quiet", "timeout 200");
+    const Result resumed = resumed_behind(way, "checkpoint.seiche");
     EXPECT_EQ(resumed.exit, 0) << way << resumed.err;
     EXPECT_THAT(resumed.err, AllOf(HasSubstr("checkpoint.seiche is of no use"), HasSubstr(word))) << way;
   }
@@ -196,13 +198,7 @@ TEST_F(CheckpointCli, HoldsTheCaseWhateverBecameOfTheFile) {
   ASSERT_EQ(seiche("run case.toml --out stopped --quiet --max-hours 1e-9 --set " + few_steps()).exit, 130);
   const std::string whole = text("stopped/case.toml");
   for (const std::string way : {"rm F", "echo '[[[' >F", "rm F; mkfifo F", "rm F; mkdir F", "echo '# mine' >>F"}) {
-    fs::remove_all(directory / "out");
-    fs::copy(directory / "stopped", directory / "out");
-    std::string command = way;
-    for (std::size_t at = command.find('F'); at != std::string::npos; at = command.find('F'))
-      command.replace(at, 1, "case.toml");
-    ASSERT_EQ(std::system(("cd '" + directory.string() + "/out' && " + command).c_str()), 0) << way;
-    const Result resumed = seiche("resume out --quiet", "timeout 200");
+    const Result resumed = resumed_behind(way, "case.toml");
     EXPECT_EQ(resumed.exit, 0) << way << resumed.err;
     EXPECT_THAT(resumed.err, HasSubstr("case.toml was")) << way;
     EXPECT_EQ(text("out/case.toml"), whole) << way;

@@ -1,6 +1,8 @@
 #include <seiche/core/text/input_file.hpp>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <system_error>
 
 namespace seiche {
@@ -38,6 +40,12 @@ std::string complaint_about_file(const fs::path& file) {
     case InputKind::other: break;
   }
   return "is not a file";
+}
+
+std::string text_of_file(const fs::path& file) {
+  if (look_at(file).kind != InputKind::file) return "";
+  std::ifstream input(file);
+  return {std::istreambuf_iterator<char>(input), {}};
 }
 
 std::string text_up_to(std::istream& input, std::size_t most) {

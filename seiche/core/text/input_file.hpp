@@ -23,6 +23,9 @@ InputFile look_at(const std::filesystem::path& file);  // never throws
 // file", "cannot be reached: Too many levels of symbolic links".
 std::string complaint_about_file(const std::filesystem::path& file);
 
+// All of a file; "" where it is not a file or cannot be read.
+std::string text_of_file(const std::filesystem::path& file);
+
 // All there is, or `most` bytes and one more.
 std::string text_up_to(std::istream& input, std::size_t most);
 

@@ -49,11 +49,10 @@ double AvfClosure::sweep(const Vector& z, const Vector& z_plus, const Propagator
 }
 
 bool AvfClosure::find_noise(const Vector& z, const Propagator& propagator) {
-  constexpr double of_mean = 8;  // gradients, whose terms may cancel elsewhere
   if (noise_ > 0) return false;
-  potential().gradient_round_off(z, mean_);
+  bound_mean_gradient(potential(), z, mean_);
   propagator.force(mean_, q_);
-  noise_ = of_mean * epsilon * space().max_norm(q_);
+  noise_ = space().max_norm(q_);
   return noise_ > 0;
 }
 

@@ -29,6 +29,11 @@ bool Closure::nothing_changes_H() const {
   return std::abs(space().dot(z, Sz)) <= 1e-13 * space().norm(z) * space().norm(Sz);
 }
 
+void bound_mean_gradient(const Potential& potential, const Vector& z, Vector& bounds) {
+  potential.gradient_round_off(z, bounds);
+  bounds *= 8 * epsilon;
+}
+
 ExplicitStep::ExplicitStep(Index size) {
   for (Vector* v : {&z_mid, &g, &dz, &q, &delta, &z_plus}) v->setZero(size);
 }

@@ -57,6 +57,10 @@ class Closure {
   bool keeps_ledger_ = false;
 };
 
+// What round-off may make of a mean gradient from z: eight times Potential::gradient_round_off, since the terms of a
+// mean may cancel elsewhere. z is the start of a step; an iterate of a solver may be anywhere.
+void bound_mean_gradient(const Potential& potential, const Vector& z, Vector& bounds);
+
 // The explicit step z₁ = Ez + F∇V(ẑ) that every closure starts from, and its parts.
 struct ExplicitStep {
   explicit ExplicitStep(Index size);

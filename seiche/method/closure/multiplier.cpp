@@ -1,3 +1,4 @@
+#include <seiche/method/closure/closure.hpp>
 #include <seiche/method/closure/multiplier.hpp>
 
 #include <algorithm>
@@ -80,19 +81,13 @@ MultiplierEquation::Value MultiplierEquation::at_by_quadrature(double x) {
           scales_[0] + std::abs(x) * (scales_[1] + std::abs(x) * scales_[2])};
 }
 
-void MultiplierEquation::bound_round_off_of_gradient() {
-  constexpr double of_mean = 8;  // gradients, whose terms may cancel elsewhere
-  potential_.gradient_round_off(*start_, mean_);
-  mean_ *= of_mean * epsilon;
-}
-
 double MultiplierEquation::round_off() {
-  bound_round_off_of_gradient();
+  bound_mean_gradient(potential_, *start_, mean_);
   return space_.absolute_dot(mean_, *delta_);
 }
 
 bool MultiplierEquation::gap_is_round_off() {
-  bound_round_off_of_gradient();
+  bound_mean_gradient(potential_, *start_, mean_);
   return gap_norm_ <= space_.stable_norm(mean_);
 }
 

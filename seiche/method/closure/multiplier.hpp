@@ -71,8 +71,7 @@ class MultiplierEquation {
 
  private:
   Value at_by_quadrature(double x);
-  double round_off();                  // of F, where the terms of ∇V cancel
-  void bound_round_off_of_gradient();  // in mean_, at the start: z⁺(x) may be anywhere
+  double round_off();  // of F, where the terms of ∇V cancel
 
   const Space& space_;
   const Potential& potential_;

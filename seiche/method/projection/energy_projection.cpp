@@ -53,14 +53,12 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarge
   }
   if (conditioned && !aim.strong && solve(*line_, start_, aim, z, outcome)) return outcome;
   line_.reset();  // the lines below use its scratch
-  {
-    EnergyLine line(system_, phi_, scratch_, z, Direction::steepest);
-    if (solve(line, line.at(0), aim, z, outcome)) return outcome;
-  }
-  if (conditioned && aim.strong) {
-    EnergyLine line(system_, phi_, scratch_, z, Direction::casimir_free);
-    if (solve(line, line.at(0), aim, z, outcome)) return outcome;
-  }
+  const auto solve_along = [&](Direction direction) {
+    EnergyLine line(system_, phi_, scratch_, z, direction);
+    return solve(line, line.at(0), aim, z, outcome);
+  };
+  if (solve_along(Direction::steepest)) return outcome;
+  if (conditioned && aim.strong && solve_along(Direction::casimir_free)) return outcome;
   outcome.by_bisection = true;
   outcome.H = std::min(start_.H(), aim.cap);
   outcome.admissible = start_.H() <= aim.cap + slack(start_, aim);  // below what it should be: safe all the same

@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -155,8 +154,7 @@ class Auditor {
     const std::string claim = "solution.h5 is of the case in case.toml";
     const std::string inside = solution.text("case");
     if (inside.empty()) return book_.add(claim, Verdict::not_checked, "it does not say of which case it is");
-    std::ifstream file(directory_ / "case.toml");
-    const std::string beside{std::istreambuf_iterator<char>(file), {}};
+    const std::string beside = text_of_file(directory_ / "case.toml");
     // A comment makes no other case, nor does another folder.
     const bool same = inside == case_in_any_folder(spec_) || inside == beside || inside == write_case(spec_);
     book_.add(claim, same ? Verdict::confirmed : Verdict::contradicted,
