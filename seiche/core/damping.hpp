@@ -29,7 +29,7 @@ class Damping {
   // between two states. Of the linear part, f(s) = D(s)z with z behind the step, and what its integral does not see of
   // jumps at the ends (EndExtrapolation); of friction, f(s) = R on the straight line between the states, where layers
   // at v = 0 are seen. The first call may allocate.
-  virtual void add_quadrature_error(double /*t*/, double /*h*/, std::span<const double> /*c*/,
+  virtual void add_quadrature_error(const Space& /*space*/, double /*t*/, double /*h*/, std::span<const double> /*c*/,
                                     std::span<const double> /*w*/, const Vector& /*before*/, const Vector& /*after*/,
                                     Vector& /*out*/) const {}
   // The largest rate, in 1/time, at which D(t) + ∂R/∂z acts in a step h from `before` to `after`: of what varies in

@@ -13,6 +13,8 @@ class LinearPart {
  public:
   virtual ~LinearPart() = default;
   virtual void apply_S(const Vector& z, Vector& out) const = 0;
+  // out ← ½(S + Sᵀ)z; false, and out as it was, where S is skew. The first call may allocate.
+  virtual bool apply_symmetric_S(const Vector& z, Vector& out) const = 0;
   virtual void apply_M(const Vector& z, Vector& out) const = 0;
   virtual double quadratic_energy(const Vector& z) const = 0;     // ½zᵀMz
   virtual double quadratic_magnitude(const Vector& z) const = 0;  // ½|z|ᵀ|M||z|, the scale of its round-off

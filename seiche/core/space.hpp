@@ -33,6 +33,7 @@ class Space {
     max({&local, 1});
     return local;
   }
+  bool any(bool local) const { return max(local ? 1.0 : 0.0) != 0; }
   bool all(bool local) const { return max(local ? 0.0 : 1.0) == 0; }
 
   // Of vectors, parts of them and expressions, in the coordinates of z or in physical values.

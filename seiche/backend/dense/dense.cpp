@@ -150,6 +150,12 @@ class DenseLinear final : public LinearPart {
         absolute_(M_.rows()) {}
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = S_ * z; }
+  bool apply_symmetric_S(const Vector& z, Vector& out) const override {
+    if (S_ == -S_.transpose()) return false;
+    out.noalias() = 0.5 * S_ * z;
+    out.noalias() += 0.5 * S_.transpose() * z;
+    return true;
+  }
   void apply_M(const Vector& z, Vector& out) const override { out.noalias() = M_ * z; }
   double quadratic_energy(const Vector& z) const override { return metric_.energy(z); }
   double quadratic_magnitude(const Vector& z) const override {

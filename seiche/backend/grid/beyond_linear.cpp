@@ -42,8 +42,9 @@ class FrictionDamping final : public Damping {
   void flow(double t, double h, Vector& z) const override;
   void apply(double t, const Vector& z, Vector& out) const override;
   bool is_constant() const override { return false; }
-  void add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w,
-                            const Vector& before, const Vector& after, Vector& out) const override;
+  void add_quadrature_error(const Space& space, double t, double h, std::span<const double> c,
+                            std::span<const double> w, const Vector& before, const Vector& after,
+                            Vector& out) const override;
   void apply_rest(double t, const Vector& z, Vector& out) const override;
   void apply_D0(const Vector& z, Vector& out) const override { linear_->apply_D0(z, out); }
   double largest_rate(const Space& space, double t, double h, const Vector& before, const Vector& after) const override;
@@ -112,12 +113,13 @@ void FrictionDamping::add_to_momenta(const Vector& at_points, Vector& out) const
   }
 }
 
-// Along the line Gauss' rule of a few nodes more than a step has; of many where a velocity turns, since what friction
-// does next to v = 0 may be done in a small part of the step.
-void FrictionDamping::add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w,
-                                           const Vector& before, const Vector& after, Vector& out) const {
+// Along the line Gauss' rule of a few nodes more than a step has; of many where a velocity turns or leaves rest, since
+// what friction does next to v = 0 may be done in a small part of the step.
+void FrictionDamping::add_quadrature_error(const Space& space, double t, double h, std::span<const double> c,
+                                           std::span<const double> w, const Vector& before, const Vector& after,
+                                           Vector& out) const {
   static const std::vector<GaussNode> few = gauss_rule(10), many = gauss_rule(40);
-  linear_->add_quadrature_error(t, h, c, w, before, after, out);
+  linear_->add_quadrature_error(space, t, h, c, w, before, after, out);
   read_points(before);
   q_before_ = q_;
   v_before_ = v_;
@@ -131,7 +133,8 @@ void FrictionDamping::add_quadrature_error(double t, double h, std::span<const d
     friction_->force(t + place * h, all(q_), all(v_), all(r_));
     missed_ += h * weight * r_;
   };
-  const bool turns = (v_before_.array() * v_after_.array() < 0).any();
+  const bool turns =
+      space.any((v_before_.array() * v_after_.array() <= 0 && v_before_.array() != v_after_.array()).any());
   for (const auto& [place, weight] : turns ? many : few) add(place, weight);
   for (std::size_t i = 0; i < c.size(); ++i) add(c[i], -w[i]);
   add_to_momenta(missed_, out);
@@ -158,7 +161,7 @@ double FrictionDamping::largest_rate(const Space& space, double t, double h, con
   v_before_ = v_;
   double slope = largest_slope(t);
   read_points(after);
-  const bool turns = (v_.array() * v_before_.array() < 0).any();
+  const bool turns = space.any((v_.array() * v_before_.array() < 0).any());
   if (turns) v_before_.array() = (v_.array() * v_before_.array() < 0).select(0.0, (v_ + v_before_).array() / 2);
   slope = std::max(slope, largest_slope(t + h));
   if (turns) {

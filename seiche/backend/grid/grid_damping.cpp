@@ -124,8 +124,9 @@ double GridDamping::integral_error_at_ends(double t, double h) const {
   return EndExtrapolation::width * (std::abs(begin) + std::abs(end));
 }
 
-void GridDamping::add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w,
-                                       const Vector& /*before*/, const Vector& after, Vector& out) const {
+void GridDamping::add_quadrature_error(const Space& /*space*/, double t, double h, std::span<const double> c,
+                                       std::span<const double> w, const Vector& /*before*/, const Vector& after,
+                                       Vector& out) const {
   if (is_constant()) return;
   double missed = rate_ ? rate_->integral(t, h) : 0.0;
   for (std::size_t i = 0; rate_ && i < c.size(); ++i) missed -= h * w[i] * rate_->value(t + c[i] * h);

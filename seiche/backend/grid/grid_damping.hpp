@@ -34,8 +34,9 @@ class GridDamping final : public Damping {
   bool is_constant() const override { return !field_rate_ && (!rate_ || rate_->is_constant()); }
   void apply_rest(double t, const Vector& z, Vector& out) const override;
   void apply_D0(const Vector& z, Vector& out) const override;
-  void add_quadrature_error(double t, double h, std::span<const double> c, std::span<const double> w,
-                            const Vector& before, const Vector& after, Vector& out) const override;
+  void add_quadrature_error(const Space& space, double t, double h, std::span<const double> c,
+                            std::span<const double> w, const Vector& before, const Vector& after,
+                            Vector& out) const override;
   double largest_rate(const Space& space, double t, double h, const Vector& before, const Vector& after) const override;
   bool field_factors(double t, double h, std::span<double> factors) const override;
 

@@ -71,6 +71,21 @@ class ModalLinear final : public LinearPart {
   }
 
   void apply_S(const Vector& z, Vector& out) const override { map(S_, S_symbol_).apply(z, out); }
+  bool apply_symmetric_S(const Vector& z, Vector& out) const override {
+    const auto twice = [this](Index k) -> Block {
+      const Block S = S_symbol_.symbol(modes_[k]);
+      return S + S.adjoint();
+    };
+    if (!S_is_skew_) {
+      S_is_skew_ = true;
+      for (Index k = 0; k < extent_.modes && *S_is_skew_; ++k) S_is_skew_ = twice(k).isZero(0);
+    }
+    if (*S_is_skew_) return false;
+    if (!symmetric_S_)
+      symmetric_S_ = std::make_unique<ModeMap>(modes_, extent_.fields, [&](Index k) -> Block { return twice(k) / 2; });
+    symmetric_S_->apply(z, out);
+    return true;
+  }
   void apply_M(const Vector& z, Vector& out) const override {
     if (!metric_) return map(M_, M_symbol_).apply(z, out);
     for (Index f = 0; f < extent_.fields; ++f) {
@@ -204,7 +219,8 @@ class ModalLinear final : public LinearPart {
   ModalExtent extent_;
   std::optional<ModalMetric> metric_;  // where M is diagonal
   bool nonnegative_ = true;            // is it? then ½|z|ᵀ|M||z| is ½zᵀMz
-  mutable std::unique_ptr<ModeMap> S_, M_, absolute_M_;
+  mutable std::unique_ptr<ModeMap> S_, M_, absolute_M_, symmetric_S_;
+  mutable std::optional<bool> S_is_skew_;  // once it was asked for
   mutable Vector scratch_, absolute_;
 };
 

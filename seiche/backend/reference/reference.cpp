@@ -44,6 +44,11 @@ class ReferenceLinear final : public LinearPart {
       : space_(space), support_(support), S_(std::move(S)), M_(std::move(M)), absolute_M_(M_.cwiseAbs()) {}
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = S_ * z; }
+  bool apply_symmetric_S(const Vector& z, Vector& out) const override {
+    if (S_ == -S_.transpose()) return false;
+    out.noalias() = 0.5 * (S_ + S_.transpose()) * z;
+    return true;
+  }
   void apply_M(const Vector& z, Vector& out) const override { out.noalias() = M_ * z; }
   double quadratic_energy(const Vector& z) const override {
     Mz_.noalias() = M_ * z;

@@ -82,6 +82,15 @@ class SparseLinear final : public LinearPart {
   }
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = operators_.S * z; }
+  bool apply_symmetric_S(const Vector& z, Vector& out) const override {
+    if (!symmetric_S_) {
+      symmetric_S_ = 0.5 * (operators_.S + SparseMatrix(operators_.S.transpose()));
+      symmetric_S_->prune(0.0);
+    }
+    if (symmetric_S_->nonZeros() == 0) return false;
+    out.noalias() = *symmetric_S_ * z;
+    return true;
+  }
   void apply_M(const Vector& z, Vector& out) const override {
     if (rows_of_M_)
       rows_of_M_->apply(z, out);
@@ -143,7 +152,8 @@ class SparseLinear final : public LinearPart {
   mutable std::unique_ptr<ResolventFactory> factory_;  // when first asked for: Lanczos needs none
   mutable double factor_bytes_ = -1;                   // likewise
   double radius_;
-  std::shared_ptr<const SkewSystem> skew_;  // null: Padé
+  std::shared_ptr<const SkewSystem> skew_;           // null: Padé
+  mutable std::optional<SparseMatrix> symmetric_S_;  // likewise
   mutable Vector scratch_, absolute_;
 };
 

@@ -105,8 +105,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     const auto of_rule = [](const Eigen::VectorXd& v) {
       return std::span(v.data(), static_cast<std::size_t>(v.size()));
     };
-    system_.damping->add_quadrature_error(t, h, of_rule(rule_.nodes), of_rule(rule_.weights), projected_.before(), s.z,
-                                          missed_);
+    system_.damping->add_quadrature_error(space(), t, h, of_rule(rule_.nodes), of_rule(rule_.weights),
+                                          projected_.before(), s.z, missed_);
     system_.space->to_physical(missed_, physical_);
     const double largest = space().max_norm(physical_);
     return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();

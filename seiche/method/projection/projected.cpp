@@ -22,6 +22,7 @@ Projected::Projected(const System& system, const PhiEvaluator& phi, BaseStep& ba
       may_flow_freely_(!system.force && system.damping->is_linear()),
       feeds_(phi.dissipation().is_quadratic && !phi.dissipation().is_nonnegative),
       projection_(system, phi),
+      rate_(system),
       free_(cached_step_sizes(system.space->size())),
       z_(Vector::Zero(system.space->size())) {
   saved_.z = z_;
@@ -35,7 +36,8 @@ void Projected::read_energy(State& s) const {
 
 void Projected::begin(State& s) {
   read_energy(s);
-  if (law_ == EnergyLaw::interval) system_.damping->largest_rate(*system_.space, s.t, 0, s.z, s.z);  // allocates now
+  if (law_ == EnergyLaw::interval && base_.dissipation_kind() != StepDissipation::Kind::none)
+    rate_.largest(s.t, 0, s.z, s.z);  // allocates now
   if (!std::isfinite(s.energy))
     throw Error("the energy of the initial state is not a finite number (H = {})", number_text(s.energy));
 }
@@ -169,8 +171,7 @@ EnergyTarget Projected::choose_energy(const State& s, double t, double h, double
                                       const StepDissipation::Amount& amount) {
   EnergyTarget target = energy_target(
       law_, s.energy, computed, projection_.energy_of_rest(), amount, base_.dissipation_kind(),
-      [&] { return h * system_.damping->largest_rate(*system_.space, t, h, s.z, z_); },
-      [&] { return base_.flow_missed(s, h); });
+      [&] { return h * rate_.largest(t, h, s.z, z_); }, [&] { return base_.flow_missed(s, h); });
   target.terms = s.energy_terms;
   return target;
 }

@@ -4,6 +4,7 @@
 
 #include <seiche/simulation/solve.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace seiche::test {
@@ -167,19 +169,61 @@ initial = { q = "1", p = "2" })toml",
 }
 
 // Where damping is weak and steps are resolved, energies of the default law are what makes it worth having.
-TEST(StrongDamping, IsNotMetInStepsOfWeakDamping) {
-  const std::string weak = R"toml(fields = ["q", "p"]
-H = "p^2/2 + q^2/2 + q^4/4"
-D = { p = 0.001 }
-initial = { q = "1", p = "0" })toml";
-  const Problem problem = make_problem(read(weak));
-  const auto end = [&](const char* method, double h, std::optional<EnergyLaw> law) {
-    return end_of(solve(problem, {.method = method, .method_options = with_law(law), .h = h, .t_end = 100}));
+TEST(StrongDamping, WrittenIntoSIsTheSame) {
+  const auto written = [](const std::string& V, int of_p, double of_r) {
+    return fmt::format(R"toml(fields = ["a", "b", "p", "r"]
+H = "(p^2 + r^2)/2 + b^2/2 + {}"
+S = [[0, 0, 1, 0], [0, 0, 0, 1], [-1, 0, -{}, 0], [0, -1, 0, -{}]]
+initial = {{ a = "0.05", b = "1", p = "0", r = "0" }})toml",
+                       V, of_p, of_r);
   };
-  const Vector exact = end("egc8", 1.0 / 64, EnergyLaw::none);
-  for (const char* method : {"egc4", "egc6"}) {
-    const double guarded = (end(method, 0.25, EnergyLaw::guard) - exact).lpNorm<Eigen::Infinity>();
-    EXPECT_LE((end(method, 0.25, {}) - exact).lpNorm<Eigen::Infinity>(), guarded / 2) << method;
+  int compared = 0;
+  for (const auto& [name, V, of_p] : std::vector<std::tuple<std::string, std::string, int>>{
+           {"cosh", "1e4*(cosh(a) - 1) + a*b^2/2", 20},
+           {"exponential spring", "4e3*(exp(a) - 1 - a) + a*b^2/2", 12},
+           {"steep pendulum", "900*(1 - cos(3*a)) + 0.3*a^2*b^2", 15}})
+    expect_no_worse({name, written(V, of_p, 0.1), 4, without_kicks, {1.0 / 40, 1.0 / 80, 1.0 / 160}}, compared);
+  EXPECT_GT(compared, 30);
+}
+
+TEST(StrongDamping, OfAGradientFlowInLongStepsIsNoReasonToMoveH) {
+  int compared = 0;
+  for (const auto& [name, V, start] : std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"quartic", "q^4", "3"},
+           {"two wells and ripples", "(q^2 - 1)^2/4 + 0.3*sin(6*q)", "1.9"},
+           {"steep pendulum", "20*(1 - cos(q)) + q^2/2", "2.8"}})
+    expect_no_worse({name,
+                     fmt::format(R"toml(fields = ["q"]
+H = "{}"
+S = [[-1]]
+initial = {{ q = "{}" }})toml",
+                                 V, start),
+                     2,
+                     without_kicks,
+                     {1.0 / 4, 1.0 / 8, 1.0 / 16, 1.0 / 32}},
+                    compared);
+  EXPECT_GT(compared, 30);
+}
+
+TEST(StrongDamping, IsNotMetInStepsOfWeakDamping) {
+  struct Weak {
+    std::string D;
+    double t_end;
+  };
+  for (const Weak& weak : {Weak{"0.001", 100}, Weak{"0.05", 40}}) {
+    const std::string text = R"toml(fields = ["q", "p"]
+H = "p^2/2 + q^2/2 + q^4/4"
+D = { p = )toml" + weak.D + R"toml( }
+initial = { q = "1", p = "0" })toml";
+    const Problem problem = make_problem(read(text));
+    const auto end = [&](const char* method, double h, std::optional<EnergyLaw> law) {
+      return end_of(solve(problem, {.method = method, .method_options = with_law(law), .h = h, .t_end = weak.t_end}));
+    };
+    const Vector exact = end("egc8", 1.0 / 64, EnergyLaw::none);
+    for (const char* method : {"egc4", "egc6"}) {
+      const double guarded = (end(method, 0.25, EnergyLaw::guard) - exact).lpNorm<Eigen::Infinity>();
+      EXPECT_LE((end(method, 0.25, {}) - exact).lpNorm<Eigen::Infinity>(), guarded / 2) << weak.D << ", " << method;
+    }
   }
 }
 
