@@ -319,6 +319,32 @@ TEST(Layering, EveryRoomIsSeenAtAGlance) {
   for (const auto& [room, count] : files) EXPECT_LE(count, room == fs::path("seiche/core") ? 40 : 30) << room;
 }
 
+// Who looks for the header of a .cpp finds it beside it, and the two hold more than a fragment.
+TEST(Layering, EverySourceHasTheHeaderOfItsNameAndIsNoFragment) {
+  const std::set<fs::path> without_header = {
+      // sleef_kernels.hpp, compiled for one instruction set each; vector_functions.cpp chooses.
+      "seiche/core/simd/vector_functions_avx2.cpp",
+      "seiche/core/simd/vector_functions_avx512.cpp",
+      // Declared in audit.hpp.
+      "seiche/study/audit/audit_ensemble.cpp",
+  };
+  std::size_t sources = 0;
+  for (const char* folder : {"seiche", "paper"}) {
+    for (const fs::path& file : files_below(folder)) {
+      if (file.extension() != ".cpp") continue;
+      ++sources;
+      const fs::path header = fs::path(file).replace_extension(".hpp");
+      const bool has_header = fs::exists(root / header);
+      EXPECT_NE(has_header, without_header.contains(file))
+          << file << (has_header ? " has a header, so it is no exception of this test" : " has no header of its name");
+      if (!has_header) continue;
+      EXPECT_GE(lines_of(file).size() + lines_of(header).size(), 25U)
+          << file << " and its header are a fragment: they join the file whose idea they are";
+    }
+  }
+  EXPECT_GT(sources, 100U);
+}
+
 TEST(Layering, NothingIsLeftForLaterInTheSources) {
   const std::vector<std::string> marks = {std::string("TO") + "DO", std::string("FIX") + "ME"};
   for (const char* folder :

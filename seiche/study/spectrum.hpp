@@ -3,6 +3,7 @@
 #pragma once
 
 #include <seiche/simulation/simulation.hpp>
+#include <seiche/study/spectrum_output.hpp>
 
 #include <atomic>
 #include <cstddef>
@@ -64,11 +65,5 @@ struct SpectrumVerdict {
   bool is_physical() const { return most_spurious == nullptr && most_missing == nullptr && unresolved == 0; }
 };
 SpectrumVerdict judge(const Spectrum& spectrum);  // points into `spectrum`
-
-std::string spectrum_table(
-    const Spectrum& spectrum);  // for a terminal: what was measured, at most some 50 modes, the verdict
-std::string spectrum_sentence(const Spectrum& spectrum);  // the verdict, "\n"-terminated lines
-std::string spectrum_json(const Spectrum& spectrum);      // one document
-std::string spectrum_csv(const Spectrum& spectrum);
 
 }  // namespace seiche

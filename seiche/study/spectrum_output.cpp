@@ -1,4 +1,5 @@
 #include <seiche/study/spectrum.hpp>
+#include <seiche/study/spectrum_output.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

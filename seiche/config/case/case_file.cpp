@@ -2,6 +2,8 @@
 #include <seiche/config/case/case_keys.hpp>
 #include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/case/ensemble_case.hpp>
+#include <seiche/config/case/method_section.hpp>
+#include <seiche/config/case/problem_section.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/core/text/shortened.hpp>

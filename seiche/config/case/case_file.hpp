@@ -1,7 +1,8 @@
-// Case files: TOML in, a checked RunSpec out, and back. Mistakes are reported in the order of the source, with file,
-// line and column.
+// Case files: TOML in, a checked RunSpec out, and back by case_writer.hpp. Mistakes are reported in the order of the
+// source, with file, line and column.
 #pragma once
 
+#include <seiche/config/case/case_writer.hpp>
 #include <seiche/config/case/run_spec.hpp>
 
 #include <filesystem>
@@ -24,13 +25,5 @@ RunSpec read_case(const std::filesystem::path& file, const std::vector<std::stri
 // `name` is how errors call the text; file names in it start at `folder`, or else at the current one.
 RunSpec parse_case(std::string_view text, std::string_view name, const std::vector<std::string>& overrides = {},
                    const std::filesystem::path& folder = {}, const std::vector<std::string>& methods = {});
-
-// The case as run, every default filled in; parse_case reads the same RunSpec from it.
-std::string write_case(const RunSpec& spec);
-// The same without what depends on where it is run: the output directory is ".", and files have no folders.
-std::string case_in_any_folder(RunSpec spec);
-
-// What `seiche new` prints: every key with its default, its meaning and its bounds.
-std::string example_case(const std::string& problem);
 
 }  // namespace seiche

@@ -55,10 +55,4 @@ struct CaseReading {
 CaseValue default_value(const std::string& text);  // what a key that is not given is read from
 bool is_one_of(const CaseEntry& entry, const std::vector<std::string>& keys);
 
-// Into reading.spec. The name comes first, since all other keys depend on it; [problem] needs reading.problem, and
-// [method] the time.
-void read_problem_name(CaseReading& reading);
-void read_problem_section(CaseReading& reading);
-void read_method_section(CaseReading& reading);
-
 }  // namespace seiche

@@ -1,4 +1,4 @@
-// [method] of a case file, which read_method_section reads (case_reading.hpp): the options of methods as its keys.
+// [method] of a case file, and the options of methods as its keys.
 #pragma once
 
 #include <seiche/config/case/case_value.hpp>
@@ -9,6 +9,8 @@
 
 namespace seiche {
 
+struct CaseReading;
+
 struct MethodOptionKey {
   std::string name;
   // Puts the value into the options; throws Error with the key, the value and what is allowed.
@@ -16,5 +18,7 @@ struct MethodOptionKey {
 };
 
 std::span<const MethodOptionKey> method_option_keys();
+
+void read_method_section(CaseReading& reading);  // into reading.spec, behind [time]
 
 }  // namespace seiche

@@ -1,7 +1,6 @@
-// [problem] of a case file.
 #include <seiche/config/case/case_keys.hpp>
 #include <seiche/config/case/case_parameters.hpp>
-#include <seiche/config/case/case_reading.hpp>
+#include <seiche/config/case/problem_section.hpp>
 #include <seiche/config/custom/custom_case.hpp>
 #include <seiche/config/data/matrix_market.hpp>
 

@@ -2,6 +2,7 @@
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/hdf5/hdf5_calls.hpp>
 #include <seiche/output/hdf5/hdf5_driver.hpp>
+#include <seiche/output/hdf5/hdf5_whole.hpp>
 
 #include <fcntl.h>
 #include <hdf5.h>
@@ -231,6 +232,10 @@ bool Hdf5File::has(const std::string& name) const {
   const Hdf5Quiet quiet;
   refuse_link(name);
   return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+void Hdf5File::require_whole(const std::vector<std::string>& elsewhere) const {
+  require_whole_file(*this, path_, elsewhere);
 }
 
 void Hdf5File::flush() {

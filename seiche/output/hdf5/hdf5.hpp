@@ -3,6 +3,7 @@
 #pragma once
 
 #include <seiche/output/file/folder.hpp>
+#include <seiche/output/hdf5/hdf5_attributes.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -99,18 +100,6 @@ class Hdf5File {
   std::filesystem::path path_;
   Hdf5Handle handle_;
 };
-
-// Of a file or a data set. Texts are of variable length, in UTF-8.
-void set_attribute(Hdf5Handle::Id object, const std::string& name, std::string_view text);
-std::string text_attribute(Hdf5Handle::Id object, const std::string& name);  // "" if it is missing
-
-// Dimension scales, by which xarray and NetCDF-4 know the axes: every data set that is no scale itself, with the
-// scales of its axes in their order.
-struct Hdf5Axes {
-  const Hdf5Dataset* data;
-  std::vector<const Hdf5Dataset*> scales;
-};
-void attach_scales(const Hdf5File& file, const std::vector<Hdf5Axes>& all);
 
 std::string hdf5_version();  // of the library in use
 

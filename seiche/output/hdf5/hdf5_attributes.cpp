@@ -1,7 +1,7 @@
 // Attributes, and the three of them by which a data set says what its axes are: CLASS and NAME of a scale,
 // DIMENSION_LIST of its users, REFERENCE_LIST back from the scale (HDF5 Dimension Scale Specification). They are
 // written as the high-level library of HDF5 does, which would be one more library for them alone.
-#include <seiche/output/hdf5/hdf5.hpp>
+#include <seiche/output/hdf5/hdf5_attributes.hpp>
 #include <seiche/output/hdf5/hdf5_calls.hpp>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
-// All of a file, read from its beginning to its end: what a reader of some of it would not see.
 #include <seiche/core/error.hpp>
-#include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/hdf5/hdf5_calls.hpp>
+#include <seiche/output/hdf5/hdf5_whole.hpp>
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -68,20 +67,22 @@ void read_rows(const Hdf5Dataset& data) {
 
 }  // namespace
 
-void Hdf5File::require_whole(const std::vector<std::string>& elsewhere) const {
+void require_whole_file(const Hdf5File& file, const std::filesystem::path& path,
+                        const std::vector<std::string>& elsewhere) {
   const Hdf5Quiet quiet;
-  const std::string file = path_.string();
   Contents contents;
-  hdf5_check(H5Lvisit(id(), H5_INDEX_NAME, H5_ITER_NATIVE, list, &contents), fmt::format("cannot read {}", file));
-  if (!contents.strange.empty()) throw Error("{} in {} is a link, and no solution has one", contents.strange, file);
-  read_attributes(id(), file);
+  hdf5_check(H5Lvisit(file.id(), H5_INDEX_NAME, H5_ITER_NATIVE, list, &contents),
+             fmt::format("cannot read {}", path.string()));
+  if (!contents.strange.empty())
+    throw Error("{} in {} is a link, and no solution has one", contents.strange, path.string());
+  read_attributes(file.id(), path.string());
   for (const std::string& name : contents.links) {
-    const std::string what = fmt::format("{} in {}", name, file);
+    const std::string what = fmt::format("{} in {}", name, path.string());
     const Hdf5Handle object =
-        hdf5_handle(H5Oopen(id(), name.c_str(), H5P_DEFAULT), H5Oclose, fmt::format("cannot read {}", what));
+        hdf5_handle(H5Oopen(file.id(), name.c_str(), H5P_DEFAULT), H5Oclose, fmt::format("cannot read {}", what));
     read_attributes(object.id(), what);
     const bool is_read = std::find(elsewhere.begin(), elsewhere.end(), name) != elsewhere.end();
-    if (H5Iget_type(object.id()) == H5I_DATASET && !is_read) read_rows(dataset(name));
+    if (H5Iget_type(object.id()) == H5I_DATASET && !is_read) read_rows(file.dataset(name));
   }
 }
 
