@@ -27,7 +27,7 @@ std::string complaint_about_rate(const AnyRate* rate, double t_end) {
 // What stands against a law beside S, M and D: friction that feeds, external forces. A sentence, or "".
 std::string complaint_beyond_linear(const Problem& problem, double t_end);
 
-// The promise once M ⪰ 0, sym(S) ⪯ 0 and sym(MD) ⪰ 0 are known: it fails where the damping may raise V.
+// The promise by (1.2) once M ⪰ 0, sym(S) ⪯ 0 and sym(MD) ⪰ 0 are known: it fails where the damping may raise V.
 LawPromise promise_given_semidefinite_MD(const Problem& problem);
 
 }  // namespace seiche
