@@ -32,22 +32,14 @@ constexpr std::array list = {
                  .system = reference_system},
 };
 
-Listed<BackendEntry>& all_backends() {
-  static Listed<BackendEntry> all(list);
-  return all;
-}
-
 }  // namespace
 
-std::span<const BackendEntry> backends() { return all_backends().rows(); }
+std::span<const BackendEntry> backends() { return list; }
 
-AddedBackend::AddedBackend(const BackendEntry& backend) { all_backends().add(backend); }
-AddedBackend::~AddedBackend() { all_backends().remove_last(); }
-
-std::vector<std::string> backend_names() { return all_backends().names(); }
+std::vector<std::string> backend_names() { return names_of(backends()); }
 
 const BackendEntry& find_backend(std::string_view name) {
-  if (const BackendEntry* entry = all_backends().find(name)) return *entry;
+  if (const BackendEntry* entry = find_row(backends(), name)) return *entry;
   std::vector<std::string> allowed = backend_names();
   allowed.emplace_back("auto");
   throw unknown_name("backend", name, allowed);

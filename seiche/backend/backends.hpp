@@ -26,15 +26,6 @@ std::span<const BackendEntry> backends();
 std::vector<std::string> backend_names();
 const BackendEntry& find_backend(std::string_view name);  // throws Error with the nearest name
 
-// A backend of a program's own, in the list for as long as this lives; as AddedMethod.
-class AddedBackend {
- public:
-  explicit AddedBackend(const BackendEntry& backend);
-  ~AddedBackend();
-  AddedBackend(const AddedBackend&) = delete;
-  AddedBackend& operator=(const AddedBackend&) = delete;
-};
-
 // What `auto` stands for: a stored table of sizes, never a timing. by_kicks: for a method that asks for no exponential,
 // so that differences on a grid are best left as they are.
 const BackendEntry& automatic_backend(const Problem& problem, bool by_kicks = false);

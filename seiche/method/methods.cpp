@@ -192,11 +192,6 @@ constexpr std::array list = {
 };
 // clang-format on
 
-Listed<MethodEntry>& all_methods() {
-  static Listed<MethodEntry> all(list);
-  return all;
-}
-
 void require_fit(const MethodEntry& method, const System& system) {
   if (system.structure && !method.kind.takes_structure)
     throw Error("{} needs one structure matrix S; where S changes with z use egc2 … egc8, seimp or etdrk4",
@@ -208,15 +203,12 @@ void require_fit(const MethodEntry& method, const System& system) {
 
 }  // namespace
 
-std::span<const MethodEntry> methods() { return all_methods().rows(); }
+std::span<const MethodEntry> methods() { return list; }
 
-AddedMethod::AddedMethod(const MethodEntry& method) { all_methods().add(method); }
-AddedMethod::~AddedMethod() { all_methods().remove_last(); }
-
-std::vector<std::string> method_names() { return all_methods().names(); }
+std::vector<std::string> method_names() { return names_of(methods()); }
 
 const MethodEntry& find_method(std::string_view name) {
-  if (const MethodEntry* entry = all_methods().find(name)) return *entry;
+  if (const MethodEntry* entry = find_row(methods(), name)) return *entry;
   throw unknown_name("method", name, method_names());
 }
 

@@ -73,16 +73,6 @@ std::span<const MethodEntry> methods();
 std::vector<std::string> method_names();
 const MethodEntry& find_method(std::string_view name);  // throws Error with the nearest name
 
-// A method of a program's own, in the list for as long as this lives: every command, study and test finds it there. Its
-// texts outlive it. Added before anything runs, removed in the order of a stack; throws Error where the name is taken.
-class AddedMethod {
- public:
-  explicit AddedMethod(const MethodEntry& method);
-  ~AddedMethod();
-  AddedMethod(const AddedMethod&) = delete;
-  AddedMethod& operator=(const AddedMethod&) = delete;
-};
-
 struct MethodOptions {
   std::optional<double> C;                             // sav: the shift; automatic if not given
   AuxiliaryMode auxiliary = AuxiliaryMode::transport;  // frozen, in the lm family, always solves by plain Newton
@@ -102,7 +92,8 @@ struct MethodOptions {
   MethodOptions meant_for(const MethodEntry& method) const;
 };
 
-// `system` outlives the stepper; for methods that merge the damping it comes from with_damping_merged(problem).
+// `method` is a row of the list, or one like them. `system` outlives the stepper; for methods that merge the damping it
+// comes from with_damping_merged(problem).
 std::unique_ptr<Stepper> make_stepper(const MethodEntry& method, const System& system,
                                       const MethodOptions& options = {});
 // The same with errors of its steps, for variable ones.

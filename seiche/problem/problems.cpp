@@ -18,39 +18,19 @@
 
 namespace seiche {
 
-namespace {
-
-Listed<ProblemEntry>& all_problems() {
-  static Listed<ProblemEntry> list(std::vector<ProblemEntry>{
-      klein_gordon_entry(),
-      alpha_fpu_entry(),
-      gkdv_entry(),
-      sine_gordon_entry(),
-      oscillator_entry(),
-      nls_entry(),
-      beta_fpu_entry(),
-      chain_entry(),
-      variable_wave_entry(),
-      truss_entry(),
-      network_entry(),
-      sparse_entry(),
-      burgers_entry(),
-      rigid_body_entry(),
-  });
+std::span<const ProblemEntry> problems() {
+  static const std::vector<ProblemEntry> list = {
+      klein_gordon_entry(), alpha_fpu_entry(), gkdv_entry(),    sine_gordon_entry(),   oscillator_entry(),
+      nls_entry(),          beta_fpu_entry(),  chain_entry(),   variable_wave_entry(), truss_entry(),
+      network_entry(),      sparse_entry(),    burgers_entry(), rigid_body_entry(),
+  };
   return list;
 }
 
-}  // namespace
-
-std::span<const ProblemEntry> problems() { return all_problems().rows(); }
-
-AddedProblem::AddedProblem(ProblemEntry problem) { all_problems().add(std::move(problem)); }
-AddedProblem::~AddedProblem() { all_problems().remove_last(); }
-
-std::vector<std::string> problem_names() { return all_problems().names(); }
+std::vector<std::string> problem_names() { return names_of(problems()); }
 
 const ProblemEntry& find_problem(std::string_view name) {
-  if (const ProblemEntry* entry = all_problems().find(name)) return *entry;
+  if (const ProblemEntry* entry = find_row(problems(), name)) return *entry;
   throw unknown_name("problem", name, problem_names());
 }
 

@@ -32,14 +32,4 @@ std::span<const ProblemEntry> problems();
 std::vector<std::string> problem_names();
 const ProblemEntry& find_problem(std::string_view name);  // throws Error with the nearest name
 
-// A problem of a program's own, in the list for as long as this lives: case files may name it. Removed in the order of
-// a stack; throws Error where the name is taken.
-class AddedProblem {
- public:
-  explicit AddedProblem(ProblemEntry problem);
-  ~AddedProblem();
-  AddedProblem(const AddedProblem&) = delete;
-  AddedProblem& operator=(const AddedProblem&) = delete;
-};
-
 }  // namespace seiche
