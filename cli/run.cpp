@@ -13,12 +13,10 @@
 #include <seiche/output/progress.hpp>
 #include <seiche/output/solution_file.hpp>
 
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 
 namespace seiche::cli {
 namespace {
@@ -119,7 +117,7 @@ ExitCode run_ensemble(const RunArguments& arguments, const RunSpec& spec) {
 }
 
 ExitCode run(const NewRunArguments& arguments) {
-  answer_signals();
+  answer_signals("stopped before the first step");
   hdf5_without_cleanup_at_exit();
   RunSpec spec = load_case(arguments.case_argument);
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
@@ -134,7 +132,7 @@ ExitCode run(const NewRunArguments& arguments) {
 }
 
 ExitCode resume(const ResumeArguments& arguments) {
-  answer_signals();
+  answer_signals("stopped before the run went on; its files and its checkpoint are as they were");
   hdf5_without_cleanup_at_exit();
   const std::string& directory = arguments.directory;
   RunCaseOptions options = run_options(arguments);
@@ -148,10 +146,9 @@ ExitCode resume(const ResumeArguments& arguments) {
 
 const CLI::Validator hours(
     [](const std::string& text) {
-      double value = 0;
-      const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-      const bool is_number = error == std::errc() && rest == text.data() + text.size() && std::isfinite(value);
-      return is_number && value > 0 ? std::string() : fmt::format("'{}' is no finite number > 0", shortened(text));
+      double value = 0;  // as CLI11 reads the option itself
+      const bool is_one = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+      return is_one ? std::string() : fmt::format("'{}' is no finite number > 0", shortened(text));
     },
     "");
 

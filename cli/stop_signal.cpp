@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <initializer_list>
 #include <string_view>
 
 namespace seiche::cli {
@@ -13,9 +14,12 @@ namespace {
 std::atomic<bool> stop = false, save = false, is_held = false, leave = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "else a signal handler must not touch it");
 
+std::atomic<const char*> end_of_set_up = "";
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
 void end_set_up(int) {
-  constexpr std::string_view text = "seiche: stopped before the first step\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  for (const std::string_view text : {"seiche: ", end_of_set_up.load(std::memory_order_relaxed), "\n"})
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(interrupted);
 }
 
@@ -54,12 +58,18 @@ void change_mask(int how) {
   pthread_sigmask(how, &set, nullptr);
 }
 
+#if defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Called before the constructors of all libraries; a sanitizer is not ready then.
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)() = keep_signals_waiting;
+#endif
+
 }  // namespace
 
 void keep_signals_waiting() { change_mask(SIG_BLOCK); }
 void let_signals_through() { change_mask(SIG_UNBLOCK); }
 
-void answer_signals() {
+void answer_signals(const char* sentence) {
+  end_of_set_up = sentence;
   handle(SIGUSR1, ask_to_save);
   handle(SIGPIPE, SIG_IGN);
   handle_all(end_set_up, 0);

@@ -6,14 +6,15 @@
 
 namespace seiche::cli {
 
-// First thing in the program: signals wait until it is known what they are to do.
+// First thing in the program: signals wait until it is known what they are to do. With the GNU C library they do so
+// before main, since the libraries take longer to begin than many runs.
 void keep_signals_waiting();
 void let_signals_through();  // of commands that answer none: they end the program
 
 // Of a run that is being set up: those that waited come now. USR1 asks for the first checkpoint; the others end the
-// program at once, with a word and exit code 130, since nothing is lost yet. A reader of our messages that has gone
-// ends no run.
-void answer_signals();
+// program at once with exit code 130, since nothing is lost yet, and say so by `sentence`, a literal. A reader of our
+// messages that has gone ends no run.
+void answer_signals(const char* sentence);
 
 // From now on; the flag is set by the first signal. HUP stays ignored where the program was started so (nohup).
 const std::atomic<bool>& stop_on_signal();

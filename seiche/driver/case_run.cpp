@@ -1,6 +1,7 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/config/data/initial_file.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
 #include <seiche/driver/case_run.hpp>
 #include <seiche/driver/last_words.hpp>
 #include <seiche/figure/run_report.hpp>
@@ -91,7 +92,7 @@ std::string write_for_readers(const Folder& folder, const RunSpec& spec, const S
   }
   if (!folder.is_at_its_path()) {
     warn(fmt::format(
-        "there is no report.html, since {} leads to another folder by now; the files are where it led to at the start",
+        "there is no report.html, since the folder of this run is not at {} any more; the other files are in it",
         folder.path().string()));
     return "";
   }
@@ -109,8 +110,7 @@ std::string write_for_readers(const Folder& folder, const RunSpec& spec, const S
 
 }  // namespace
 
-CaseRun::CaseRun(RunSpec spec, const Problem& problem, const RunCaseOptions& options, CaseFolder* folder,
-                 Checkpoint* from)
+CaseRun::CaseRun(RunSpec spec, const Problem& problem, const RunCaseOptions& options, GoingOn* from)
     : spec_(std::move(spec)),
       options_(options),
       versions_(all_versions(options)),
@@ -118,7 +118,7 @@ CaseRun::CaseRun(RunSpec spec, const Problem& problem, const RunCaseOptions& opt
       run_(problem, plan(spec_, options.threads)),
       is_modified_(run_.simulation().stepper().has_modified_energy()),
       from_(from),
-      folder_(folder) {
+      folder_(from != nullptr ? &from->folder : nullptr) {
   if (from_ != nullptr) {
     go_on();
   } else {
@@ -131,28 +131,28 @@ CaseResult CaseRun::result() {
   Simulation& simulation = run_.simulation();
   const auto summary = [this](const RunReport& report) { return this->summary(report); };
   LastWords last_words(folder, simulation, summary);
+  if (from_ != nullptr && from_->new_end) write_new_end(folder, case_text_, *from_->new_end);
   make_files();
+  if (from_ != nullptr) take_over();
   EnergyTrace& trace = *trace_;
   SolutionFile& solution = *solution_;
   if (spec_.ledger) simulation.stepper().keep_ledger();
   solution.before_writing([&] { trace.flush(); });
-  const auto warn = [this](const std::string& note) {
-    if (options_.warn) options_.warn(note);
-  };
+  const auto warn = [this](const std::string& note) { this->warn(note); };
   keeper_.emplace(folder,
                   CheckpointKeeper::Options{.when = spec_.checkpoint,
                                             .asked = options_.save,
                                             .seconds = 3600 * options_.max_hours,
                                             .describe = [this](SavedRun& saved) { describe(saved); },
                                             .warn = warn},
-                  from_ != nullptr ? from_->run.steps : 0);
+                  from_ != nullptr ? &from_->from.run : nullptr);
   const std::atomic<bool>* leave = nullptr;
   AtTheEnd hold([&](const RunReport&) { leave = options_.ends ? options_.ends() : nullptr; });
   AtTheEnd words([&](const RunReport& report) { last_words.write(with_way_on(report)); });
   std::vector<Observer*> observers = {&hold, &trace, &words, &solution};
   observers.insert(observers.end(), options_.observers.begin(), options_.observers.end());
 
-  const Resumption resumption{.checkpoints = &*keeper_, .from = from_ != nullptr ? &from_->rest : nullptr};
+  const Resumption resumption{.checkpoints = &*keeper_, .from = from_ != nullptr ? &from_->from.rest : nullptr};
   RunReport report = with_way_on(run_.integrate(*stop_, observers, resumption));
   if (report.status == RunReport::Status::success) remove_checkpoints(folder);
   last_words.correct(report);
@@ -187,18 +187,40 @@ void CaseRun::begin(const Problem& problem) {
 }
 
 void CaseRun::go_on() {
-  notes_ = from_->run.notes;
-  case_text_ = from_->run.case_text;
-  hashes_ = from_->run.hashes;
+  const SavedRun& saved = from_->from.run;
+  notes_ = saved.notes;
+  case_text_ = from_->new_end ? write_case(spec_) : saved.case_text;
+  hashes_ = saved.hashes;
+  hashes_["case.toml"] = sha256(case_text_);
   std::vector<std::string> said = {
-      fmt::format("going on from {}, t = {:.9g} (step {})", from_->name, from_->run.t, from_->run.steps)};
+      fmt::format("going on from {}, t = {:.9g} (step {})", from_->from.name, saved.t, saved.steps)};
   for (const std::string& version : lines_of(versions_))
-    if (std::find(from_->run.versions.begin(), from_->run.versions.end(), version) == from_->run.versions.end())
+    if (std::find(saved.versions.begin(), saved.versions.end(), version) == saved.versions.end())
       said.push_back(fmt::format("the checkpoint was not written by {}: last bits may differ", version));
   notes_.insert(notes_.end(), said.begin() + 1, said.end());
   stop_ = begin_run(options_, said);
+}
+
+// A case.toml that others have written is kept, and does not count.
+void CaseRun::take_over() {
+  const Folder& folder = folder_->folder();
+  const fs::path path = folder.path() / "case.toml";
+  const std::string found = text_of_file(path);
+  if (found != case_text_ && found != from_->from.run.case_text) {
+    const bool is_there = look_at(path).kind != InputKind::missing;
+    notes_.push_back(is_there ? fmt::format("case.toml was not that of the checkpoint, which counts: it is {} now",
+                                            put_aside(folder, "case.toml", "case_before_resume.toml"))
+                              : "case.toml was missing: it is that of the checkpoint again");
+    warn(notes_.back());
+  }
+  if (found != case_text_) write_file(folder, "case.toml", case_text_);
   // What they tell is of a run that had stopped.
-  for (const char* name : {"summary.json", "final.txt", "solution.xdmf"}) remove_file(folder_->folder(), name);
+  for (const char* name : {"summary.json", "final.txt", "solution.xdmf"}) remove_file(folder, name);
+  if (folder.is_at_its_path()) remove_own_report(folder.path());
+}
+
+void CaseRun::warn(const std::string& note) const {
+  if (options_.warn) options_.warn(note);
 }
 
 void CaseRun::make_files() {
@@ -209,8 +231,10 @@ void CaseRun::make_files() {
   const SnapshotTimes times{.schedule = {.every_steps = spec_.snapshot_every}, .interval = spec_.snapshot_interval};
   const SolutionDescription about = description(spec_, simulation, versions_);
   if (from_ != nullptr) {
-    trace_.emplace(folder, from_->run.energies, is_modified_, energy_steps, spec_.ledger);
-    solution_.emplace(folder, from_->run.solution, simulation.problem(), space, times, is_modified_, about);
+    // First the one of which a copy needs room: where that is missing, all files are what they were.
+    const SavedRun& saved = from_->from.run;
+    solution_.emplace(folder, saved.solution, simulation.problem(), space, times, is_modified_, about);
+    trace_.emplace(folder, saved.energies, is_modified_, energy_steps, spec_.ledger);
   } else {
     trace_.emplace(folder, is_modified_, energy_steps, spec_.ledger);
     solution_.emplace(folder, simulation.problem(), space, times, is_modified_, about);
@@ -223,11 +247,14 @@ void CaseRun::describe(SavedRun& saved) {
            .case_text = case_text_,
            .hashes = hashes_,
            .notes = notes_,
-           .resumed_at = resumed_at(),
+           .resumed_at = {},
+           .resumed_with = resumed_with(),
+           .new_end = {},
            .t = state.t,
            .steps = state.n,
            .energies = trace_->mark(),
            .solution = solution_->mark()};
+  for (const ResumedWith& resumed : saved.resumed_with) saved.resumed_at.push_back(resumed.t);
 }
 
 RunReport CaseRun::with_way_on(RunReport report) const {
@@ -238,8 +265,9 @@ RunReport CaseRun::with_way_on(RunReport report) const {
         (folder_->folder().path() / "final.txt").string(), report.t);
   if (report.status != RunReport::Status::interrupted) return report;
   if (keeper_->is_out_of_time()) report.message += fmt::format(", after {:.3g} hours as asked", options_.max_hours);
-  if (keeper_->has_saved())
-    report.message += fmt::format("; `seiche resume {}` goes on from there", folder_->folder().path().string());
+  if (const std::optional<double> t = keeper_->saved_t())
+    report.message += fmt::format("; `seiche resume {}` goes on from {}", folder_->folder().path().string(),
+                                  *t == report.t ? "there" : fmt::format("a checkpoint at t = {:.9g}", *t));
   return report;
 }
 
@@ -257,17 +285,18 @@ std::string CaseRun::summary(const RunReport& report) {
                        .tolerance = spec_.tolerance,
                        .certificate = certificate_json(run_.certificate_after(report)),
                        .versions = versions_,
-                       .resumed_at = resumed_at(),
+                       .resumed_with = resumed_with(),
                        .threads = options_.threads,
                        .hashes = hashes_},
                       with_notes(report));
 }
 
-std::vector<double> CaseRun::resumed_at() const {
+std::vector<ResumedWith> CaseRun::resumed_with() const {
   if (from_ == nullptr) return {};
-  std::vector<double> times = from_->run.resumed_at;
-  times.push_back(from_->run.t);
-  return times;
+  const SavedRun& saved = from_->from.run;
+  std::vector<ResumedWith> all = saved.resumed_with;
+  all.push_back({.t = saved.t, .versions = versions_, .end = from_->new_end ? from_->new_end : saved.new_end});
+  return all;
 }
 
 }  // namespace seiche

@@ -18,11 +18,18 @@
 
 namespace seiche {
 
+// Where a run goes on, and from what.
+struct GoingOn {
+  CaseFolder& folder;
+  Checkpoint from;
+  std::optional<double> new_end = {};  // of the spec, where it is not that of the checkpoint
+};
+
 class CaseRun {
  public:
-  // In `folder`, from a checkpoint; or in the folder that the case names, from its start.
-  CaseRun(RunSpec spec, const Problem& problem, const RunCaseOptions& options, CaseFolder* folder = nullptr,
-          Checkpoint* from = nullptr);
+  // From a checkpoint, or in the folder that the case names from its start. One that goes on has changed nothing on the
+  // disk before `result`, and then nothing that is lost where its files cannot be made.
+  CaseRun(RunSpec spec, const Problem& problem, const RunCaseOptions& options, GoingOn* from = nullptr);
 
   CaseResult result();
 
@@ -32,13 +39,15 @@ class CaseRun {
   void begin(const Problem& problem);
   void go_on();
   void make_files();
+  void take_over();  // the folder of the run that this one goes on from, when the files are made
+  void warn(const std::string& note) const;
   void describe(SavedRun& saved);
 
   // The report, with a message that says whether a time limit interrupted the run, and how it can be continued.
   RunReport with_way_on(RunReport report) const;
   RunReport with_notes(RunReport report) const;
   std::string summary(const RunReport& report);
-  std::vector<double> resumed_at() const;
+  std::vector<ResumedWith> resumed_with() const;
 
   RunSpec spec_;
   const RunCaseOptions& options_;
@@ -50,7 +59,7 @@ class CaseRun {
   std::string case_text_;  // of case.toml
   FileHashes hashes_;
   const std::atomic<bool>* stop_ = nullptr;
-  Checkpoint* from_;  // null: from the start
+  GoingOn* from_;  // null: from the start
   CaseFolder* folder_;
   std::optional<CaseFolder> own_folder_;  // of a run from the start
   std::optional<EnergyTrace> trace_;

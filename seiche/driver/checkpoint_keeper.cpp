@@ -9,14 +9,16 @@
 
 namespace seiche {
 
-CheckpointKeeper::CheckpointKeeper(Folder folder, Options options, std::int64_t first_step)
+CheckpointKeeper::CheckpointKeeper(Folder folder, Options options, const SavedRun* from)
     : folder_(std::move(folder)),
       options_(std::move(options)),
       begin_(Clock::now()),
       last_save_(begin_),
       last_look_(begin_),
-      last_n_(first_step),
-      last_saved_n_(first_step) {}
+      last_n_(from != nullptr ? from->steps : 0),
+      last_saved_n_(last_n_) {
+  if (from != nullptr) saved_t_ = from->t;
+}
 
 Checkpoints::Wish CheckpointKeeper::look(std::int64_t n) {
   const Clock::time_point now = Clock::now();
@@ -54,11 +56,13 @@ void CheckpointKeeper::save(FunctionRef<void(Archive&)> run) {
   options_.describe(saved);  // brings the rows so far to the disk: where that fails, the run does
   try {
     write(saved, run);
-    has_saved_ = true;
+    saved_t_ = saved.t;
   } catch (const Error& error) {
-    has_saved_ = false;
     if (!std::exchange(has_warned_, true) && options_.warn)
-      options_.warn(fmt::format("no checkpoint was written, and the run goes on without: {}", error.what()));
+      options_.warn(
+          fmt::format("no checkpoint was written at t = {:.9g}, and {}: {}", saved.t,
+                      saved_t_ ? fmt::format("the newest is that of t = {:.9g}", *saved_t_) : "there is no earlier one",
+                      error.what()));
   }
   last_save_ = Clock::now();
 }

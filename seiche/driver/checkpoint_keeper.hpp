@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace seiche {
@@ -22,11 +23,12 @@ class CheckpointKeeper : public Checkpoints {
     std::function<void(SavedRun&)> describe = {};
     std::function<void(const std::string&)> warn = {};
   };
-  CheckpointKeeper(Folder folder, Options options, std::int64_t first_step);
+  // `from`: of the checkpoint from which the run goes on; null: from the start.
+  CheckpointKeeper(Folder folder, Options options, const SavedRun* from);
 
   // A checkpoint that cannot be written ends no run: that is said once.
   void save(FunctionRef<void(Archive&)> run) override;
-  bool has_saved() const { return has_saved_; }  // the last time that it tried
+  std::optional<double> saved_t() const { return saved_t_; }  // of the newest checkpoint, if there is one
   bool is_out_of_time() const { return out_of_time_; }
 
  private:
@@ -40,7 +42,8 @@ class CheckpointKeeper : public Checkpoints {
   Options options_;
   Clock::time_point begin_, last_save_, last_look_;
   std::int64_t last_n_, last_saved_n_, stride_ = 1;  // steps
-  bool has_saved_ = false, has_warned_ = false, out_of_time_ = false;
+  std::optional<double> saved_t_;
+  bool has_warned_ = false, out_of_time_ = false;
 };
 
 }  // namespace seiche

@@ -3,9 +3,11 @@
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/driver/case_run.hpp>
 #include <seiche/driver/run_case.hpp>
+#include <seiche/run/time_grid.hpp>
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 namespace seiche {
@@ -13,24 +15,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *case_name = "case.toml", *other_case_name = "case_before_resume.toml";
+// Throws Error where the steps of the case do not lead to its end.
+void require_time_grid(const RunSpec& spec) {
+  if (!spec.tolerance) TimeGrid(spec.t_start, spec.h, spec.t_end);
+}
 
-// What others did to case.toml is kept, and does not count.
-void restore_case(const Folder& folder, const std::string& text, std::vector<std::string>& notes) {
-  const fs::path path = folder.path() / case_name;
-  if (text_of_file(path) == text) return;
-  const bool is_there = look_at(path).kind != InputKind::missing;
-  if (is_there) rename_file(folder, case_name, other_case_name);
-  notes.push_back(is_there ? fmt::format("{} was not that of the checkpoint, which counts: it is {} now", case_name,
-                                         other_case_name)
-                           : fmt::format("{} was missing: it is that of the checkpoint again", case_name));
-  write_file(folder, case_name, text);
+// The case of a checkpoint with another end, read as a case file with that end is.
+RunSpec with_end(RunSpec spec, double t_end, const SavedRun& saved, const fs::path& folder) {
+  if (!std::isfinite(t_end) || t_end < saved.t)
+    throw Error("the run cannot end at t = {:.9g}: that must be a finite time, and the checkpoint is at t = {:.9g}",
+                t_end, saved.t);
+  spec.t_end = t_end;
+  RunSpec read = parse_case(write_case(spec), fmt::format("the case with end = {:.9g}", t_end), {}, folder);
+  read.output_directory = spec.output_directory;
+  return read;
 }
 
 }  // namespace
 
 CaseResult run_case(RunSpec spec, const fs::path& folder, const RunCaseOptions& options) {
   spec.output_directory = folder.string();
+  require_time_grid(spec);
   // A run repeated in its folder plans its transforms the same way.
   if (spec.measure_plans) use_planning_wisdom(text_of_file(folder / CaseRun::wisdom_name));
   const Problem problem = make_problem(spec);
@@ -41,25 +46,22 @@ CaseResult run_case(RunSpec spec, const fs::path& folder, const RunCaseOptions& 
 CaseResult resume_case(const fs::path& folder, std::optional<double> t_end, const RunCaseOptions& options) {
   CaseFolder case_folder(folder);
   std::vector<std::string> notes;
-  Checkpoint from = newest_checkpoint(case_folder.folder(), notes);
-  RunSpec spec = parse_case(from.run.case_text, from.name, {}, folder);
+  GoingOn from{.folder = case_folder, .from = newest_checkpoint(case_folder.folder(), notes)};
+  SavedRun& saved = from.from.run;
+  RunSpec spec = parse_case(saved.case_text, from.from.name, {}, folder);
   spec.output_directory = folder.string();
-  if (t_end) spec.t_end = *t_end;
-  if (spec.t_end < from.run.t)
-    throw Error("t = {:.9g} is before the checkpoint, which is at t = {:.9g}", spec.t_end, from.run.t);
-  restore_case(case_folder.folder(), from.run.case_text, notes);
-  from.run.notes.insert(from.run.notes.end(), notes.begin(), notes.end());
+  if (t_end && *t_end != spec.t_end) {
+    spec = with_end(std::move(spec), *t_end, saved, folder);
+    from.new_end = t_end;
+  }
+  require_time_grid(spec);
+  saved.notes.insert(saved.notes.end(), notes.begin(), notes.end());
   if (options.warn)
     for (const std::string& note : notes) options.warn(note);
   if (options.ends_at) options.ends_at(spec.t_end);
-  if (t_end) {  // a case of its own from here on
-    from.run.case_text = write_case(spec);
-    from.run.hashes["case.toml"] = sha256(from.run.case_text);
-    write_file(case_folder.folder(), case_name, from.run.case_text);
-  }
   if (spec.measure_plans) use_planning_wisdom(text_of_file(folder / CaseRun::wisdom_name));
   const Problem problem = make_problem(spec);
-  return CaseRun(std::move(spec), problem, options, &case_folder, &from).result();
+  return CaseRun(std::move(spec), problem, options, &from).result();
 }
 
 }  // namespace seiche

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -18,7 +19,7 @@
 namespace seiche {
 namespace {
 
-constexpr std::string_view format = "Seiche checkpoint 4\n", of_any_version = "Seiche checkpoint ";
+constexpr std::string_view format = "Seiche checkpoint 5\n", of_any_version = "Seiche checkpoint ";
 
 // By its name: a link that leads nowhere is no checkpoint, and a word about it is due.
 bool is_there(const std::filesystem::path& file) {
@@ -29,6 +30,22 @@ bool is_there(const std::filesystem::path& file) {
 struct Tail {
   std::uint64_t length;
   std::uint64_t checksum;
+};
+
+// What a checkpoint holds between its first line and its last bytes, which close it.
+class Body {
+ public:
+  explicit Body(AtomicFile& file) : file_(file) { file_.write(format); }
+  void write(std::string_view bytes) {
+    tail_.length += bytes.size();
+    tail_.checksum = checksum(bytes, static_cast<std::uint32_t>(tail_.checksum));
+    file_.write(bytes);
+  }
+  void close() { file_.write({reinterpret_cast<const char*>(&tail_), sizeof(tail_)}); }
+
+ private:
+  AtomicFile& file_;
+  Tail tail_{.length = 0, .checksum = checksum_of_nothing};
 };
 
 // A file that is one: no pipe, which would be waited for, no device, which has no end, and no link.
@@ -70,13 +87,21 @@ class PlainFile {
   std::uint64_t size_ = 0;
 };
 
+constexpr std::uint64_t piece = std::uint64_t{1} << 20U;
+
 // Piece by piece: of a file whose checksum is wrong nothing is kept.
 std::uint32_t checksum_of(const PlainFile& file, std::uint64_t begin, std::uint64_t length) {
-  constexpr std::uint64_t piece = std::uint64_t{1} << 20U;
   std::uint32_t found = checksum_of_nothing;
   for (std::uint64_t done = 0; done < length; done += piece)
     found = checksum(file.read(begin + done, std::min(piece, length - done)), found);
   return found;
+}
+
+std::uint64_t archived_size(SavedRun run) {
+  std::uint64_t size = 0;
+  Archive archive([&size](std::string_view bytes) { size += bytes.size(); });
+  archive(run);
+  return size;
 }
 
 }  // namespace
@@ -87,22 +112,42 @@ void SavedRun::archive(Archive& a) {
     files.push_back(file);
     sums.push_back(sum);
   }
-  a(versions, case_text, files, sums, notes, resumed_at, t, steps, energies, solution);
+  a(versions, case_text, files, sums, notes, resumed_at, resumed_with, new_end, t, steps, energies, solution);
   for (std::size_t i = 0; i < std::min(files.size(), sums.size()); ++i) hashes[files[i]] = sums[i];
-  a.require(solution.in_last <= solution.rows && files.size() == sums.size());
+  a.require(solution.in_last <= solution.rows && files.size() == sums.size() &&
+            resumed_at.size() == resumed_with.size());
 }
 
 void write_checkpoint(AtomicFile& file, SavedRun& saved, FunctionRef<void(Archive&)> rest) {
-  Tail tail{.length = 0, .checksum = checksum_of_nothing};
-  file.write(format);
-  Archive archive([&](std::string_view bytes) {
-    tail.length += bytes.size();
-    tail.checksum = checksum(bytes, static_cast<std::uint32_t>(tail.checksum));
-    file.write(bytes);
-  });
+  Body body(file);
+  Archive archive([&body](std::string_view bytes) { body.write(bytes); });
   archive(saved);
   rest(archive);
-  file.write({reinterpret_cast<const char*>(&tail), sizeof(tail)});
+  body.close();
+}
+
+void write_new_end(const Folder& folder, const std::string& case_text, double t_end) {
+  for (const char* name : {earlier_checkpoint_name, checkpoint_name}) {
+    std::optional<PlainFile> in;
+    SavedRun run;
+    try {
+      in.emplace(folder.path() / name);
+      run = read_checkpoint(folder.path() / name).run;
+    } catch (const Error&) {  // it is not there, or of no use
+      continue;
+    }
+    const std::uint64_t begin = format.size() + archived_size(run), end = in->size() - sizeof(Tail);
+    run.case_text = case_text;
+    run.hashes["case.toml"] = sha256(case_text);
+    run.new_end = t_end;
+    AtomicFile out(folder, name);
+    Body body(out);
+    Archive archive([&body](std::string_view bytes) { body.write(bytes); });
+    archive(run);
+    for (std::uint64_t at = begin; at < end; at += piece) body.write(in->read(at, std::min(piece, end - at)));
+    body.close();
+    out.commit();
+  }
 }
 
 bool is_checkpoint(const std::filesystem::path& file) {
@@ -130,6 +175,16 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   Checkpoint found{.name = file.filename().string(), .run = {}, .rest = Archive(in.read(format.size(), length))};
   found.rest(found.run);
   return found;
+}
+
+std::string case_of_checkpoint(const std::filesystem::path& directory) {
+  for (const char* name : {checkpoint_name, earlier_checkpoint_name}) {
+    try {
+      return read_checkpoint(directory / name).run.case_text;
+    } catch (const Error&) {  // the other one may serve
+    }
+  }
+  return "";
 }
 
 std::string complaint_about(const Folder& folder, const SavedRun& run) {

@@ -7,9 +7,11 @@
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/sha256.hpp>
 #include <seiche/output/solution_file.hpp>
+#include <seiche/output/summary.hpp>
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +22,13 @@ inline constexpr const char* checkpoint_name = "checkpoint.seiche";
 inline constexpr const char* earlier_checkpoint_name = "checkpoint_prev.seiche";
 
 struct SavedRun {
-  std::vector<std::string> versions;  // what computed it, "compiler GNU 12.2.0": others may round another way
-  std::string case_text;              // as case.toml
-  FileHashes hashes;                  // of that, and of the files that it names
-  std::vector<std::string> notes;     // what was said before the first step
-  std::vector<double> resumed_at;     // times at which it had gone on from a checkpoint itself
+  std::vector<std::string> versions;      // what computed it, "compiler GNU 12.2.0": others may round another way
+  std::string case_text;                  // as case.toml
+  FileHashes hashes;                      // of that, and of the files that it names
+  std::vector<std::string> notes;         // what was said before the first step
+  std::vector<double> resumed_at;         // times at which it had gone on from a checkpoint itself
+  std::vector<ResumedWith> resumed_with;  // likewise, one for each of them
+  std::optional<double> new_end;          // of case_text, where a resume has put it there and no step was taken yet
   double t = 0.0;
   std::int64_t steps = 0;
   EnergyTrace::Mark energies;
@@ -41,10 +45,16 @@ struct Checkpoint {
 // The file: a line that says what it is, the bytes of the archive, and their number and CRC-32. `saved` is written
 // first, and then what `rest` writes. Throws Error where there is no room.
 void write_checkpoint(AtomicFile& file, SavedRun& saved, FunctionRef<void(Archive&)> rest);
+// Puts a case with another end into every checkpoint of the folder that can be read; all else stays as it is. Throws
+// Error where one cannot be written; since the newest comes last, a run then goes on to the end of before.
+void write_new_end(const Folder& folder, const std::string& case_text, double t_end);
 // By how it begins: of any version, whole or not.
 bool is_checkpoint(const std::filesystem::path& file);
 // Throws Error where it cannot be read, is damaged, or is of another format.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+// The case in the newest checkpoint of a folder that can be read; "" where there is no such checkpoint.
+std::string case_of_checkpoint(const std::filesystem::path& directory);
 
 // Why a run cannot go on from it in this folder, whose files no longer begin as they did then; "" where it can.
 std::string complaint_about(const Folder& folder, const SavedRun& run);

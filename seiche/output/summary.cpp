@@ -18,7 +18,24 @@ Json energy_json(const EnergySummary& energy) {
           {"max_increase", number(energy.max_increase)}};
 }
 
+Json resumed_json(const ResumedWith& resumed) {
+  Json settings = Json::object();
+  if (resumed.end) settings["time.end"] = number(*resumed.end);
+  return {{"t", number(resumed.t)}, {"versions", resumed.versions}, {"settings", settings}};
+}
+
 }  // namespace
+
+void ResumedWith::archive(Archive& a) {
+  std::vector<std::string> names, numbers;
+  for (const auto& [name, number] : versions) {
+    names.push_back(name);
+    numbers.push_back(number);
+  }
+  a(t, names, numbers, end);
+  a.require(names.size() == numbers.size());
+  for (std::size_t i = 0; i < names.size(); ++i) versions[names[i]] = numbers[i];
+}
 
 std::string summary_json(const RunIdentity& run, const RunReport& report) {
   Json energy = energy_json(report.energy);
@@ -49,7 +66,10 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                   {"versions", versions}};
   if (run.threads > 0) summary["threads"] = run.threads;
   if (!run.hashes.empty()) summary["sha256"] = run.hashes;
-  if (!run.resumed_at.empty()) summary["resumed_at"] = run.resumed_at;
+  for (const ResumedWith& resumed : run.resumed_with) {
+    summary["resumed_at"].push_back(number(resumed.t));
+    summary["resumed_with"].push_back(resumed_json(resumed));
+  }
   if (!run.certificate.empty()) summary["certificate"] = Json::parse(run.certificate);
   if (run.tolerance) {
     summary["tolerance"] = number(*run.tolerance);

@@ -1,6 +1,7 @@
 // summary.json: what was run and what came of it, for programs. Also what `seiche run --json` prints.
 #pragma once
 
+#include <seiche/core/control/archive.hpp>
 #include <seiche/core/run_report.hpp>
 #include <seiche/output/file/folder.hpp>
 #include <seiche/output/file/sha256.hpp>
@@ -12,6 +13,14 @@
 
 namespace seiche {
 
+// A run that went on from a checkpoint, and with what.
+struct ResumedWith {
+  double t = 0.0;                               // of the checkpoint
+  std::map<std::string, std::string> versions;  // what computed from there on
+  std::optional<double> end = std::nullopt;     // another time.end than that of the checkpoint
+  void archive(Archive& a);
+};
+
 struct RunIdentity {
   std::string problem;
   std::string method;
@@ -20,9 +29,9 @@ struct RunIdentity {
   std::optional<double> tolerance = std::nullopt;
   std::string certificate = {};  // a JSON document: which hypotheses of the energy law are met, or "" for none
   std::map<std::string, std::string> versions = {};
-  std::vector<double> resumed_at = {};  // times of checkpoints from which it went on
-  int threads = 0;                      // 0: not told
-  FileHashes hashes = {};               // of case.toml, and of the files that it names
+  std::vector<ResumedWith> resumed_with = {};  // in the order of the resumes
+  int threads = 0;                             // 0: not told
+  FileHashes hashes = {};                      // of case.toml, and of the files that it names
 };
 
 // A number that is not finite becomes null, since JSON has no NaN; so does `modified` for a method that has none.

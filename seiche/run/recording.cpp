@@ -20,7 +20,7 @@ Recording::Recording(const System& system, const Stepper& stepper, State& state,
       state_(state),
       observers_(observers),
       book_(law, stepper.has_modified_energy()),
-      good_(state),
+      good_{.state = state},
       first_n_(state.n),
       counts_before_(system.potential->counts()),
       begin_(std::chrono::steady_clock::now()) {}
@@ -61,8 +61,22 @@ bool Recording::record(bool last) {
       observer->pass(state_);
     }
   }
-  good_ = state_;
+  keep_good();
   return true;
+}
+
+void Recording::keep_good() {
+  good_.state = state_;  // into the memory that it has
+  good_.ledger = ledger_;
+  good_.replaced = report_.replaced;
+  good_.widened = report_.widened;
+  good_.halved = report_.halved;
+  good_.unresolved = report_.unresolved;
+}
+
+void Recording::go_back() {
+  state_ = good_.state;
+  ledger_ = good_.ledger;
 }
 
 bool Recording::check_finite() {
@@ -88,7 +102,7 @@ void Recording::record_rest() {
   EnergyReading reading = stepper_.energy(state_);
   reading.ledger = ledger_;
   if (!is_finite(reading) || !system_.space->is_finite(state_.z)) {
-    state_ = good_;
+    go_back();
     return;
   }
   if (!book_.has(state_.n)) book_.add(reading, state_.t, state_.n);
@@ -108,13 +122,13 @@ void Recording::fail_step(const std::string& reason) {
 }
 
 void Recording::fail_not_finite(const char* what) {
-  fail(state_.n == good_.n
+  fail(state_.n == good_.state.n
            ? fmt::format("the {} is not finite at the start, t = {:.9g}", what, state_.t)
            : fmt::format("the {} is no longer finite at t = {:.9g} (step {}); the data end at the last good record, "
                          "t = {:.9g} (step {})",
-                         what, state_.t, state_.n, good_.t, good_.n));
+                         what, state_.t, state_.n, good_.state.t, good_.state.n));
   report_.step_failed = true;
-  state_ = good_;
+  go_back();
 }
 
 void Recording::interrupt(double t_end) {
@@ -123,13 +137,17 @@ void Recording::interrupt(double t_end) {
 }
 
 void Recording::interrupt_inside_step(double t_end) {
-  state_ = good_;
+  go_back();
+  report_.replaced = good_.replaced;
+  report_.widened = good_.widened;
+  report_.halved = good_.halved;
+  report_.unresolved = good_.unresolved;
   interrupt(t_end);
 }
 
 void Recording::abandon(const std::string& reason) {
   fail(fmt::format("the run stopped after t = {:.9g} (step {}): {}", state_.t, state_.n, reason));
-  state_ = good_;
+  go_back();
   abandoned_ = true;
 }
 
@@ -180,7 +198,7 @@ void Recording::archive(Archive& a, const std::function<std::string()>& objectio
     report_.rejected, report_.events, met, seconds_so_far);
   a.numbers(counts_so_far);
   if (!a.reads()) return;
-  good_ = state_;
+  keep_good();
   earlier_objection_ = met;
   counts_earlier_ = counts_so_far;
   seconds_earlier_ = seconds_so_far;

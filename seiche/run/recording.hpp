@@ -60,6 +60,8 @@ class Recording {
 
  private:
   void fail_not_finite(const char* what);
+  void keep_good();  // the state and what has been entered up to it
+  void go_back();    // to the state of the last record, and the ledger up to there
   void record_rest();
   void hear_objection(const std::function<std::string()>& objection);
   void complete_message(const std::string& remark);
@@ -73,8 +75,13 @@ class Recording {
   std::span<Observer* const> observers_;
   EnergyBook book_;
   StepLedger ledger_;  // of all steps
-  State good_;         // as last recorded
   RunReport report_;
+  struct Good {
+    State state;
+    StepLedger ledger = {};
+    ReplacedSteps replaced = {};
+    std::int64_t widened = 0, halved = 0, unresolved = 0;
+  } good_;  // as last recorded
   bool abandoned_ = false;
   std::int64_t first_n_;
   std::string earlier_objection_;     // of the run that this one goes on from

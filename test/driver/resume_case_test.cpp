@@ -1,20 +1,28 @@
 // What a run leaves that was stopped and went on is what it would have left at once.
+#include <test/support/error_of.hpp>
 #include <test/support/temporary_directory.hpp>
+#include <test/support/text_of.hpp>
 
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/saved_run.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
+#include <seiche/study/audit/audit.hpp>
+#include <seiche/study/recovery.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <atomic>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <functional>
+#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +31,24 @@ namespace seiche::test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
+
+// Does something after every step.
+class AfterEachStep : public Observer {
+ public:
+  explicit AfterEachStep(std::function<void(const State&)> action) : action_(std::move(action)) {}
+  bool is_due(const State& state, bool) const override {
+    action_(state);
+    return false;
+  }
+  void observe(const State&, const EnergyReading&) override {}
+  void finish(const RunReport&) override {}
+
+ private:
+  std::function<void(const State&)> action_;
+};
 
 // Stops the run after some step, as a signal would.
 class StopsAfter : public Observer {
@@ -40,11 +65,6 @@ class StopsAfter : public Observer {
  private:
   std::int64_t n_;
 };
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::vector<double> values(const Hdf5File& file, const std::string& name) {
   const Hdf5Dataset data = file.dataset(name);
@@ -78,9 +98,33 @@ class ResumeCase : public InTemporaryDirectory {
     return with(options);
   }
 
+  // A resume that is killed in its first step: no error ends it, and nothing that comes behind the loop is done.
+  void kill_resume(const std::string& folder, std::optional<double> t_end = {}) const {
+    struct Killed {};
+    AfterEachStep kills([](const State&) { throw Killed(); });
+    RunCaseOptions options;
+    options.observers = {&kills};
+    EXPECT_THROW(resume_case(directory / folder, t_end, options), Killed);
+  }
+  void write(const fs::path& name, const std::string& text) const {
+    std::ofstream(directory / name, std::ios::binary) << text;
+  }
+  std::map<std::string, std::string> files_of(const std::string& folder) const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(directory / folder))
+      all[entry.path().filename().string()] = text_of(entry.path());
+    return all;
+  }
+  std::vector<std::string> contradicted(const std::string& folder) const {
+    std::vector<std::string> all;
+    for (const AuditEntry& entry : audit(directory / folder).entries)
+      if (entry.verdict == AuditEntry::Verdict::contradicted) all.push_back(entry.claim + ": " + entry.evidence);
+    return all;
+  }
+
   void expect_same_files(const std::string& one, const std::string& other) const {
     for (const char* name : {"energy.csv", "final.txt", "solution.xdmf", "solution.h5"})
-      EXPECT_TRUE(bytes_of(directory / one / name) == bytes_of(directory / other / name)) << other << " " << name;
+      EXPECT_TRUE(text_of(directory / one / name) == text_of(directory / other / name)) << other << " " << name;
     const Hdf5File a = Hdf5File::open(directory / one / "solution.h5");
     const Hdf5File b = Hdf5File::open(directory / other / "solution.h5");
     for (const char* name : {"t", "H", "H_modified", "u", "v", "q", "p", "x", "y"}) {
@@ -167,13 +211,120 @@ TEST_F(ResumeCase, GoesFartherThanItsCase) {
   run(c.text, "farther", 100);
   resume("farther", -1, 5.0);
   expect_same_files("whole", "farther");
-  EXPECT_THAT(bytes_of(directory / "farther/case.toml"), HasSubstr("end = 5.0"));
+  EXPECT_THAT(text_of(directory / "farther/case.toml"), HasSubstr("end = 5.0"));
 }
 
-TEST_F(ResumeCase, RefusesAnEndBeforeTheCheckpoint) {
+// Before it has written a checkpoint of its own.
+TEST_F(ResumeCase, GoesToTheNewEndThoughItWasKilledAtOnce) {
+  const ACase& c = some_cases().front();
+  std::string longer = c.text;
+  longer.replace(longer.find("4.01"), 4, "5.00");
+  run(longer, "whole");
+  const double stopped_at = run(c.text, "out", 100).report.t;
+  kill_resume("out", 5.0);
+  for (const char* name : {"summary.json", "final.txt", "solution.xdmf", "report.html"})
+    EXPECT_FALSE(fs::exists(directory / "out" / name)) << name << " tells of the end of before";
+  const CaseResult rest = resume("out");
+  EXPECT_EQ(rest.report.t, 5.0) << rest.message;
+  expect_same_files("whole", "out");
+  const auto summary = nlohmann::json::parse(rest.summary);
+  ASSERT_EQ(summary["resumed_with"].size(), 1U);
+  const auto& resumed = summary["resumed_with"][0];
+  EXPECT_EQ(resumed["t"], stopped_at);
+  EXPECT_EQ(resumed["versions"], summary["versions"]);
+  EXPECT_EQ(resumed["settings"].size(), 1U);
+  EXPECT_EQ(resumed["settings"]["time.end"], 5.0) << "the one that was killed had changed it";
+}
+
+TEST_F(ResumeCase, RefusesAnEndThatCannotBeAndChangesNothing) {
   run(some_cases().front().text, "out", 100);
-  EXPECT_THROW(resume("out", -1, 1.0), Error);
-  EXPECT_EQ(resume("out").report.status, RunReport::Status::success) << "nothing is lost by that";
+  const auto before = files_of("out");
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const double t_end : {nan, inf, 1e300, 1.0}) {
+    EXPECT_NE(error_of([&] { resume("out", -1, t_end); }), "") << t_end;
+    EXPECT_TRUE(files_of("out") == before) << t_end;
+  }
+  EXPECT_THAT(error_of([&] { resume("out", -1, nan); }), HasSubstr("must be a finite time"));
+  EXPECT_EQ(resume("out").report.t, 4.01);
+}
+
+TEST_F(ResumeCase, LosesNothingWhereItsFilesCannotBeMade) {
+  run(some_cases().front().text, "out", 100);
+  const auto before = files_of("out");
+  const fs::path in_the_way = directory / "out" / settling_name;
+  fs::create_directory(in_the_way);
+  EXPECT_THAT(error_of([&] { resume("out"); }), HasSubstr("solution.h5"));
+  fs::remove(in_the_way);
+  EXPECT_TRUE(files_of("out") == before);
+  EXPECT_EQ(resume("out").report.status, RunReport::Status::success);
+}
+
+TEST_F(ResumeCase, KeepsEveryCaseThatItFinds) {
+  run(some_cases().front().text, "out", 100);
+  const std::string whole = text_of(directory / "out/case.toml");
+  fs::create_directory(directory / "out/case_before_resume.toml");
+  for (const auto& [mine, kept] :
+       {std::pair("# mine", "case_before_resume_2.toml"), std::pair("# mine again", "case_before_resume_3.toml")}) {
+    write("out/case.toml", mine);
+    EXPECT_THAT(resume("out", 150).message, HasSubstr(kept));
+    EXPECT_EQ(text_of(directory / "out" / kept), mine);
+    EXPECT_EQ(text_of(directory / "out/case.toml"), whole);
+  }
+  EXPECT_EQ(text_of(directory / "out/case_before_resume_2.toml"), "# mine") << "also behind the second one";
+}
+
+TEST_F(ResumeCase, IsRecoveredWithTheCaseOfItsCheckpoint) {
+  run(some_cases().front().text, "out", 100);
+  const std::string whole = text_of(directory / "out/case.toml");
+  for (const std::string damage : {"", "[[["}) {
+    fs::remove(directory / "out/case.toml");
+    if (!damage.empty()) write("out/case.toml", damage);
+    const Recovery found = recover(Folder(directory / "out"), case_of_checkpoint(directory / "out"));
+    EXPECT_THAT(found.saved, testing::ElementsAre(HasSubstr("case.toml, from the checkpoint")));
+    EXPECT_EQ(text_of(directory / "out/case.toml"), whole) << damage;
+    EXPECT_EQ(text_of(directory / "out/case_before_recover.toml"), damage);
+    EXPECT_THAT(contradicted("out"), testing::IsEmpty());
+  }
+}
+
+// Killed when its files are made, and before those of the end of before are replaced.
+TEST_F(ResumeCase, IsRecoveredWithoutWhatTellsOfAnEarlierEnd) {
+  for (const std::optional<double> t_end : {std::optional<double>(), std::optional(5.0)}) {
+    fs::remove_all(directory / "out");
+    run(some_cases().front().text, "out", 100);
+    auto before = files_of("out");
+    kill_resume("out", t_end);
+    for (const char* name : {"case.toml", "summary.json", "final.txt", "solution.xdmf", "report.html"})
+      write(fs::path("out") / name, before[name]);
+    recover(Folder(directory / "out"), case_of_checkpoint(directory / "out"));
+    EXPECT_EQ(nlohmann::json::parse(text_of(directory / "out/summary.json"))["status"], "unfinished");
+    EXPECT_FALSE(fs::exists(directory / "out/report.html"));
+    EXPECT_THAT(contradicted("out"), testing::IsEmpty()) << t_end.value_or(4.01);
+    EXPECT_EQ(resume("out").report.t, t_end.value_or(4.01));
+  }
+}
+
+// Into a folder in the place of the file that it would be, nothing is written.
+TEST_F(ResumeCase, SaysWhyNoCheckpointIsWrittenAndWhichOneServes) {
+  const std::string text = some_cases().front().text;
+  StopsAfter stops(20);
+  std::vector<std::string> warned;
+  RunCaseOptions options;
+  options.begins = [&](const std::vector<std::string>&) { return &stops.stop; };
+  options.warn = [&](const std::string& note) { warned.push_back(note); };
+  options.observers = {&stops};
+  fs::create_directories(directory / "out/checkpoint.seiche.partial");
+  const CaseResult first = run_case(spec(text), directory / "out", options);
+  EXPECT_THAT(warned, testing::ElementsAre(AllOf(HasSubstr("no checkpoint was written at t = "),
+                                                 HasSubstr("there is no earlier one"), Not(HasSubstr("goes on")))));
+  EXPECT_THAT(first.message, Not(HasSubstr("seiche resume")));
+
+  run(text, "again", 100);
+  fs::create_directories(directory / "again/checkpoint.seiche.partial");
+  const CaseResult second = resume("again", 150);
+  EXPECT_THAT(second.message, HasSubstr("goes on from a checkpoint at t = "));
+  fs::remove(directory / "again/checkpoint.seiche.partial");
+  EXPECT_EQ(resume("again").report.status, RunReport::Status::success);
 }
 
 TEST_F(ResumeCase, ANewRunDoesNotTakeItsPlace) {
@@ -184,6 +335,49 @@ TEST_F(ResumeCase, ANewRunDoesNotTakeItsPlace) {
   } catch (const Error& error) {
     for (const char* way : {"seiche resume", "--restart"}) EXPECT_THAT(error.what(), HasSubstr(way));
   }
+  EXPECT_EQ(resume("out").report.status, RunReport::Status::success);
+}
+
+TEST_F(ResumeCase, GoesOnInAFolderThatIsRenamedMeanwhile) {
+  for (const bool resumes : {false, true}) {
+    const std::string out = resumes ? "again" : "out", moved = "moved_" + out;
+    if (resumes) run(some_cases().front().text, out, 100);
+    AfterEachStep renames([&](const State& state) {
+      if (state.n == 150 && fs::exists(directory / out)) fs::rename(directory / out, directory / moved);
+    });
+    std::vector<std::string> warned;
+    RunCaseOptions options;
+    options.observers = {&renames};
+    options.warn = [&](const std::string& note) { warned.push_back(note); };
+    const CaseResult done = resumes ? resume_case(directory / out, {}, options)
+                                    : run_case(spec(some_cases().front().text), directory / out, options);
+    EXPECT_EQ(done.report.status, RunReport::Status::success) << done.message;
+    EXPECT_THAT(warned, testing::ElementsAre(HasSubstr("there is no report.html")));
+    EXPECT_FALSE(fs::exists(directory / out)) << "nothing is written where it was";
+    for (const char* name : {"case.toml", "energy.csv", "final.txt", "solution.h5", "solution.xdmf", "summary.json"})
+      EXPECT_TRUE(fs::exists(directory / moved / name)) << name;
+    EXPECT_FALSE(has_checkpoint(directory / moved));
+    EXPECT_THAT(contradicted(moved), testing::IsEmpty());
+  }
+}
+
+TEST_F(ResumeCase, RefusesAFolderThatCannotBeMade) {
+  write("file", "mine");
+  EXPECT_THAT(error_of([&] { run(some_cases().front().text, "file/out"); }), HasSubstr("cannot make the directory"));
+  EXPECT_THAT(error_of([&] { run(some_cases().front().text, "file"); }), HasSubstr("file"));
+  EXPECT_EQ(text_of(directory / "file"), "mine");
+}
+
+TEST_F(ResumeCase, RefusesAFolderThatIsReadOnly) {
+  if (::geteuid() == 0) GTEST_SKIP() << "no permission binds root";
+  const std::string& text = some_cases().front().text;
+  run(text, "out", 100);
+  const auto before = files_of("out");
+  fs::permissions(directory / "out", fs::perms::owner_read | fs::perms::owner_exec);
+  for (const std::string& said : {error_of([&] { resume("out"); }), error_of([&] { run(text, "out"); })})
+    EXPECT_THAT(said, HasSubstr("cannot write"));
+  fs::permissions(directory / "out", fs::perms::owner_all);
+  EXPECT_TRUE(files_of("out") == before);
   EXPECT_EQ(resume("out").report.status, RunReport::Status::success);
 }
 
@@ -205,7 +399,7 @@ class DamagedCheckpoint : public ResumeCase {
 };
 
 TEST_F(DamagedCheckpoint, IsReplacedByTheOneBefore) {
-  const std::string bytes = bytes_of(directory / "out" / checkpoint_name);
+  const std::string bytes = text_of(directory / "out" / checkpoint_name);
   for (const std::size_t at : {std::size_t{3}, std::size_t{30}, bytes.size() / 2, bytes.size() - 1}) {
     overwrite(checkpoint_name, at, static_cast<char>(~bytes[at]));
     std::vector<std::string> said;
@@ -222,8 +416,30 @@ TEST_F(DamagedCheckpoint, IsReplacedByTheOneBefore) {
   expect_same_files("whole", "out");
 }
 
+TEST_F(DamagedCheckpoint, LeavesTheNewEndToTheOneBefore) {
+  kill_resume("out", 5.0);
+  fs::resize_file(directory / "out" / checkpoint_name, 100);
+  EXPECT_EQ(resume("out").report.t, 5.0);
+}
+
+// A pipe without a writer would be waited for.
+TEST_F(DamagedCheckpoint, IsNotFollowedWhereAPipeIsInThePlaceOfAFile) {
+  const fs::path table = directory / "out/energy.csv", partial = directory / "out/energy.csv.partial";
+  fs::rename(table, directory / "kept");
+  for (const fs::path& file : {table, partial}) {
+    ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+    EXPECT_THAT(error_of([&] { resume("out"); }), HasSubstr(file.string() + " is not a file"));
+    fs::remove(file);
+    fs::create_directory(file);
+    EXPECT_THAT(error_of([&] { resume("out"); }), HasSubstr(file.string() + " is a folder"));
+    fs::remove(file);
+  }
+  fs::rename(directory / "kept", table);
+  EXPECT_EQ(resume("out").report.status, RunReport::Status::success);
+}
+
 TEST_F(DamagedCheckpoint, IsNotFollowedWhereTheFilesAreOthers) {
-  std::string csv = bytes_of(directory / "out/energy.csv");
+  std::string csv = text_of(directory / "out/energy.csv");
   overwrite("energy.csv", 40, csv[40] == '1' ? '2' : '1');
   EXPECT_THROW(resume("out"), Error);
   overwrite("energy.csv", 40, csv[40]);

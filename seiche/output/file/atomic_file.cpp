@@ -3,6 +3,7 @@
 #include <seiche/output/file/folder_open.hpp>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +20,17 @@ constexpr std::size_t buffer = 1U << 16U;
 
 Error cannot_write(const std::filesystem::path& path, int error_number) {
   return Error("cannot write {}: {}", path.string(), std::strerror(error_number));
+}
+
+// Opens a regular file. Anything else is refused: a pipe would be waited for, and a device has no end.
+int open_file(const Folder& folder, const std::string& name, int flags) {
+  const std::string path = (folder.path() / name).string();
+  const int file = ::openat(folder.descriptor(), name.c_str(), flags | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
+  if (file < 0) throw Error("cannot open {}: {}", path, std::strerror(errno));
+  struct stat status = {};
+  if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode)) return file;
+  ::close(file);
+  throw Error("{} is {}", path, S_ISDIR(status.st_mode) ? "a folder" : "not a file");
 }
 
 // Byte behind the last line feed of an open file.
@@ -89,9 +101,7 @@ int PartialPath::reopen() {
   kept_ = true;
   if (left == name_ && ::renameat(folder_.descriptor(), name_.c_str(), folder_.descriptor(), temporary_.c_str()) != 0)
     throw cannot_write(path(), errno);
-  file_ = ::openat(folder_.descriptor(), temporary_.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
-  if (file_ < 0) throw cannot_write(path(), errno);
-  return file_;
+  return file_ = open_file(folder_, temporary_, O_RDWR);
 }
 
 void PartialPath::take_place() {
@@ -114,7 +124,8 @@ void PartialPath::commit() {
   folder_.require_lock();
   int failure = 0;
   // Written by another program, or by a run that was killed.
-  if (file_ < 0) file_ = ::openat(folder_.descriptor(), temporary_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  if (file_ < 0)
+    file_ = ::openat(folder_.descriptor(), temporary_.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
   if (file_ >= 0) {
     const FileIdentity ours(file_);
     if (ours != FileIdentity() && ours != FileIdentity(folder_.descriptor(), temporary_))
@@ -145,8 +156,7 @@ AtomicFile::AtomicFile(const Folder& folder, const std::string& name, const File
 
 std::string complaint_about(const Folder& folder, const std::string& name, const FileMark& mark) {
   const std::string left = name_left_behind(folder, name);
-  const int file = ::openat(folder.descriptor(), left.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  if (file < 0) return fmt::format("cannot read {}: {}", (folder.path() / left).string(), std::strerror(errno));
+  const int file = open_file(folder, left, O_RDONLY);
   FileMark found;
   const bool is_long_enough = extend(found, mark.length, file);
   ::close(file);
@@ -244,6 +254,15 @@ void rename_file(const Folder& folder, const std::string& from, const std::strin
     throw cannot_write(folder.path() / to, errno);
 }
 
+std::string put_aside(const Folder& folder, const std::string& name, const std::string& kept) {
+  const std::filesystem::path wanted = kept;
+  std::string free = kept;
+  for (int n = 2; FileIdentity(folder.descriptor(), free) != FileIdentity(); ++n)
+    free = fmt::format("{}_{}{}", wanted.stem().string(), n, wanted.extension().string());
+  rename_file(folder, name, free);
+  return free;
+}
+
 void remove_file(const Folder& folder, const std::string& name) noexcept {
   try {
     folder.require_lock();
@@ -253,8 +272,7 @@ void remove_file(const Folder& folder, const std::string& name) noexcept {
 }
 
 std::uintmax_t end_of_lines(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) throw Error("cannot read {}: {}", path.string(), std::strerror(errno));
+  const int file = open_file(Folder(path.parent_path()), path.filename().string(), O_RDONLY);
   const std::uintmax_t end = end_of_lines(file);
   ::close(file);
   return end;

@@ -30,7 +30,7 @@ class PartialPath {
   // followed. Open as long as the object lives. Throws Error with the path and the reason.
   int open();
   // What an earlier run has left under the temporary name, or else under the final one, which it then no longer has; to
-  // be written on. Throws Error where there is neither.
+  // be written on. Throws Error where there is neither, and for what is not a file: a pipe, a folder.
   int reopen();
   void sync();  // what has been written to it is on the disk
   // It takes the place of what an earlier run has left, as NAME.partial, and is kept from now on.
@@ -57,7 +57,8 @@ struct FileMark {
   std::uint32_t checksum = checksum_of_nothing;
 };
 
-// Why the file that an earlier run has left does not begin with what the mark is of; "" where it does.
+// Why the file that an earlier run has left does not begin with what the mark is of; "" where it does. Throws Error
+// where it cannot be read, or is not a file.
 std::string complaint_about(const Folder& folder, const std::string& name, const FileMark& mark);
 
 // Every failure throws Error with the path and the reason of the operating system.
@@ -98,6 +99,9 @@ void write_file(const std::filesystem::path& path, std::string_view text);
 
 // Does nothing if `from` does not exist.
 void rename_file(const Folder& folder, const std::string& from, const std::string& to);
+// Renames it to `kept`, or where that name is taken, "a.toml", to "a_2.toml", "a_3.toml", …: the first that is free,
+// which is returned.
+std::string put_aside(const Folder& folder, const std::string& name, const std::string& kept);
 // Does nothing if it does not exist, or where the lock of the folder is no longer ours.
 void remove_file(const Folder& folder, const std::string& name) noexcept;
 
