@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <seiche/core/error.hpp>
+#include <seiche/driver/saved_run.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/run_folder.hpp>
@@ -18,7 +19,7 @@ ExitCode recover_run(const std::string& directory) {
   const Folder folder(directory);
   const FolderLock lock(folder);
   try {
-    const Recovery found = recover(folder);
+    const Recovery found = recover(folder, case_of_checkpoint(directory));
     for (const std::string& file : found.saved) print_lines(fmt::format("{:<10} {}\n", "saved", file));
     for (const std::string& what : found.lost) print_lines(fmt::format("{:<10} {}\n", "lost", what));
     if (found.saved.empty() && found.lost.empty())

@@ -3,7 +3,10 @@
 #include <seiche/driver/case_folder.hpp>
 #include <seiche/driver/saved_run.hpp>
 #include <seiche/figure/run_pictures.hpp>
+#include <seiche/output/csv_table.hpp>
 #include <seiche/study/versions.hpp>
+
+#include <algorithm>
 
 namespace seiche {
 namespace {
@@ -11,6 +14,18 @@ namespace {
 const std::filesystem::path& made(const std::filesystem::path& path) {
   make_directory(path);
   return path;
+}
+
+// Throws Error where the folder holds an ensemble without summary.json, which comes last.
+void require_summed_up(const std::filesystem::path& path) {
+  const std::filesystem::path energies = path / "energy.csv";
+  if (std::filesystem::exists(path / "summary.json") || !std::filesystem::exists(energies)) return;
+  const CsvReader table(energies);
+  if (std::find(table.names().begin(), table.names().end(), "members") == table.names().end()) return;
+  throw Error(
+      "{0} holds an ensemble that did not finish: `seiche recover {0}` makes it readable, `seiche run` with --restart "
+      "removes it and begins anew, and another folder keeps both",
+      path.string());
 }
 
 }  // namespace
@@ -21,6 +36,7 @@ CaseFolder::CaseFolder(const std::filesystem::path& path, RunKind kind, const Ru
   if (!restart) {
     require_no_checkpoint(path);
     require_finished(path);
+    require_summed_up(path);
   }
   remove_earlier_results(path);
   remove_checkpoints(folder_);

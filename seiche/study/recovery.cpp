@@ -12,6 +12,7 @@
 #include <seiche/output/summary.hpp>
 #include <seiche/output/xdmf.hpp>
 #include <seiche/simulation/simulation.hpp>
+#include <seiche/study/killed_ensemble.hpp>
 #include <seiche/study/recorded_energies.hpp>
 #include <seiche/study/recovery.hpp>
 #include <seiche/study/versions.hpp>
@@ -25,6 +26,8 @@ namespace seiche {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* case_name = "case.toml";
 
 // What energy.csv says about a run.
 struct Energies {
@@ -41,36 +44,38 @@ void follow(EnergySummary& summary, double value, std::size_t row) {
 
 Energies read_energies(const fs::path& file) {
   CsvReader reader(file);
+  const std::size_t t = column_of(reader, "t", file), H = column_of(reader, "H", file);
+  const std::optional<std::size_t> modified = find_column(reader, "H_modified");
   Energies found;
-  found.has_modified = reader.names().size() > 2 && reader.names()[2] == "H_modified";
+  found.has_modified = modified.has_value();
   for (std::vector<double> row; reader.next(row); ++found.rows) {
-    if (found.rows == 0) found.first_t = row[0];
-    found.last_t = row[0];
-    follow(found.H, row[1], found.rows);
-    if (found.has_modified) follow(found.modified, row[2], found.rows);
+    if (found.rows == 0) found.first_t = row[t];
+    found.last_t = row[t];
+    follow(found.H, row[H], found.rows);
+    if (modified) follow(found.modified, row[*modified], found.rows);
   }
   return found;
 }
 
 class Rescue {
  public:
-  explicit Rescue(const Folder& folder) : folder_(folder), directory_(folder.path()), spec_(read_case(case_file())) {}
+  Rescue(const Folder& folder, const std::string& saved_case)
+      : folder_(folder),
+        directory_(folder.path()),
+        has_checkpoint_(!saved_case.empty()),
+        spec_(read_case(case_file(saved_case))) {}
 
   Recovery run() {
+    if (is_of_new_end_ || (has_checkpoint_ && has("energy.csv.partial"))) forget_earlier_end();
     tables();
-    if (spec_.ensemble && has("members.csv") && has("finals.csv")) {
-      // All have ended.
-    } else if (spec_.ensemble) {
-      found_.lost.emplace_back("the members of the ensemble, whose files are written when all have ended");
-    } else {
-      solution();
-    }
+    spec_.ensemble ? members() : solution();
     // A run that had ended all but for its states tells of more than there is.
     if (has("summary.json") && !has("solution.h5") && is_solution_lost_) remove_file(folder_, "summary.json");
     if (!has("summary.json")) has("energy.csv") ? summary() : summary_without_rows();
     // These can be had again, or are no longer needed.
-    for (const char* name : {"checkpoint.seiche.partial", "solution.xdmf.partial", "report.html.partial",
-                             "summary.json.partial", "case.toml.partial", reserve_name, settling_name})
+    for (const char* name : {"checkpoint.seiche.partial", "checkpoint_prev.seiche.partial", "solution.xdmf.partial",
+                             "report.html.partial", "summary.json.partial", "case.toml.partial", "members.csv.partial",
+                             "finals.csv.partial", reserve_name, settling_name})
       remove_file(folder_, name);
     if (unfinished_files(directory_).empty())  // without a row
       for (const char* name : {"energy.csv.partial", "solution.h5.partial"}) remove_file(folder_, name);
@@ -79,10 +84,41 @@ class Rescue {
   }
 
  private:
-  fs::path case_file() const {
-    if (!has("case.toml")) throw Error("{} holds no run: there is no case.toml in it", directory_.string());
-    return directory_ / "case.toml";
+  fs::path case_file(const std::string& saved_case) {
+    const fs::path file = directory_ / case_name;
+    if (has_checkpoint_ && !is_case_of_run(file, saved_case)) restore_case(saved_case);
+    if (!has(case_name)) throw Error("{} holds no run: there is no {} in it", directory_.string(), case_name);
+    return file;
   }
+
+  // A run that goes on to another end may have been killed before that stood in case.toml.
+  bool is_case_of_run(const fs::path& file, const std::string& saved_case) const {
+    const bool has_gone_on = has("energy.csv.partial") || has("solution.h5.partial");
+    if (!has(case_name) || (has_gone_on && text_of_file(file) != saved_case)) return false;
+    try {
+      read_case(file);
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  void restore_case(const std::string& saved_case) {
+    std::string said = "case.toml, from the checkpoint";
+    if (look_at(directory_ / case_name).kind != InputKind::missing)
+      said += "; what was there is " + put_aside(folder_, case_name, "case_before_recover.toml");
+    is_of_new_end_ = has("energy.csv.partial") || has("solution.h5.partial");
+    write_file(folder_, case_name, saved_case);
+    found_.saved.push_back(said);
+  }
+
+  // What was written when the run stopped from which this one went on. At an end of its own energy.csv gets its name
+  // first, so that no energy.csv.partial is left beside these.
+  void forget_earlier_end() {
+    for (const char* name : {"summary.json", "final.txt", "solution.xdmf"}) remove_file(folder_, name);
+    remove_own_report(directory_);
+  }
+
   // A link under such a name leads to a file that is not the run's.
   bool has(const char* name) const {
     std::error_code not_there;
@@ -154,10 +190,19 @@ class Rescue {
     found_.saved.push_back(fmt::format("solution.h5, {} times up to t = {:.9g}", count, last));
   }
 
+  // Of an ensemble that has ended members.csv and finals.csv are there, in this order.
+  void members() {
+    if (!has("members.csv"))
+      found_.lost.emplace_back("the members of the ensemble, whose files are written when all have ended");
+    else if (!has("finals.csv"))
+      found_.lost.emplace_back("finals.csv, the last states of the members");
+  }
+
   void summary() {
-    const Energies energies = read_energies(directory_ / "energy.csv");
-    if (energies.rows == 0) return;
-    if (spec_.ensemble) return;
+    const fs::path file = directory_ / "energy.csv";
+    if (std::vector<double> row; !CsvReader(file).next(row)) return;
+    if (spec_.ensemble) return write_summary(summary_of_killed_ensemble(directory_, spec_));
+    const Energies energies = read_energies(file);
     RunReport report;
     report.message = fmt::format(
         "the run ended, killed or without a disk to write to, before its files were whole; `seiche recover` found rows up "
@@ -177,7 +222,7 @@ class Rescue {
 
   // So that the folder says what it holds. A case that was written by a person is of no run.
   void summary_without_rows() {
-    if (spec_.ensemble || text_of_file(case_file()) != write_case(spec_)) return;
+    if (spec_.ensemble || text_of_file(directory_ / case_name) != write_case(spec_)) return;
     RunReport report;
     report.message = "the run ended, killed or without a disk to write to, before it had written a row";
     report.t = report.energy.initial = report.energy.final = report.energy.max_increase = std::nan("");
@@ -198,19 +243,25 @@ class Rescue {
     json["status"] = "unfinished";
     if (spec_.tolerance) json["steps"] = nullptr;
     json["counts"] = nullptr;  // the counts up to the end are not known
-    write_file(folder_, "summary.json", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    write_summary(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  }
+
+  void write_summary(const std::string& json) {
+    write_file(folder_, "summary.json", json);
     found_.saved.emplace_back("summary.json, with the status unfinished");
   }
 
   Folder folder_;
   fs::path directory_;
-  RunSpec spec_;
   Recovery found_;
+  bool has_checkpoint_;
   bool is_solution_lost_ = false;
+  bool is_of_new_end_ = false;  // a run that went on, and not yet its case.toml
+  RunSpec spec_;
 };
 
 }  // namespace
 
-Recovery recover(const Folder& folder) { return Rescue(folder).run(); }
+Recovery recover(const Folder& folder, const std::string& saved_case) { return Rescue(folder, saved_case).run(); }
 
 }  // namespace seiche

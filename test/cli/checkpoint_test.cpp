@@ -174,6 +174,12 @@ TEST_F(CheckpointCli, StopsAfterANumberOfHoursThatIsOne) {
     EXPECT_THAT(said, HasSubstr("no finite number > 0")) << hours;
     EXPECT_LT(said.size(), 200U) << hours;
   }
+  // As every other option that is a number. The last one is a few microseconds.
+  for (const char* hours : {"' 1'", "+5", "0x1p-30"}) {
+    const Result ran =
+        seiche(std::string("run case.toml --out out --restart --quiet --set time.end=0.1 --max-hours ") + hours);
+    EXPECT_THAT(ran.exit, testing::AnyOf(0, 130)) << hours << ran.err;
+  }
 }
 
 // A pipe without a writer, a device without an end, a folder, a hole of 8 GiB: the older one serves, and that is said.

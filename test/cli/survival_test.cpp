@@ -296,12 +296,20 @@ TEST_F(Survival, WhatIsRecoveredPassesTheAuditWhereverTheRunWasKilled) {
     fs::remove_all(directory / "killed");
     ASSERT_TRUE(killed_at(run + "checkpoint.every_steps=24 --out killed", n)) << "no kill leaves a checkpoint";
   }
-  for (const std::string from : {"", "stopped", "killed"}) {
-    for (int n = 1;; ++n) {
-      const std::string where = fmt::format("{} killed at {}", from, n);
+  struct Beginning {
+    std::string from, words;
+    int stride;
+  };
+  const std::string resume = "resume out --quiet";
+  for (const auto& [from, words, stride] : std::vector<Beginning>{{"", run + "--out out", 1},
+                                                                  {"stopped", resume, 1},
+                                                                  {"killed", resume, 1},
+                                                                  {"stopped", resume + " --until 1.5", 2}}) {
+    for (int n = 1;; n += stride) {
+      const std::string where = fmt::format("{}: {} killed at {}", from, words, n);
       fs::remove_all(directory / "out");
       if (!from.empty()) fs::copy(directory / from, directory / "out");
-      if (!killed_at(from.empty() ? run + "--out out" : "resume out --quiet", n)) break;
+      if (!killed_at(words, n)) break;
       ASSERT_LT(n, 1000) << "it never succeeds";
       const int recovered = seiche("recover out").exit;
       if (!has("out/case.toml")) continue;  // it has not begun
@@ -367,6 +375,17 @@ TEST_F(Survival, TheFirstSignalLetsEverythingBeWrittenWheneverItComes) {
   EXPECT_GT(behind_the_last_step, 5);
 }
 
+// Before the libraries begin, which takes longer than many runs.
+TEST_F(Survival, SignalsWaitFromBeforeTheFirstConstructor) {
+#if defined(SEICHE_SANITIZED) || !defined(__GLIBC__) || defined(__clang__)
+  GTEST_SKIP() << "they wait from the beginning of main";
+#endif
+  const std::string read =
+      "readelf -dW '" + test::program_path() + "' >'" + (directory / "dynamic.txt").string() + "' 2>/dev/null";
+  if (std::system(read.c_str()) != 0) GTEST_SKIP() << "no readelf";
+  EXPECT_THAT(text("dynamic.txt"), HasSubstr("(PREINIT_ARRAY)"));
+}
+
 // Before the program has looked at its arguments.
 TEST_F(Survival, ASignalInTheFirstMomentIsAnswered) {
 #if defined(SEICHE_SANITIZED)
@@ -385,6 +404,12 @@ TEST_F(Survival, ASignalInTheFirstMomentIsAnswered) {
       EXPECT_FALSE(has("out")) << signal;
     }
   }
+  ASSERT_EQ(seiche("run case.toml --out out --quiet --max-hours 1e-9").exit, 130) << text("stderr.txt");
+  const Result resumed =
+      seiche("resume out --quiet", fmt::format("LD_PRELOAD='{}' SEICHE_SIGNAL={}", failing_writes_path(), SIGTERM));
+  EXPECT_EQ(resumed.exit, 130);
+  EXPECT_THAT(resumed.err, AllOf(HasSubstr("stopped before the run went on"), Not(HasSubstr("first step"))));
+  EXPECT_EQ(json::parse(text("out/summary.json"))["status"], "interrupted");
 }
 
 TEST_F(Survival, ASecondSignalEndsOnlyWhatCanBeHadAgain) {

@@ -1,14 +1,18 @@
 // An audit finds the energies of a healthy run healthy, whichever rows and states its files have.
+#include <test/support/error_of.hpp>
 #include <test/support/temporary_directory.hpp>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/driver/run_case.hpp>
+#include <seiche/output/csv_table.hpp>
 #include <seiche/study/audit/audit.hpp>
 #include <seiche/study/recorded_energies.hpp>
 
+#include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -31,6 +35,17 @@ class AuditOfRows : public InTemporaryDirectory {
     for (const AuditEntry& entry : audit(directory / "out").entries)
       if (entry.verdict == AuditEntry::Verdict::contradicted) all.push_back(entry.claim + ": " + entry.evidence);
     return all;
+  }
+  // energy.csv with these of its columns, in this order.
+  void rewrite_columns(const std::vector<std::string>& names) const {
+    const CsvTable table = CsvTable::read(directory / "whole.csv");
+    std::ofstream file(directory / "out/energy.csv");
+    file << fmt::format("{}\n", fmt::join(names, ","));
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      std::vector<double> values;
+      for (const std::string& name : names) values.push_back(table.column(name)[row]);
+      file << fmt::format("{:.17g}\n", fmt::join(values, ","));
+    }
   }
 };
 
@@ -65,6 +80,26 @@ TEST_F(AuditOfRows, TakeTheRiseFromBothFiles) {
   }
   const RunSpec spec = run("name = \"seisav\"\ntolerance = 1e-5", "energy_every = 3");
   EXPECT_FALSE(largest_increases(directory / "out", spec).of_all) << "the steps between are in no file";
+}
+
+TEST_F(AuditOfRows, FindTheirColumnsByName) {
+  const RunSpec spec = run("name = \"seisav\"\nh = \"1/64\"", "energy_every = 16\nsnapshot_every = 4\n");
+  const LargestIncreases before = largest_increases(directory / "out", spec);
+  std::filesystem::copy_file(directory / "out/energy.csv", directory / "whole.csv");
+
+  rewrite_columns({"H_modified", "H", "t"});
+  const LargestIncreases after = largest_increases(directory / "out", spec);
+  EXPECT_EQ(after.H, before.H);
+  EXPECT_EQ(after.modified, before.modified);
+  EXPECT_THAT(contradicted(), testing::IsEmpty());
+
+  rewrite_columns({"t", "H"});
+  EXPECT_TRUE(std::isnan(largest_increases(directory / "out", spec).modified)) << "what is not there did not fall";
+  EXPECT_THAT(contradicted(), testing::Contains(testing::HasSubstr("no column H_modified")));
+
+  rewrite_columns({"t", "H_modified"});
+  EXPECT_THAT(error_of([&] { largest_increases(directory / "out", spec); }),
+              testing::HasSubstr("no column H: its columns are t, H_modified"));
 }
 
 }  // namespace

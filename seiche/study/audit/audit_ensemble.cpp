@@ -6,6 +6,7 @@
 #include <seiche/output/text_table.hpp>
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/study/audit/audit_book.hpp>
+#include <seiche/study/killed_ensemble.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -99,6 +100,35 @@ class Worst {
   double ratio_ = 0;
 };
 
+void compare_origin(AuditBook& book, const RunSpec& spec, const CsvTable& energy, const Json& summary) {
+  std::vector<std::string> differences;
+  const auto compare = [&](const char* what, const auto& of_case, const auto& of_summary) {
+    if (of_case != of_summary)
+      differences.push_back(fmt::format("{} = {} in case.toml and {} in summary.json", what, of_case, of_summary));
+  };
+  const auto number = [&](const char* key) {
+    return summary.contains(key) && summary[key].is_number() ? summary[key].get<double>() : std::nan("");
+  };
+  compare("method", spec.method,
+          summary.value("method", Json()).is_string() ? summary["method"].get<std::string>() : "");
+  compare("h", spec.h, number("h"));
+  compare("members", static_cast<double>(spec.ensemble->count()), number("members"));
+  const double t = energy.column("t").back();
+  if (number("t") != t)
+    differences.push_back(fmt::format("t = {} in summary.json and {} in energy.csv", number("t"), t));
+  book.add_differences("case.toml, summary.json and energy.csv are of one ensemble", differences,
+                       fmt::format("{}, h = {} and {} members in all", spec.method, spec.h, spec.ensemble->count()));
+}
+
+// Of an ensemble that was killed before it wrote of its members.
+Audit audit_of_statistics(const CsvTable& energy, const Json& summary, const RunSpec& spec) {
+  AuditBook book;
+  compare_origin(book, spec, energy, summary);
+  book.add("members.csv and finals.csv agree with energy.csv", Verdict::not_checked,
+           "the ensemble was killed before both were written");
+  return book.audit();
+}
+
 class EnsembleAuditor {
  public:
   EnsembleAuditor(const std::filesystem::path& directory, const RunSpec& spec)
@@ -120,7 +150,7 @@ class EnsembleAuditor {
   }
 
   Audit run() {
-    origin();
+    compare_origin(book_, spec_, energy_, summary_);
     parameters();
     initial_energies();
     final_energies();
@@ -137,25 +167,6 @@ class EnsembleAuditor {
   }
   // Members that ended earlier are in no statistics of the last row.
   bool is_in_last_row(std::size_t m) const { return table_.number(m, "t") == energy_.column("t").back(); }
-
-  void origin() {
-    std::vector<std::string> differences;
-    const auto compare = [&](const char* what, const auto& of_case, const auto& of_summary) {
-      if (of_case != of_summary)
-        differences.push_back(fmt::format("{} = {} in case.toml and {} in summary.json", what, of_case, of_summary));
-    };
-    const auto number = [&](const char* key) {
-      return summary_[key].is_number() ? summary_[key].get<double>() : std::nan("");
-    };
-    compare("method", spec_.method, summary_["method"].is_string() ? summary_["method"].get<std::string>() : "");
-    compare("h", spec_.h, number("h"));
-    compare("members", static_cast<double>(members_.list.size()), number("members"));
-    if (number("t") != energy_.column("t").back())
-      differences.push_back(
-          fmt::format("t = {} in summary.json and {} in energy.csv", number("t"), energy_.column("t").back()));
-    book_.add_differences("case.toml, summary.json and energy.csv are of one ensemble", differences,
-                          fmt::format("{}, h = {} and {} members in all", spec_.method, spec_.h, members_.list.size()));
-  }
 
   void parameters() {
     std::vector<std::string> differences;
@@ -226,15 +237,7 @@ class EnsembleAuditor {
   }
 
   void counts() {
-    std::map<std::string, std::int64_t> statuses, laws;
-    std::int64_t steps = 0;
-    for (std::size_t m = 0; m < table_.rows(); ++m) {
-      const std::string& status = table_.text(m, "status");
-      const std::string& law = table_.text(m, "law");
-      ++statuses[status];
-      if (law != "holds" || status != "failed") ++laws[law];  // kept up to a failure is not kept
-      steps += static_cast<std::int64_t>(table_.number(m, "steps"));
-    }
+    MemberCounts found = count_members(table_);
     std::vector<std::string> differences;
     const auto compare = [&](const std::string& what, std::int64_t counted, const Json& written) {
       if (!written.is_number_integer() || written.get<std::int64_t>() != counted)
@@ -242,13 +245,13 @@ class EnsembleAuditor {
             fmt::format("{}: {} in members.csv and {} in summary.json", what, counted, written.dump()));
     };
     for (const char* status : {"success", "failed", "interrupted"})
-      compare(status, statuses[status], summary_["statuses"][status]);
+      compare(status, found.statuses[status], summary_["statuses"][status]);
     for (const char* law : {"holds", "violated", "not promised"})
-      compare(fmt::format("law {}", law), laws[law], summary_["laws"][law]);
-    compare("steps", steps, summary_["steps"]);
+      compare(fmt::format("law {}", law), found.laws[law], summary_["laws"][law]);
+    compare("steps", found.steps, summary_["steps"]);
     book_.add_differences("summary.json counts the members as members.csv has them", differences,
-                          fmt::format("{} steps; {} members reached the end, the law holds for {}", steps,
-                                      statuses["success"], laws["holds"]));
+                          fmt::format("{} steps; {} members reached the end, the law holds for {}", found.steps,
+                                      found.statuses["success"], found.laws["holds"]));
   }
 
   // Between start and end there are statistics of H alone: of every member its largest increase is looked at.
@@ -307,6 +310,11 @@ class EnsembleAuditor {
 }  // namespace
 
 Audit audit_ensemble(const std::filesystem::path& directory, const RunSpec& spec) {
+  const Json summary = ensemble_summary(directory / "summary.json");
+  const bool has_members =
+      std::filesystem::exists(directory / "members.csv") && std::filesystem::exists(directory / "finals.csv");
+  if (!has_members && summary.value("status", Json()) == "unfinished")
+    return audit_of_statistics(CsvTable::read(directory / "energy.csv"), summary, spec);
   return EnsembleAuditor(directory, spec).run();
 }
 
