@@ -1,5 +1,6 @@
 // Backends agree with the reference, for every method.
 #include <test/support/cases.hpp>
+#include <test/support/repetitions.hpp>
 #include <test/support/worst.hpp>
 
 #include <seiche/simulation/simulation.hpp>
@@ -43,11 +44,12 @@ TEST_P(AgreementOf, EveryBackendAgreesWithTheReferenceOverTenTimeUnits) {
   const std::string& method = GetParam();
   for (const auto& [name, problem] : all_cases()) {
     if (!applies(method, problem)) continue;
-    const double h = 1.0 / 64;
-    const Vector expected = state_after(problem, method, "reference", h, 640);
+    constexpr double h = 1.0 / 64;
+    constexpr int steps = repetitions(640);
+    const Vector expected = state_after(problem, method, "reference", h, steps);
     for (const BackendEntry& backend : backends_for(problem)) {
       if (backend.name == "reference") continue;
-      const Vector z = state_after(problem, method, backend.name, h, 640);
+      const Vector z = state_after(problem, method, backend.name, h, steps);
       EXPECT_LE(largest(z - expected), 1e-11) << name << " " << backend.name;
     }
   }

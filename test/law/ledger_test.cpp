@@ -1,5 +1,6 @@
 // The energy ledger: its parts add up to the change of H, and each is what its name says.
 #include <test/support/cases.hpp>
+#include <test/support/repetitions.hpp>
 
 #include <seiche/law/law.hpp>
 #include <seiche/run/adaptive.hpp>
@@ -19,7 +20,7 @@ TEST(Ledger, AddsUpToTheChangeOfHInEveryStepOfEveryMethod) {
       Simulation simulation(problem, {.method = std::string(method.name)});
       simulation.stepper().keep_ledger();
       EnergyReading before = simulation.energy();
-      for (int n = 0; n < 40; ++n) {
+      for (int n = 0; n < repetitions(40); ++n) {
         const StepReport report = simulation.step(1.0 / 16);
         ASSERT_TRUE(report.solved()) << name << " " << method.name << ": " << report.message;
         const EnergyReading after = simulation.energy();
