@@ -3,7 +3,6 @@
 #include <seiche/output/file/folder_open.hpp>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,17 +19,6 @@ constexpr std::size_t buffer = 1U << 16U;
 
 Error cannot_write(const std::filesystem::path& path, int error_number) {
   return Error("cannot write {}: {}", path.string(), std::strerror(error_number));
-}
-
-// Opens a regular file. Anything else is refused: a pipe would be waited for, and a device has no end.
-int open_file(const Folder& folder, const std::string& name, int flags) {
-  const std::string path = (folder.path() / name).string();
-  const int file = ::openat(folder.descriptor(), name.c_str(), flags | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
-  if (file < 0) throw Error("cannot open {}: {}", path, std::strerror(errno));
-  struct stat status = {};
-  if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode)) return file;
-  ::close(file);
-  throw Error("{} is {}", path, S_ISDIR(status.st_mode) ? "a folder" : "not a file");
 }
 
 // Byte behind the last line feed of an open file.

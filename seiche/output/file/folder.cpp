@@ -54,4 +54,14 @@ FileIdentity::FileIdentity(int folder, const std::string& name) {
 FileIdentity::FileIdentity(const struct stat& status)
     : device(static_cast<std::uint64_t>(status.st_dev)), number(static_cast<std::uint64_t>(status.st_ino)) {}
 
+int open_file(const Folder& folder, const std::string& name, int flags) {
+  const std::string path = (folder.path() / name).string();
+  const int file = ::openat(folder.descriptor(), name.c_str(), flags | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
+  if (file < 0) throw Error("cannot open {}: {}", path, std::strerror(errno));
+  struct stat status = {};
+  if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode)) return file;
+  ::close(file);
+  throw Error("{} is {}", path, S_ISDIR(status.st_mode) ? "a folder" : "not a file");
+}
+
 }  // namespace seiche

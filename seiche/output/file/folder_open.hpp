@@ -33,4 +33,8 @@ struct FileIdentity {
   bool operator==(const FileIdentity&) const = default;
 };
 
+// Opens a regular file of a folder, with these flags of open(2); the descriptor is the caller's. Throws Error for
+// anything else: a pipe would be waited for, a device has no end, and a link leads elsewhere.
+int open_file(const Folder& folder, const std::string& name, int flags);
+
 }  // namespace seiche

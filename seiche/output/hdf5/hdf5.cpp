@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/output/file/folder_open.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/hdf5/hdf5_calls.hpp>
 #include <seiche/output/hdf5/hdf5_driver.hpp>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <functional>
 #include <numeric>
 #include <type_traits>
@@ -165,9 +165,7 @@ Hdf5File Hdf5File::open(const Folder& folder, const std::string& name, bool to_w
   const Hdf5Quiet quiet;
   const std::filesystem::path path = folder.path() / name;
   const std::string what = fmt::format("cannot {} {}", to_write ? "write" : "read", path.string());
-  const int flags = (to_write ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW;
-  const int file = ::openat(folder.descriptor(), name.c_str(), flags);
-  if (file < 0) throw Error("{}: {}", what, std::strerror(errno));
+  const int file = open_file(folder, name, to_write ? O_RDWR : O_RDONLY);
   const Hdf5Handle access = ordered_file_access(file);
   const Hdf5Handle::Id opened = H5Fopen(path.c_str(), to_write ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id());
   ::close(file);  // the driver has its own
