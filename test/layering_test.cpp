@@ -325,8 +325,6 @@ TEST(Layering, EverySourceHasTheHeaderOfItsNameAndIsNoFragment) {
       // sleef_kernels.hpp, compiled for one instruction set each; vector_functions.cpp chooses.
       "seiche/core/simd/vector_functions_avx2.cpp",
       "seiche/core/simd/vector_functions_avx512.cpp",
-      // Declared in audit.hpp.
-      "seiche/study/audit/audit_ensemble.cpp",
   };
   std::size_t sources = 0;
   for (const char* folder : {"seiche", "paper"}) {

@@ -11,6 +11,7 @@
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/study/audit/audit.hpp>
 #include <seiche/study/audit/audit_book.hpp>
+#include <seiche/study/audit/audit_ensemble.hpp>
 #include <seiche/study/recorded_energies.hpp>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // What audits of runs and of ensembles share: entries, and energies of states in files.
 #pragma once
 
-#include <seiche/config/case/run_spec.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/system.hpp>
 #include <seiche/output/file/sha256.hpp>
@@ -45,8 +44,5 @@ class RecomputedEnergy {
   System system_;
   Vector z_;
 };
-
-// The part for folders of ensembles. Throws Error as `audit` does.
-Audit audit_ensemble(const std::filesystem::path& directory, const RunSpec& spec);
 
 }  // namespace seiche

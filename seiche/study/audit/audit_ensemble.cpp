@@ -6,6 +6,7 @@
 #include <seiche/output/text_table.hpp>
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/study/audit/audit_book.hpp>
+#include <seiche/study/audit/audit_ensemble.hpp>
 #include <seiche/study/killed_ensemble.hpp>
 
 #include <fmt/format.h>
