@@ -166,8 +166,11 @@ std::string theorem(const Problem& problem, const MethodEntry& method) {
       method.kept_energy == "H" ? "H(zⁿ⁺¹) ≤ H(zⁿ)" : "the modified energy of step n + 1 ≤ that of step n";
   const std::string any = energy + " for every h: ";
   if (method.projects())
-    return any + "the step ends with a projection on an energy of at most H(zⁿ) (page Theory, Order four to eight)";
-  const std::string substep = "F + Fᵀ + FᵀMF ⪯ 0 for sym(S) ⪯ 0, and the closure keeps its energy exactly";
+    return any +
+           "whatever ẑ the step has computed, it ends with a projection of ẑ on an energy of at most H(zⁿ) (page Theory, "
+           "Order four to eight)";
+  std::string substep = "F + Fᵀ + FᵀMF ⪯ 0 for sym(S) ⪯ 0, and the closure keeps its energy exactly";
+  if (method.kind.takes_predictor) substep += ", whatever midpoint ẑ was predicted";
   if (method.kind.merges_damping || !problem.has_damping()) return any + substep;
   return any + substep +
          "; the damping flow lets H fall where sym(P_H D) ⪰ 0 (Li, Li, Shang, Xu, Theorems 1 and 2, under (1.2))";

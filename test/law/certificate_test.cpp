@@ -29,6 +29,18 @@ Hypothesis find(const Certificate& certificate, const std::string& name) {
   return {};
 }
 
+TEST(Certificate, SaysThatTheLawHoldsWhateverWasPredictedOrComputedOnTheWay) {
+  const Problem problem = klein_gordon_case();
+  for (const MethodEntry& method : methods()) {
+    if (!applies(method.name, problem)) continue;
+    const Certificate c = certify(problem, {.method = std::string(method.name), .t_end = 1, .sample_solution = false});
+    EXPECT_EQ(c.theorem.find("whatever ẑ the step has computed") != std::string::npos, method.projects())
+        << method.name << ": " << c.theorem;
+    EXPECT_EQ(c.theorem.find("whatever midpoint ẑ was predicted") != std::string::npos, method.kind.takes_predictor)
+        << method.name << ": " << c.theorem;
+  }
+}
+
 TEST(Certificate, OfTheKleinGordonEquationPromisesTheLaw) {
   const Certificate c = certify(klein_gordon_case(), {.t_end = 50});
   EXPECT_EQ(find(c, "sym(S) ⪯ 0").grade, Grade::by_structure);
