@@ -1,6 +1,7 @@
 // What a run leaves when something goes wrong: a disk that fails at any write, a program that is killed, a folder
 // that is taken away, signals one after the other.
 #include <test/support/background.hpp>
+#include <test/support/error_of.hpp>
 #include <test/support/program.hpp>
 
 #include <fmt/format.h>
@@ -8,6 +9,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/driver/saved_run.hpp>
+#include <seiche/output/file/folder_lock.hpp>
+#include <seiche/study/audit/audit.hpp>
+#include <seiche/study/recovery.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -281,46 +286,65 @@ TEST_F(Survival, WhatIsRecoveredOfAKilledRunPassesTheAudit) {
 }
 
 // Killed at whichever of its calls, a run or a resume leaves what `recover` makes a folder of that nothing contradicts.
-TEST_F(Survival, WhatIsRecoveredPassesTheAuditWhereverTheRunWasKilled) {
+class KilledAnywhere : public Survival {
+ protected:
+  void SetUp() override {
 #if defined(SEICHE_SANITIZED)
-  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+    GTEST_SKIP() << "the address sanitizer has to be loaded first";
 #endif
-  write_case();
+    write_case();
+  }
   const std::string run =
       "run case.toml --quiet --set output.snapshot_every=4 output.energy_every=16 output.report=off ";
-  const auto killed_at = [&](const std::string& words, int n) {
-    return seiche(words, fmt::format("LD_PRELOAD='{}' SEICHE_KILL_AT={}", failing_writes_path(), n)).exit != 0;
-  };
-  ASSERT_EQ(seiche(run + "--out stopped --max-hours 1e-9").exit, 130) << text("stderr.txt");
-  for (int n = 20; !has("killed/checkpoint.seiche") || has("killed/summary.json"); ++n) {
-    fs::remove_all(directory / "killed");
-    ASSERT_TRUE(killed_at(run + "checkpoint.every_steps=24 --out killed", n)) << "no kill leaves a checkpoint";
-  }
-  struct Beginning {
-    std::string from, words;
-    int stride;
-  };
   const std::string resume = "resume out --quiet";
-  for (const auto& [from, words, stride] : std::vector<Beginning>{{"", run + "--out out", 1},
-                                                                  {"stopped", resume, 1},
-                                                                  {"killed", resume, 1},
-                                                                  {"stopped", resume + " --until 1.5", 2}}) {
+
+  bool is_killed_at(const std::string& words, int n) const {
+    return seiche(words, fmt::format("LD_PRELOAD='{}' SEICHE_KILL_AT={}", failing_writes_path(), n)).exit != 0;
+  }
+  void stop_a_run() const { ASSERT_EQ(seiche(run + "--out begun --max-hours 1e-9").exit, 130) << text("stderr.txt"); }
+  void kill_a_run_behind_a_checkpoint() const {
+    for (int n = 20; !has("begun/checkpoint.seiche") || has("begun/summary.json"); ++n) {
+      fs::remove_all(directory / "begun");
+      ASSERT_TRUE(is_killed_at(run + "checkpoint.every_steps=24 --out begun", n)) << "no kill leaves a checkpoint";
+    }
+  }
+  // In a copy of `begun`, if there is one, at every `stride`-th call until it succeeds.
+  void expect_recovered(const std::string& words, int stride = 1) const {
     for (int n = 1;; n += stride) {
-      const std::string where = fmt::format("{}: {} killed at {}", from, words, n);
+      const std::string where = fmt::format("{} killed at {}: ", words, n);
       fs::remove_all(directory / "out");
-      if (!from.empty()) fs::copy(directory / from, directory / "out");
-      if (!killed_at(words, n)) break;
+      if (has("begun")) fs::copy(directory / "begun", directory / "out");
+      if (!is_killed_at(words, n)) break;
       ASSERT_LT(n, 1000) << "it never succeeds";
-      const int recovered = seiche("recover out").exit;
+      if (!has("out")) continue;
+      const std::string refusal = error_of([&] {
+        const Folder folder(directory / "out");
+        const FolderLock lock(folder);
+        recover(folder, case_of_checkpoint(folder.path()));
+      });
       if (!has("out/case.toml")) continue;  // it has not begun
-      ASSERT_EQ(recovered, 0) << where << text("stderr.txt");
-      const Result audited = seiche("audit out");
-      ASSERT_EQ(audited.exit, 0) << where << audited.out << audited.err;
-      if (from.empty() && !has("out/energy.csv")) {
-        ASSERT_EQ(seiche("run case.toml --out out --quiet").exit, 0) << where << ": nothing is lost by that";
+      ASSERT_EQ(refusal, "") << where;
+      for (const AuditEntry& entry : audit(directory / "out").entries)
+        ASSERT_NE(entry.verdict, AuditEntry::Verdict::contradicted) << where << entry.claim << ": " << entry.evidence;
+      if (!has("begun") && !has("out/energy.csv")) {
+        ASSERT_EQ(seiche("run case.toml --out out --quiet").exit, 0) << where << "nothing is lost by that";
       }
     }
   }
+};
+
+TEST_F(KilledAnywhere, ARunLeavesWhatIsRecoveredAndPassesTheAudit) { expect_recovered(run + "--out out"); }
+TEST_F(KilledAnywhere, TheResumeOfAStoppedRunDoesToo) {
+  stop_a_run();
+  expect_recovered(resume);
+}
+TEST_F(KilledAnywhere, TheResumeOfAKilledRunDoesToo) {
+  kill_a_run_behind_a_checkpoint();
+  expect_recovered(resume);
+}
+TEST_F(KilledAnywhere, AResumeToANewEndDoesToo) {
+  stop_a_run();
+  expect_recovered(resume + " --until 1.5", 2);
 }
 
 TEST_F(Survival, AKilledEnsembleKeepsItsStatistics) {
