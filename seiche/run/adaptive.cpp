@@ -334,7 +334,7 @@ RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, Sta
   } catch (const Error& error) {
     recording.abandon(error.what());
   }
-  return recording.finish(options.objection, loop.remark());
+  return recording.finish(options.objection, options.explanation, loop.remark());
 }
 
 RunReport integrate_either(const System& system, Stepper& stepper, AdaptiveStepper* adaptive, State& state,
@@ -345,6 +345,7 @@ RunReport integrate_either(const System& system, Stepper& stepper, AdaptiveStepp
                     .t_end = options.t_end,
                     .law = options.law,
                     .objection = options.objection,
+                    .explanation = options.explanation,
                     .stop = options.stop,
                     .events = options.events,
                     .resumption = options.resumption},

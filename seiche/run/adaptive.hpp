@@ -18,6 +18,7 @@ struct AdaptiveOptions {
   double largest_h = 0.0;  // 0: no bound. What happens and ends inside one step, as a pulse of γ(t), no estimate sees
   LawPromise law = {};
   std::function<std::string()> objection = {};
+  std::function<std::string()> explanation = {};
   const std::atomic<bool>* stop = nullptr;
   std::span<const Event> events = {};
   Resumption resumption = {};

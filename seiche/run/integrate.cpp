@@ -157,7 +157,7 @@ RunReport integrate(const System& system, Stepper& stepper, State& state, const 
   } catch (const Error& error) {  // a propagator that does not exist, a disk that is full
     recording.abandon(error.what());
   }
-  return recording.finish(options.objection, loop.remark());
+  return recording.finish(options.objection, options.explanation, loop.remark());
 }
 
 }  // namespace seiche

@@ -151,7 +151,8 @@ void Recording::abandon(const std::string& reason) {
   abandoned_ = true;
 }
 
-RunReport Recording::finish(const std::function<std::string()>& objection, const std::string& remark) {
+RunReport Recording::finish(const std::function<std::string()>& objection,
+                            const std::function<std::string()>& explanation, const std::string& remark) {
   if (report_.status != RunReport::Status::success && !abandoned_) {
     try {
       record_rest();
@@ -164,6 +165,8 @@ RunReport Recording::finish(const std::function<std::string()>& objection, const
   book_.write_to(report_);
   hear_objection(objection);
   report_.potential_counts = counts();
+  if (report_.step_failed && explanation)
+    if (const std::string why = explanation(); !why.empty()) report_.message += "; " + why;
   complete_message(remark);
   report_.wall_seconds = seconds();
   finish_observers();

@@ -45,8 +45,10 @@ class Recording {
   void interrupt_inside_step(double t_end);  // which has left the state in between: back to the last record
 
   // Everything that is left to do when the loop has ended, by success or not. `objection`: why the promise is withdrawn
-  // after all, or null; `remark`: what a successful run says about its steps.
-  RunReport finish(const std::function<std::string()>& objection, const std::string& remark);
+  // after all, or null; `explanation`: of a step that failed, or null; `remark`: what a successful run says about its
+  // steps.
+  RunReport finish(const std::function<std::string()>& objection, const std::function<std::string()>& explanation,
+                   const std::string& remark);
   void abandon(const std::string& reason);  // an Error of a propagator, a full disk
 
   // True if the run is to stop between two steps. `run` writes it to `checkpoints` (null: not kept) before that, and

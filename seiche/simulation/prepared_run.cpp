@@ -2,6 +2,7 @@
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/run/adaptive.hpp>
+#include <seiche/simulation/end_of_potential.hpp>
 #include <seiche/simulation/kick_stability.hpp>
 #include <seiche/simulation/prepared_run.hpp>
 
@@ -51,6 +52,10 @@ RunReport PreparedRun::integrate(Stepper& stepper, AdaptiveStepper* adaptive, co
                                  std::span<Observer* const> observers, std::span<const Event> events,
                                  const Resumption& resumption) {
   const auto objection = [this] { return negative_rate(simulation_->problem()); };
+  const auto explanation = [this] {
+    return end_of_potential(simulation_->problem(), simulation_->system(), simulation_->state(),
+                            plan_.tolerance ? 0 : plan_.h);
+  };
   return integrate_either(simulation_->system(), stepper, adaptive, simulation_->state(),
                           {.tolerance = plan_.tolerance.value_or(0.0),
                            .t_end = plan_.t_end,
@@ -58,6 +63,7 @@ RunReport PreparedRun::integrate(Stepper& stepper, AdaptiveStepper* adaptive, co
                            .largest_h = plan_.h_max,
                            .law = promise(),
                            .objection = objection,
+                           .explanation = explanation,
                            .stop = &stop,
                            .events = events,
                            .resumption = resumption},

@@ -1,5 +1,6 @@
 // What goes wrong in a step, and what is said or done then: no outcome is silent, and no state is lost.
 #include <test/support/cases.hpp>
+#include <test/support/written_problem.hpp>
 
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/klein_gordon.hpp>
@@ -7,14 +8,19 @@
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
 #include <seiche/simulation/simulation.hpp>
+#include <seiche/simulation/solve.hpp>
 #include <seiche/study/reference.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 namespace seiche::test {
 namespace {
+
+using testing::HasSubstr;
+using testing::Not;
 
 const std::vector<std::string> collocation = {"egc2", "egc4", "egc6", "egc8"};
 
@@ -141,6 +147,44 @@ TEST(FailureMode, WhereTheConditionFailsCollocationFollowsTheExactRiseOfH) {
   for (std::size_t n = 1; n < times.size(); ++n) {
     ASSERT_TRUE(simulation.step(1.0 / 32).solved());
     EXPECT_NEAR(simulation.energy().H, reference.energy(n), 1e-6) << n;
+  }
+}
+
+TEST(FailureMode, SaysWhereVIsNotDefinedAndAnotherRunGoesOnFromThere) {
+  const Problem problem = make_problem(read(R"toml(fields = ["q", "p"]
+H = "p^2/2 + q^2/2 - 0.3*log(1 + q)"
+initial = { q = "0.5", p = "-2" })toml"));
+  for (const std::string method : {"seisav", "savf", "seavf"}) {
+    const Solution failed = solve(problem, {.method = method, .h = 1.0, .t_end = 5});
+    EXPECT_FALSE(failed.success()) << method;
+    EXPECT_THAT(failed.report.message, HasSubstr("V is not a finite number at q = -1, straight ahead of t = "))
+        << method;
+    Problem rest = problem;
+    rest.initial = Eigen::Map<const Vector>(failed.z.data() + failed.z.size() - 2, 2);
+    const Solution more = solve(rest, {.method = "egc6", .tolerance = 1e-6, .t_start = failed.report.t, .t_end = 5});
+    EXPECT_TRUE(more.success()) << method << ": " << more.report.message;
+  }
+}
+
+TEST(FailureMode, SaysAtWhichPointVIsNotDefined) {
+  const Problem problem = make_problem(read(R"toml(fields = ["u", "v"]
+length = 8.0
+points = 8
+H = "v^2/2 + 0.005*u_x^2 - 0.5*log(1 + u)"
+initial = { u = "0", v = "-3*exp(-10*(x - 3)^2)" })toml"));
+  const Solution failed = solve(problem, {.method = "seisav", .h = 0.5, .t_end = 5});
+  EXPECT_FALSE(failed.success());
+  EXPECT_THAT(failed.report.message, HasSubstr("V is not a finite number at u = -1 (x = 3), straight ahead of t = 0"));
+}
+
+TEST(FailureMode, TellsABlowUpFromAPotentialThatEnds) {
+  const Problem problem = make_problem(read(R"toml(fields = ["q", "p"]
+H = "p^2/2 - q^4"
+initial = { q = "1", p = "2" })toml"));
+  for (const std::string method : {"seavf", "egc8", "seilm"}) {
+    const Solution failed = solve(problem, {.method = method, .h = 1.0 / 16, .t_end = 5});
+    EXPECT_FALSE(failed.success()) << method;
+    EXPECT_THAT(failed.report.message, Not(HasSubstr("is not a finite number at"))) << method;
   }
 }
 

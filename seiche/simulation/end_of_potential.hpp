@@ -1,0 +1,17 @@
+// Where V ends: of a step that failed, whether the solution was about to leave the values for which V is defined.
+#pragma once
+
+#include <seiche/core/state.hpp>
+#include <seiche/core/system.hpp>
+
+#include <string>
+
+namespace seiche {
+
+// "V is not a finite number at q = -1.0003, straight ahead of t = 0.5625 at t ≈ 0.61": the first place on the line
+// z + s ż, 0 ≤ s ≤ 2h, at which V or a component of ∇V is NaN or infinite though the values of the state are moderate,
+// with the field and the point. h = 0: on the line up to a tenth of |z|. "" if the whole line is defined, as in a
+// blow-up.
+std::string end_of_potential(const Problem& problem, const System& system, const State& s, double h);
+
+}  // namespace seiche
