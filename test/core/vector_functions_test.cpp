@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 #include <seiche/core/simd/vector_function_sets.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -40,7 +42,9 @@ const std::vector<Row>& rows() {
       {"acosh", &VectorFunctions::acosh, [](L x) { return std::acosh(x); }, 1, far},
       {"atanh", &VectorFunctions::atanh, [](L x) { return std::atanh(x); }, -1, 1},
       {"exp", &VectorFunctions::exp, [](L x) { return std::exp(x); }, -large, large},
+      {"expm1", &VectorFunctions::expm1, [](L x) { return std::expm1(x); }, -large, large},
       {"log", &VectorFunctions::log, [](L x) { return std::log(x); }, 0, far},
+      {"log1p", &VectorFunctions::log1p, [](L x) { return std::log1p(x); }, -1, far},
       {"sqrt", &VectorFunctions::sqrt, [](L x) { return std::sqrt(x); }, 0, far},
   };
   return all;
@@ -112,6 +116,36 @@ TEST(VectorFunctions, RaiseToPowers) {
       ASSERT_LE(error_in_ulp(y[i], std::pow(static_cast<long double>(bases[i]), exponents[i])), 1.0)
           << bases[i] << " to " << exponents[i];
   }
+}
+
+// Of these two, as long as angles are no longer than 10⁶: a run then has the same bits on processors with the one and
+// with the other.
+TEST(VectorFunctions, HaveTheSameBitsByAvx512AndByAvx2) {
+  const std::vector<VectorFunctions> all = all_vector_functions();
+  const auto is = [](const char* name) {
+    return [name](const VectorFunctions& f) { return f.instructions == std::string(name); };
+  };
+  const auto wide = std::find_if(all.begin(), all.end(), is("avx512f")),
+             narrow = std::find_if(all.begin(), all.end(), is("avx2"));
+  if (wide == all.end() || narrow == all.end()) GTEST_SKIP() << "this processor does not have both";
+  for (const Row& row : rows()) {
+    constexpr double far = 1e6;
+    const std::vector<double> x = arguments(std::max(row.least, -far), std::min(row.most, far));
+    std::vector<double> a(x.size()), b(x.size());
+    ((*wide).*row.f)(x.data(), a.data(), x.size());
+    ((*narrow).*row.f)(x.data(), b.data(), x.size());
+    ASSERT_EQ(std::memcmp(a.data(), b.data(), x.size() * sizeof(double)), 0) << row.name;
+  }
+  const std::vector<double> x = arguments(0, 1e3);
+  std::vector<double> exponents(x.size()), a(x.size()), b(x.size()), c(x.size()), d(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) exponents[i] = static_cast<double>(i % 81) / 8 - 5;
+  wide->pow(x.data(), exponents.data(), a.data(), x.size());
+  narrow->pow(x.data(), exponents.data(), b.data(), x.size());
+  EXPECT_EQ(a, b);
+  wide->sincos(x.data(), a.data(), b.data(), x.size());
+  narrow->sincos(x.data(), c.data(), d.data(), x.size());
+  EXPECT_EQ(a, c);
+  EXPECT_EQ(b, d);
 }
 
 // Blocks end anywhere, and what stands beside a number must not change it: runs would depend on how they are cut.
