@@ -22,23 +22,26 @@ std::string place_text(const Grid& grid, Index point) {
 class Line {
  public:
   Line(const Problem& problem, const System& system, const State& s)
-      : problem_(problem), begin_(problem.potential_field * problem.grid.unknowns()) {
+      : problem_(problem), space_(*system.space), begin_(problem.potential_field * problem.grid.unknowns()) {
     const Index size = problem.potential->fields() * problem.grid.unknowns();
     Vector dz(s.z.size());
     system.right_hand_side(s.t, s.z, dz);
     u_ = system.space->physical(s.z).segment(begin_, size);
     du_ = system.space->physical(dz).segment(begin_, size);
-    if (!du_.allFinite()) du_.setZero();  // V ends here already
+    if (!space_.is_finite(du_)) du_.setZero();  // V ends here already
     values_ = slopes_ = u_;
   }
 
-  double tenth() const { return du_.norm() > 0 ? 0.1 * u_.norm() / du_.norm() : 0; }
+  double tenth() const {
+    const double speed = space_.norm(du_);
+    return speed > 0 ? 0.1 * space_.norm(u_) / speed : 0;
+  }
 
   // Whether V and ∇V are finite at s, as far as the values there are moderate.
   bool is_inside(double s) {
     constexpr double moderate = 1e50;  // beyond it the solution blows up, and V with it
     values_ = u_ + s * du_;
-    return !(values_.lpNorm<Eigen::Infinity>() < moderate) || is_finite();
+    return !(space_.max_norm(values_) < moderate) || is_finite();
   }
 
   // "V is not a finite number at q = -1.0003": of what is finite at `inside` and not at `outside`.
@@ -63,10 +66,11 @@ class Line {
   bool is_finite() {
     const auto span = [](Vector& v) { return std::span(v.data(), static_cast<std::size_t>(v.size())); };
     V_ = problem_.potential->value_and_gradient(span(values_), span(slopes_));
-    return std::isfinite(V_) && slopes_.allFinite();
+    return std::isfinite(V_) && space_.is_finite(slopes_);
   }
 
   const Problem& problem_;
+  const Space& space_;
   Index begin_;
   double V_ = 0;
   Vector u_, du_, values_, slopes_;
