@@ -22,7 +22,7 @@ struct EnergyTarget {
 // Where a layer or an oscillation is shorter than the step, in the linear flow, in V or by friction, both quadratures
 // miss the same and agree. Hence u grows where Ĥ lies outside the interval: by 8 times what D misses of the linear
 // flow, and by D x/(1 − x), with x = min(1, (hρ/0.07)⁶) for the largest rate ρ at which damping acts in the step
-// (DampingRate). What the quadrature resolves is a two-sided law, and of the rest E* ≤ Hⁿ remains.
+// (DampingStrength). What the quadrature resolves is a two-sided law, and of the rest E* ≤ Hⁿ remains.
 // With the guard alone E* = min(Ĥ, Hⁿ), and of the dissipation only its sign is asked for.
 //   before: Hⁿ,   computed: Ĥ of the method,   rest: H(0)
 //   damped: hρ, and flow_missed: each asked for only where it can matter

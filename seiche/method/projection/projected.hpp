@@ -5,7 +5,7 @@
 #include <seiche/core/stepper.hpp>
 #include <seiche/method/nonlinear_force.hpp>
 #include <seiche/method/projection/base_step.hpp>
-#include <seiche/method/projection/damping_rate.hpp>
+#include <seiche/method/projection/damping_strength.hpp>
 #include <seiche/method/projection/energy_law.hpp>
 #include <seiche/method/projection/energy_projection.hpp>
 
@@ -71,7 +71,7 @@ class Projected {
   bool may_flow_freely_;  // e^{hL}z leaves out neither a force nor friction
   bool feeds_;            // Q is a form of z that is negative somewhere: H may rise in any step
   EnergyProjection projection_;
-  DampingRate rate_;
+  DampingStrength rate_;
   StepCache<PhiMap> free_;  // e^{hL}z
   Vector z_;                // ẑ, then zⁿ
   State saved_;

@@ -1,4 +1,4 @@
-#include <seiche/method/projection/damping_rate.hpp>
+#include <seiche/method/projection/damping_strength.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,13 @@
 
 namespace seiche {
 
-double DampingRate::largest(double t, double h, const Vector& before, const Vector& after) {
+double DampingStrength::largest(double t, double h, const Vector& before, const Vector& after) {
   return system_.damping->largest_rate(*system_.space, t, h, before, after) + std::max(of_S(h, before), of_S(h, after));
 }
 
 // |w(z + hw) − w(z)| / (h|w|) with w = sym(S)∇H: how much a step along w alone changes w. For a damped momentum that is
 // its γ, whatever the frequencies beside it.
-double DampingRate::of_S(double h, const Vector& z) {
+double DampingStrength::of_S(double h, const Vector& z) {
   if (S_is_skew_) return 0;
   if (flow_.size() == 0) {
     for (Vector* v : {&gradient_, &slope_, &flow_, &moved_}) v->setZero(z.size());
@@ -29,7 +29,7 @@ double DampingRate::of_S(double h, const Vector& z) {
   return std::isfinite(rate) ? rate : std::numeric_limits<double>::infinity();
 }
 
-void DampingRate::take_flow(const Vector& z, Vector& flow) {
+void DampingStrength::take_flow(const Vector& z, Vector& flow) {
   slope_.setZero();
   system_.potential->gradient(z, slope_);
   system_.linear->apply_M(z, gradient_);

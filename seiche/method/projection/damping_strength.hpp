@@ -5,9 +5,9 @@
 
 namespace seiche {
 
-class DampingRate {
+class DampingStrength {
  public:
-  explicit DampingRate(const System& system) : system_(system) {}  // which outlives it
+  explicit DampingStrength(const System& system) : system_(system) {}  // which outlives it
 
   // The largest rate, in 1/time, in a step h from `before` to `after`: Damping::largest_rate, and the larger one of
   // sym(S)∇H at both states. The first call may allocate.
