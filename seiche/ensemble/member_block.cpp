@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/ensemble/member_block.hpp>
+#include <seiche/simulation/end_of_potential.hpp>
 
 #include <cmath>
 #include <utility>
@@ -7,7 +8,7 @@
 namespace seiche {
 
 MemberBlock::MemberBlock(std::span<const EnsembleMember> members, const SimulationOptions& options)
-    : simulations_(members.size(), nullptr), states_(members.size()), statuses_(members.size()) {
+    : members_(members), simulations_(members.size(), nullptr), states_(members.size()), statuses_(members.size()) {
   for (std::size_t m = 0; m < members.size(); ++m) start(static_cast<Index>(m), members[m], options);
 }
 
@@ -43,6 +44,7 @@ void MemberBlock::set_time(double t) {
 }
 
 void MemberBlock::step(std::int64_t n, double t, double h, double t_after) {
+  h_ = h;
   step_all(n, t, h);
   steps_ = n;
   t_ = t_after;
@@ -71,7 +73,7 @@ bool MemberBlock::step_alone(Index member, std::int64_t n, double t, double h) {
   status.unresolved += report.unresolved;
   status.replaced += report.replaced;
   if (report.solved()) return true;
-  fail(member, fmt::format("step {} failed after t = {:.9g}: {}", n, t, report.message));
+  fail_step(member, fmt::format("step {} failed after t = {:.9g}: {}", n, t, report.message));
   return false;
 }
 
@@ -91,13 +93,21 @@ void MemberBlock::fail(Index member, std::string message) {
   status.message = std::move(message);
 }
 
+void MemberBlock::fail_step(Index member, std::string message) {
+  const Simulation& by = stepper_of(member);
+  const Vector& initial = members_[static_cast<std::size_t>(member)].initial;
+  const std::string why = end_of_potential(by.problem(), by.system(), initial, state(member), h_);
+  fail(member, why.empty() ? std::move(message) : fmt::format("{}; {}", message, why));
+}
+
 void MemberBlock::read(std::array<EnergyReading, panel_members>& readings) {
   read_energies(readings);
   for (Index m = 0; m < size(); ++m) {
     const EnergyReading& reading = readings[static_cast<std::size_t>(m)];
     if (!status(m).running || (std::isfinite(reading.H) && std::isfinite(reading.modified))) continue;
     update_state(m);
-    fail(m, fmt::format("the energy is no longer finite at t = {:.9g} (step {})", t_, steps_));
+    state(m).t = t_;
+    fail_step(m, fmt::format("the energy is no longer finite at t = {:.9g} (step {})", t_, steps_));
   }
 }
 

@@ -32,7 +32,7 @@ struct MemberStatus {
 // One member after the other by its ordinary stepper: every method on every problem.
 class MemberBlock {
  public:
-  // A member that cannot start is not running, with the reason.
+  // A member that cannot start is not running, with the reason. `members` outlives the block.
   MemberBlock(std::span<const EnsembleMember> members, const SimulationOptions& options);
   virtual ~MemberBlock() = default;
 
@@ -63,18 +63,20 @@ class MemberBlock {
   // By the ordinary stepper; the state is at t.
   bool step_alone(Index member, std::int64_t n, double t, double h);
   void fail(Index member, std::string message);
+  void fail_step(Index member, std::string message);  // of a state at t; says where V ends, if it does
   MemberStatus& status_of(Index member) { return statuses_[static_cast<std::size_t>(member)]; }
 
  private:
   static void remember_fed(const Simulation& simulation, MemberStatus& status);
   void start(Index member, const EnsembleMember& from, const SimulationOptions& options);
 
+  std::span<const EnsembleMember> members_;
   std::map<const Problem*, std::unique_ptr<Simulation>> by_problem_;
   std::vector<Simulation*> simulations_;
   std::vector<State> states_;
   std::vector<MemberStatus> statuses_;
   std::int64_t steps_ = 0;
-  double t_ = 0.0;
+  double t_ = 0.0, h_ = 0.0;
 };
 
 }  // namespace seiche

@@ -324,7 +324,7 @@ RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, Sta
   for (const double h : {options.first_h, options.largest_h})
     if (!std::isfinite(h) || h < 0)
       throw Error("the first and the largest step size must be finite and ≥ 0, but one is {}", h);
-  Recording recording(system, stepper, state, options.law, observers);
+  Recording recording(system, stepper, state, options.law, options.explanation, observers);
   AdaptiveLoop loop(system, stepper, state, options, recording);
   const StopRequest stoppable(options.stop);
   try {
@@ -334,7 +334,7 @@ RunReport integrate_adaptive(const System& system, AdaptiveStepper& stepper, Sta
   } catch (const Error& error) {
     recording.abandon(error.what());
   }
-  return recording.finish(options.objection, options.explanation, loop.remark());
+  return recording.finish(options.objection, loop.remark());
 }
 
 RunReport integrate_either(const System& system, Stepper& stepper, AdaptiveStepper* adaptive, State& state,

@@ -147,7 +147,7 @@ class FixedLoop {
 RunReport integrate(const System& system, Stepper& stepper, State& state, const IntegrateOptions& options,
                     std::span<Observer* const> observers) {
   const TimeGrid grid(state.t, options.h, options.t_end);
-  Recording recording(system, stepper, state, options.law, observers);
+  Recording recording(system, stepper, state, options.law, options.explanation, observers);
   FixedLoop loop(system, stepper, state, options, grid, recording);
   const StopRequest stoppable(options.stop);
   try {
@@ -157,7 +157,7 @@ RunReport integrate(const System& system, Stepper& stepper, State& state, const 
   } catch (const Error& error) {  // a propagator that does not exist, a disk that is full
     recording.abandon(error.what());
   }
-  return recording.finish(options.objection, options.explanation, loop.remark());
+  return recording.finish(options.objection, loop.remark());
 }
 
 }  // namespace seiche

@@ -14,11 +14,12 @@ bool is_finite(const EnergyReading& reading) { return std::isfinite(reading.H) &
 }  // namespace
 
 Recording::Recording(const System& system, const Stepper& stepper, State& state, const LawPromise& law,
-                     std::span<Observer* const> observers)
+                     const std::function<std::string()>& explanation, std::span<Observer* const> observers)
     : system_(system),
       stepper_(stepper),
       state_(state),
       observers_(observers),
+      explanation_(explanation),
       book_(law, stepper.has_modified_energy()),
       good_{.state = state},
       first_n_(state.n),
@@ -119,6 +120,7 @@ void Recording::fail(std::string message) {
 void Recording::fail_step(const std::string& reason) {
   fail(fmt::format("step {} failed after t = {:.9g}: {}", state_.n + 1, state_.t, reason));
   report_.step_failed = true;
+  explain();
 }
 
 void Recording::fail_not_finite(const char* what) {
@@ -128,7 +130,16 @@ void Recording::fail_not_finite(const char* what) {
                          "t = {:.9g} (step {})",
                          what, state_.t, state_.n, good_.state.t, good_.state.n));
   report_.step_failed = true;
+  // By what lies ahead of the last good record, or, where steps lie between, by where the state is.
+  const bool explained = state_.n > good_.state.n + 1 && explain();
   go_back();
+  if (!explained) explain();
+}
+
+bool Recording::explain() {
+  const std::string why = explanation_ ? explanation_() : "";
+  if (!why.empty()) report_.message += "; " + why;
+  return !why.empty();
 }
 
 void Recording::interrupt(double t_end) {
@@ -151,8 +162,7 @@ void Recording::abandon(const std::string& reason) {
   abandoned_ = true;
 }
 
-RunReport Recording::finish(const std::function<std::string()>& objection,
-                            const std::function<std::string()>& explanation, const std::string& remark) {
+RunReport Recording::finish(const std::function<std::string()>& objection, const std::string& remark) {
   if (report_.status != RunReport::Status::success && !abandoned_) {
     try {
       record_rest();
@@ -165,8 +175,6 @@ RunReport Recording::finish(const std::function<std::string()>& objection,
   book_.write_to(report_);
   hear_objection(objection);
   report_.potential_counts = counts();
-  if (report_.step_failed && explanation)
-    if (const std::string why = explanation(); !why.empty()) report_.message += "; " + why;
   complete_message(remark);
   report_.wall_seconds = seconds();
   finish_observers();

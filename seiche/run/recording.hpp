@@ -18,9 +18,10 @@ namespace seiche {
 
 class Recording {
  public:
-  // All outlive the recording.
+  // All outlive the recording. `explanation`: why no step goes on from the state, or ""; null if no one knows. It is
+  // asked where a step has failed or led to no finite energy.
   Recording(const System& system, const Stepper& stepper, State& state, const LawPromise& law,
-            std::span<Observer* const> observers);
+            const std::function<std::string()>& explanation, std::span<Observer* const> observers);
 
   RunReport& report() { return report_; }
   bool has_failed() const { return report_.status != RunReport::Status::success; }
@@ -45,10 +46,8 @@ class Recording {
   void interrupt_inside_step(double t_end);  // which has left the state in between: back to the last record
 
   // Everything that is left to do when the loop has ended, by success or not. `objection`: why the promise is withdrawn
-  // after all, or null; `explanation`: of a step that failed, or null; `remark`: what a successful run says about its
-  // steps.
-  RunReport finish(const std::function<std::string()>& objection, const std::function<std::string()>& explanation,
-                   const std::string& remark);
+  // after all, or null; `remark`: what a successful run says about its steps.
+  RunReport finish(const std::function<std::string()>& objection, const std::string& remark);
   void abandon(const std::string& reason);  // an Error of a propagator, a full disk
 
   // True if the run is to stop between two steps. `run` writes it to `checkpoints` (null: not kept) before that, and
@@ -62,6 +61,7 @@ class Recording {
 
  private:
   void fail_not_finite(const char* what);
+  bool explain();    // adds to the message why no step goes on from the state; false: no one knows
   void keep_good();  // the state and what has been entered up to it
   void go_back();    // to the state of the last record, and the ledger up to there
   void record_rest();
@@ -75,6 +75,7 @@ class Recording {
   const Stepper& stepper_;
   State& state_;
   std::span<Observer* const> observers_;
+  const std::function<std::string()>& explanation_;
   EnergyBook book_;
   StepLedger ledger_;  // of all steps
   RunReport report_;

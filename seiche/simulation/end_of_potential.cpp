@@ -1,33 +1,31 @@
+#include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/simulation/end_of_potential.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
+#include <utility>
+#include <vector>
 
 namespace seiche {
 namespace {
 
-std::string place_text(const Grid& grid, Index point) {
-  if (grid.unknowns() == 1) return "";
-  if (grid.only_numbers) return fmt::format(" (point {})", point + 1);
-  std::string text;
-  for (Index a = 0; a < grid.dimension(); ++a)
-    text += fmt::format("{}{} = {:.6g}", a == 0 ? " (" : ", ", "xyz"[a], grid.coordinate(point, a));
-  return text + ")";
-}
-
 // The values that V depends on, on the line u + s du.
 class Line {
  public:
-  Line(const Problem& problem, const System& system, const State& s)
-      : problem_(problem), space_(*system.space), begin_(problem.potential_field * problem.grid.unknowns()) {
-    const Index size = problem.potential->fields() * problem.grid.unknowns();
+  Line(const Problem& problem, const System& system, const Vector& initial, const State& s)
+      : problem_(problem),
+        space_(*system.space),
+        begin_(problem.potential_field * problem.grid.unknowns()),
+        start_(initial.segment(begin_, problem.potential->fields() * problem.grid.unknowns())) {
     Vector dz(s.z.size());
     system.right_hand_side(s.t, s.z, dz);
-    u_ = system.space->physical(s.z).segment(begin_, size);
-    du_ = system.space->physical(dz).segment(begin_, size);
+    u_ = space_.physical(s.z).segment(begin_, start_.size());
+    du_ = space_.physical(dz).segment(begin_, start_.size());
     if (!space_.is_finite(du_)) du_.setZero();  // V ends here already
     values_ = slopes_ = u_;
   }
@@ -36,49 +34,84 @@ class Line {
     const double speed = space_.norm(du_);
     return speed > 0 ? 0.1 * space_.norm(u_) / speed : 0;
   }
+  Vector at(double s) const { return u_ + s * du_; }
+  const Vector& start() const { return start_; }  // of the run
 
   // Whether V and ∇V are finite at s, as far as the values there are moderate.
   bool is_inside(double s) {
     constexpr double moderate = 1e50;  // beyond it the solution blows up, and V with it
-    values_ = u_ + s * du_;
-    return !(space_.max_norm(values_) < moderate) || is_finite();
+    return !(space_.max_norm(at(s)) < moderate) || is_finite(at(s));
   }
 
-  // "V is not a finite number at q = -1.0003": of what is finite at `inside` and not at `outside`.
-  std::string complaint(double inside, double outside) {
-    is_inside(outside);
+  // "V is not a finite number at q = -1.0003": of what is finite at `inside`, if anything is, and not at `outside`.
+  std::string complaint(const Vector& inside, const Vector& outside) {
+    const bool has_place = is_finite(inside);
+    is_finite(outside);
     const char* what = std::isfinite(V_) ? "∇V" : "V";
-    const Vector there = values_;
+    if (!has_place) return fmt::format("{} is not a finite number", what);
     // Of those values that have to go back to where they were inside for V to be finite, the last.
-    Index low = 0, high = there.size();
+    Index low = 0, high = outside.size();
     while (high - low > 1) {
       const Index middle = low + (high - low) / 2;
-      values_ = there;
-      values_.head(middle) = u_.head(middle) + inside * du_.head(middle);
-      (is_finite() ? high : low) = middle;
+      Vector mixed = outside;
+      mixed.head(middle) = inside.head(middle);
+      (is_finite(mixed) ? high : low) = middle;
     }
-    const Index points = problem_.grid.unknowns(), field = (begin_ + low) / points;
-    return fmt::format("{} is not a finite number at {} = {}{}", what, problem_.fields[static_cast<std::size_t>(field)],
-                       number_text(there[low], 6), place_text(problem_.grid, low % points));
+    return fmt::format("{} is not a finite number at {}", what, named(outside, low));
+  }
+
+  // "… q = 3e+19 is 3e+19 times the largest value at the start: a blow-up …", or "" if it is no such thing.
+  std::string blow_up() const {
+    constexpr double grown = 1e6;
+    const double size = space_.max_norm(u_), before = space_.max_norm(start_);
+    if (!(before > 0 && size > grown * before)) return "";
+    return fmt::format(
+        "no end of V lies straight ahead, but {} is {:.2g} times the largest value at the start: a blow-up, of the "
+        "solution or of the method",
+        named(u_, largest(u_)), size / before);
   }
 
  private:
-  bool is_finite() {
+  bool is_finite(const Vector& u) {
     const auto span = [](Vector& v) { return std::span(v.data(), static_cast<std::size_t>(v.size())); };
+    values_ = u;
     V_ = problem_.potential->value_and_gradient(span(values_), span(slopes_));
     return std::isfinite(V_) && space_.is_finite(slopes_);
+  }
+
+  static Index largest(const Vector& u) {
+    return std::max_element(u.begin(), u.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }) -
+           u.begin();
+  }
+
+  // "q = -1 (x = 3, where s = 0)": a value, its point, and what else V depends on there.
+  std::string named(const Vector& u, Index i) const {
+    const Index points = problem_.grid.unknowns(), point = i % points;
+    const auto value = [&](Index j) {
+      return fmt::format("{} = {}", problem_.fields[static_cast<std::size_t>((begin_ + j) / points)],
+                         number_text(u[j], 6));
+    };
+    std::vector<std::string> notes;
+    if (problem_.grid.only_numbers && points > 1) notes.push_back(fmt::format("point {}", point + 1));
+    for (Index a = 0; a < problem_.grid.dimension() && !problem_.grid.only_numbers && points > 1; ++a)
+      notes.push_back(
+          fmt::format("{} = {:.6g}", axis_names[static_cast<std::size_t>(a)], problem_.grid.coordinate(point, a)));
+    const char* where = "where ";
+    for (Index j = point; j < u.size(); j += points)
+      if (j != i) notes.push_back(std::exchange(where, "") + value(j));
+    return notes.empty() ? value(i) : fmt::format("{} ({})", value(i), fmt::join(notes, ", "));
   }
 
   const Problem& problem_;
   const Space& space_;
   Index begin_;
   double V_ = 0;
-  Vector u_, du_, values_, slopes_;
+  Vector start_, u_, du_, values_, slopes_;
 };
 
-std::string on_line(const Problem& problem, const System& system, const State& s, double h) {
-  Line line(problem, system, s);
-  if (!line.is_inside(0)) return fmt::format("V or ∇V is not a finite number at t = {:.6g}", s.t);
+std::string on_line(const Problem& problem, const System& system, const Vector& initial, const State& s, double h) {
+  Line line(problem, system, initial, s);
+  if (!line.is_inside(0)) return fmt::format("{} at t = {:.6g}", line.complaint(line.start(), line.at(0)), s.t);
   constexpr int parts = 64, halvings = 40;
   const double reach = h > 0 ? 2 * h : line.tenth();
   double inside = 0, outside = 0;
@@ -86,21 +119,22 @@ std::string on_line(const Problem& problem, const System& system, const State& s
     outside = reach * k / parts;
     if (line.is_inside(outside)) inside = outside;
   }
-  if (outside == inside) return "";
+  if (outside == inside) return line.tenth() < reach ? line.blow_up() : "";
   for (int k = 0; k < halvings; ++k) {
     const double middle = inside + (outside - inside) / 2;
     (line.is_inside(middle) ? inside : outside) = middle;
   }
-  return fmt::format("{}, straight ahead of t = {:.6g} at t ≈ {:.6g}", line.complaint(inside, outside), s.t,
-                     s.t + outside);
+  return fmt::format("{}, straight ahead of t = {:.6g} at t ≈ {:.6g}",
+                     line.complaint(line.at(inside), line.at(outside)), s.t, s.t + outside);
 }
 
 }  // namespace
 
-std::string end_of_potential(const Problem& problem, const System& system, const State& s, double h) {
-  if (!problem.potential || !system.space->is_finite(s.z)) return "";
+std::string end_of_potential(const Problem& problem, const System& system, const Vector& initial, const State& s,
+                             double h) {
+  if (!problem.potential || initial.size() != problem.size() || !system.space->is_finite(s.z)) return "";
   try {
-    return on_line(problem, system, s, h);
+    return on_line(problem, system, initial, s, h);
   } catch (const std::exception&) {  // of a function of the user's own, which has said it in the step
     return "";
   }

@@ -10,8 +10,11 @@ namespace seiche {
 
 // "V is not a finite number at q = -1.0003, straight ahead of t = 0.5625 at t ≈ 0.61": the first place on the line
 // z + s ż, 0 ≤ s ≤ 2h, at which V or a component of ∇V is NaN or infinite though the values of the state are moderate,
-// with the field and the point. h = 0: on the line up to a tenth of |z|. "" if the whole line is defined, as in a
-// blow-up.
-std::string end_of_potential(const Problem& problem, const System& system, const State& s, double h);
+// with the field, the point, and the other values that V depends on there. h = 0: on the line up to a tenth of |z|.
+// Where the state itself is such a place, "… at q = -1.0113 at t = 0.588". If the whole line is defined, that the
+// state has grown a million times since `initial`, the physical values at the start of the run, and moves by more than
+// a tenth of itself in 2h: a blow-up; else "".
+std::string end_of_potential(const Problem& problem, const System& system, const Vector& initial, const State& s,
+                             double h);
 
 }  // namespace seiche

@@ -53,7 +53,8 @@ RunReport PreparedRun::integrate(Stepper& stepper, AdaptiveStepper* adaptive, co
                                  const Resumption& resumption) {
   const auto objection = [this] { return negative_rate(simulation_->problem()); };
   const auto explanation = [this] {
-    return end_of_potential(simulation_->problem(), simulation_->system(), simulation_->state(),
+    const Problem& problem = simulation_->problem();
+    return end_of_potential(problem, simulation_->system(), problem.initial, simulation_->state(),
                             plan_.tolerance ? 0 : plan_.h);
   };
   return integrate_either(simulation_->system(), stepper, adaptive, simulation_->state(),

@@ -2,6 +2,7 @@
 #include <test/support/cases.hpp>
 #include <test/support/error_of.hpp>
 #include <test/support/worst.hpp>
+#include <test/support/written_problem.hpp>
 
 #include <seiche/core/error.hpp>
 #include <seiche/damping/rates.hpp>
@@ -24,6 +25,7 @@
 namespace seiche::test {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 std::vector<EnsembleMember> scaled_members(const Problem& problem, std::size_t count) {
@@ -196,6 +198,22 @@ TEST(Ensemble, AMemberThatFailsStopsWithTheMessageOfItsOwnRunAndTheOthersGoOn) {
   EXPECT_LT(not_started + stopped, 20);
   EXPECT_EQ(records.front().running, 20 - not_started);
   EXPECT_EQ(records.back().running, 20 - not_started - stopped);
+}
+
+TEST(Ensemble, AMemberThatFailsSaysWhereVIsNotDefined) {
+  const Problem problem = make_problem(read(R"toml(fields = ["q", "p"]
+H = "p^2/2 + q^2/2 - 0.3*log(1 + q)"
+initial = { q = "0.5", p = "-6" })toml"));
+  for (const std::string method : {"seisav", "seavf"}) {  // side by side, and one after the other
+    std::vector<EnsembleMember> members = scaled_members(problem, 3);
+    members[1].initial[1] = 0.1;
+    const EnsembleResult result = run_ensemble(members, {.simulation = {.method = method}, .h = 1.0, .t_end = 5});
+    EXPECT_EQ(result.members[1].report.status, RunReport::Status::success) << result.members[1].report.message;
+    for (const std::size_t m : {0U, 2U})
+      EXPECT_THAT(result.members[m].report.message,
+                  ContainsRegex("; V is not a finite number at q = -[1-9]"))  // ahead of the state, or where it is
+          << method;
+  }
 }
 
 // Lanczos iteration is no fixed matrix: what it makes of z depends on z and on the force beside it.

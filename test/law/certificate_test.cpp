@@ -38,6 +38,7 @@ TEST(Certificate, SaysThatTheLawHoldsWhateverWasPredictedOrComputedOnTheWay) {
         << method.name << ": " << c.theorem;
     EXPECT_EQ(c.theorem.find("whatever midpoint ẑ was predicted") != std::string::npos, method.kind.takes_predictor)
         << method.name << ": " << c.theorem;
+    EXPECT_THAT(certificate_json(c), HasSubstr("\"theorem\": \"" + c.theorem + '"'));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/simulation/solve.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -218,6 +219,40 @@ TEST(OwnPotential, ARunWithAWrongGradientDoesNotBegin) {
   for (int attempt = 0; attempt < 2; ++attempt)
     EXPECT_THAT([&] { solve(problem, {.h = 0.1, .t_end = 1}); },
                 ThrowsMessage<Error>(HasSubstr("the gradient is not that of V: at the start, its component")));
+}
+
+// Of V itself, and of a gradient alone, at the one point that comes that far.
+TEST(OwnPotential, ARunSaysWhereItIsNotANumber) {
+  constexpr double wall = 2;
+  Problem problem = klein_gordon({.alpha = 1.0, .gamma = nullptr});
+  const Index n = problem.grid.unknowns(), middle = n / 2;
+  problem.initial.setZero();
+  problem.initial[n + middle] = 400;
+  for (const bool of_V : {true, false}) {
+    OwnPotential own = quartic();
+    const auto beyond = [](double x) { return x > wall ? std::nan("") : 0.0; };
+    if (of_V)
+      own.value = [V = own.value, beyond](Values u) {
+        double sum = V(u);
+        for (const double x : u) sum += beyond(x);
+        return sum;
+      };
+    else
+      own.gradient = [slope = own.gradient, beyond](Values u, std::span<double> g) {
+        slope(u, g);
+        for (std::size_t j = 0; j < u.size(); ++j) g[j] += beyond(u[j]);
+      };
+    problem.potential = own_potential(own);
+    for (const char* method : {"seavf", "seilm"}) {
+      const Solution failed = solve(problem, {.method = method, .h = 1.0 / 128, .t_end = 1});
+      EXPECT_FALSE(failed.success()) << method;
+      EXPECT_THAT(failed.report.message,
+                  HasSubstr(fmt::format("; {} is not a finite number at u = 2 (x = {:.6g}), straight "
+                                        "ahead of t = 0 at t ≈ 0.005",
+                                        of_V ? "V" : "∇V", problem.grid.coordinate(middle, 0))))
+          << method;
+    }
+  }
 }
 
 // V = −log(1.01 − u) near its wall: it is asked for no farther from the start than differences of it reach.

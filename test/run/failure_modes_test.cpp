@@ -19,6 +19,7 @@
 namespace seiche::test {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -181,11 +182,41 @@ TEST(FailureMode, TellsABlowUpFromAPotentialThatEnds) {
   const Problem problem = make_problem(read(R"toml(fields = ["q", "p"]
 H = "p^2/2 - q^4"
 initial = { q = "1", p = "2" })toml"));
-  for (const std::string method : {"seavf", "egc8", "seilm"}) {
+  for (const std::string method : {"seavf", "egc8", "seilm", "seisav"}) {
     const Solution failed = solve(problem, {.method = method, .h = 1.0 / 16, .t_end = 5});
     EXPECT_FALSE(failed.success()) << method;
     EXPECT_THAT(failed.report.message, Not(HasSubstr("is not a finite number at"))) << method;
+    if (method != "seisav") continue;  // the others see it while q is of moderate size
+    EXPECT_THAT(failed.report.message,
+                HasSubstr(" times the largest value at the start: a blow-up, of the solution or of the method"));
   }
+}
+
+// sav steps across the end of V unseen, and no energy is looked at before the step that cannot go on from there.
+TEST(FailureMode, SaysWhereVIsNotDefinedThoughTheDataEndLongBefore) {
+  const Problem problem = make_problem(read(R"toml(fields = ["q", "p"]
+H = "p^2/2 - (1 + q)^1.5"
+initial = { q = "0.5", p = "-3" })toml"));
+  const Solution failed = solve(problem, {.method = "seisav", .h = 0.021, .t_end = 5, .record_every = 1000});
+  EXPECT_FALSE(failed.success());
+  EXPECT_EQ(failed.report.t, 0);
+  EXPECT_THAT(failed.report.message, ContainsRegex("; V is not a finite number at q = -1\\.0[0-9]+ at t = 0\\.588"));
+  const Solution looked = solve(problem, {.method = "seisav", .h = 0.021, .t_end = 5, .record_every = 4});
+  EXPECT_THAT(looked.report.message,
+              ContainsRegex("^the energy is no longer finite at t = 0\\.588 \\(step 28\\); the data end "
+                            "at the last good record, t = 0\\.504 \\(step 24\\); V is not a finite "
+                            "number at q = -1\\.0[0-9]+ at t = 0\\.588"))
+      << "where an energy is read, too";
+}
+
+TEST(FailureMode, SaysWhatElseVDependsOnWhereItIsNotDefined) {
+  const Problem problem = make_problem(read(R"toml(fields = ["q", "s", "p", "r"]
+H = "p^2/2 + r^2/2 + s^4 - 0.3*log(1 + q)"
+initial = { q = "0.5", s = "0", p = "-2", r = "0" })toml"));
+  const Solution failed = solve(problem, {.method = "seavf", .h = 0.5, .t_end = 5});
+  EXPECT_FALSE(failed.success());
+  EXPECT_THAT(failed.report.message,
+              HasSubstr("V is not a finite number at q = -1 (where s = 0), straight ahead of t = 1 at t ≈ 1.00"));
 }
 
 }  // namespace

@@ -7,8 +7,9 @@ namespace seiche {
 
 // n numbers each, and the result may lie where an argument does. Errors are at most 1 ulp; libm's own are hardly above
 // ½ ulp for the usual functions and up to 1.8 ulp for hyperbolic ones. But sinh and cosh may be infinite from 709 on,
-// asinh and acosh from 1e154 on. A result depends on nothing but its argument, except for sin, cos and tan of numbers
-// above 15 in size, where the last bit may change with the neighbours; sincos may differ from sin and cos by that bit.
+// asinh and acosh from 1e154 on. A result depends on nothing but its argument, except for sin, cos and tan of or
+// next to numbers above 15 in size, where the last bit may change with the neighbours; sincos may differ from sin and
+// cos by that bit. AVX-512 and AVX2 give the same bits as long as angles are no longer than 10⁶.
 struct VectorFunctions {
   using One = void (*)(const double* x, double* y, std::size_t n);
   using Two = void (*)(const double* a, const double* b, double* y, std::size_t n);
