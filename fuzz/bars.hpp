@@ -1,4 +1,4 @@
-// What every execution of a fuzzer keeps to, beside having no crash and no leak: it takes no more than two seconds of a
+// What every execution of a fuzzer keeps to, beside having no crash and no leak: it takes no more than ten seconds of a
 // processor and half a gigabyte, and what it refuses, it refuses by an exception that the program turns into one line.
 #pragma once
 

@@ -67,7 +67,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--references", action="store_true", help="compute the references anew; runs nothing")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
     parser.add_argument("--program", type=Path, help="the program; by default build/release/seiche")
-    parser.add_argument("--time-out", type=int, help="seconds of a processor that a run may take; 60, or 10 with --quick")
+    parser.add_argument("--time-out", type=int, help="seconds of a processor that a run may take; 60")
     parser.add_argument("--cases", type=Path, help="write the case of every wrong row into this folder")
     given = parser.parse_args()
     for name in filter(None, given.only.split(",")):
@@ -119,7 +119,7 @@ def main() -> int:
     if not program.PROGRAM.exists():
         print(f"verification: {program.PROGRAM} is not there; build it, or name it by --program", file=sys.stderr)
         return 2
-    program.TIME_OUT = given.time_out or (10 if given.quick else program.TIME_OUT)
+    program.TIME_OUT = given.time_out or program.TIME_OUT
     start = time.monotonic()
     rows = reference_rows(names)
     names = [name for name in names if name in REFERENCES]

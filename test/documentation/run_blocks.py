@@ -29,7 +29,7 @@ import tempfile
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w])")
 ANY_NUMBER = r"([-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
-SECONDS = 60  # no block of a page that someone reads takes longer
+SECONDS = 300  # no block takes a tenth of it: what is not over then, hangs
 
 
 class Mistake(Exception):

@@ -1,5 +1,6 @@
 // solution.h5 as others read it: shapes, axes, coordinates, what it costs, and what is left when a run ends early.
 #include <test/support/error_of.hpp>
+#include <test/support/memory_in_use.hpp>
 #include <test/support/paths.hpp>
 #include <test/support/temporary_directory.hpp>
 #include <test/support/text_of.hpp>
@@ -170,26 +171,14 @@ TEST_F(Solution, ChunksOfLargeGridsArePiecesOfOneInstant) {
   EXPECT_EQ(solution_layout(oscillator({})).chunk(), (Hdf5Shape{1024}));
 }
 
-long resident_pages() {
-  std::ifstream statm("/proc/self/statm");
-  long size = 0, resident = 0;
-  statm >> size >> resident;
-  return resident;
-}
-
 TEST_F(Solution, MemoryDoesNotGrowWithTheRun) {
-#if defined(SEICHE_SANITIZED)
-  GTEST_SKIP() << "the address sanitizer keeps what is given back";
-#endif
-  if (!fs::exists("/proc/self/statm")) GTEST_SKIP() << "this system does not tell how much memory a program uses";
   const Problem problem = klein_gordon({.grid = {.points = {2048}, .length = {2.0}}});
   const HalvingSpace space(problem.size());
   SolutionFile solution(Folder(directory), problem, space, {}, false);
   for (Index k = 0; k < 200; ++k) observe(solution, problem, k);
-  const long before = resident_pages();
+  const std::ptrdiff_t before = test::bytes_in_use();
   for (Index k = 200; k < 4200; ++k) observe(solution, problem, k);  // 131 MB of doubles
-  const long grown = (resident_pages() - before) * 4096;
-  EXPECT_LT(grown, 8 << 20);
+  EXPECT_LT(test::bytes_in_use() - before, 1 << 20);
   solution.finish({});
   EXPECT_EQ(SolutionReader(file()).count(), 4200);
   EXPECT_LT(fs::file_size(file()), std::uintmax_t{4200} * 2 * 2048 * 8 / 2) << "and it is compressed";

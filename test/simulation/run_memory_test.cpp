@@ -6,10 +6,8 @@
 #include <seiche/simulation/run_memory.hpp>
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -41,32 +39,16 @@ class RunMemorySlow : public InTemporaryDirectory {
  protected:
   // The largest resident set of the program with this case, in megabytes.
   double measured(const std::string& text) const {
-    const std::string file = (directory / "case.toml").string(), out = (directory / "out").string();
-    std::ofstream(file) << text;
-    const std::string program = program_path();
-    const pid_t child = fork();
-    if (child == 0) {
-      execl(program.c_str(), program.c_str(), "run", file.c_str(), "--quiet", "--out", out.c_str(),
-            static_cast<char*>(nullptr));
-      _exit(127);
-    }
-    int status = 0;
-    double most = 0;
-    while (waitpid(child, &status, WNOHANG) == 0) {
-      most = std::max(most, high_water_mark(child));
-      usleep(2000);
-    }
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << text;
-    return most;
-  }
-
- private:
-  // Of what the process has executed since; rusage would count what this one had when it forked.
-  static double high_water_mark(pid_t process) {
-    std::ifstream file("/proc/" + std::to_string(process) + "/status");
-    for (std::string entry; std::getline(file, entry);)
-      if (entry.starts_with("VmHWM:")) return std::stod(entry.substr(6)) / 1e3;
-    return 0;
+    std::ofstream(directory / "case.toml") << text;
+    const std::string command = fmt::format(
+        "cd '{}' && LD_PRELOAD='{}' SEICHE_HIGH_WATER_MARK=mark '{}' run case.toml --quiet --restart --out out",
+        directory.string(), high_water_mark_path(), program_path());
+    EXPECT_EQ(std::system(command.c_str()), 0) << text;
+    std::ifstream mark(directory / "mark");
+    std::string name;
+    double kilobytes = 0;
+    mark >> name >> kilobytes;
+    return kilobytes / 1e3;
   }
 };
 

@@ -11,5 +11,6 @@ std::string test_data_directory();
 std::string program_path();
 std::string failing_writes_path();  // libraries to be loaded before it (test/faults)
 std::string jumping_clock_path();
+std::string high_water_mark_path();
 
 }  // namespace seiche::test
