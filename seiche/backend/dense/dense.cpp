@@ -71,17 +71,29 @@ class DensePropagator final : public Propagator {
           maps.Q.block(support.begin, support.begin, support.size, support.size);
     }
     mid_ = LaneMatrix(mid);
+    of_gradient_ = LaneMatrix(mid.rightCols(support.size));
     z_and_gradient_.resize(size_ + support.size);
+    difference_.resize(support.size);
     for (Vector* v : {&dz_, &q_}) v->resize(std::max(FM_.padded_rows(), mid_.padded_rows()));
   }
 
   // ẑ = z⁻ + Q(Mz⁻ + ∇V), as one matrix times (z⁻, ∇V)
   void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
     set(z, before);
-    z_and_gradient_.tail(support_.size) = gradient.segment(support_.begin, support_.size);
-    mid_.apply(z_and_gradient_.data(), q_.data());
-    z_mid.segment(support_.begin, support_.size) =
-        z_and_gradient_.segment(support_.begin, support_.size) + q_.head(support_.size);
+    z_and_gradient_.tail(support_.size) = of_support(gradient);
+    move_to_midpoint(z_mid);
+  }
+  bool recall(const Vector& z, const Gradients& g, Vector& z_mid, FieldFactors before,
+              Recalled& recalled) const override {
+    set(z, before);
+    difference_ = of_support(g.g0) - of_support(g.g1);
+    z_and_gradient_.tail(support_.size) = of_support(g.g0) + g.weight * difference_;
+    move_to_midpoint(z_mid);
+    recalled.moved = q_.head(support_.size).squaredNorm();
+    difference_ -= g.ratio * (of_support(g.g1) - of_support(g.g2));
+    of_gradient_.apply(difference_.data(), q_.data());
+    recalled.missed = q_.head(support_.size).squaredNorm();
+    return true;
   }
   void increment(const Vector& z, Vector& dz) const override {
     FM_.apply(z.data(), dz_.data());
@@ -104,7 +116,6 @@ class DensePropagator final : public Propagator {
     F_.apply(f.data() + support_.begin, q_.data());
     to_state(dz_);
     to_state(q_);
-    const auto of_support = [this](const Vector& v) { return v.segment(support_.begin, support_.size); };
     return {of_support(f).dot(of_support(dz_)), of_support(f).dot(of_support(q_)), metric_.energy(z_and_gradient_)};
   }
   void update(Vector& z, const Vector& /*f*/, double c, FieldFactors /*before*/, FieldFactors after) const override {
@@ -113,6 +124,16 @@ class DensePropagator final : public Propagator {
   }
 
  private:
+  Eigen::VectorBlock<const Vector> of_support(const Vector& v) const {
+    return v.segment(support_.begin, support_.size);
+  }
+
+  // ẑ from z⁻ and a gradient; ẑ − z⁻ stays in q.
+  void move_to_midpoint(Vector& z_mid) const {
+    mid_.apply(z_and_gradient_.data(), q_.data());
+    z_mid.segment(support_.begin, support_.size) = of_support(z_and_gradient_) + q_.head(support_.size);
+  }
+
   void set(const Vector& z, FieldFactors before) const {
     const Index slots = before.empty() ? 0 : size_ / static_cast<Index>(before.size());
     if (before.empty()) z_and_gradient_.head(size_) = z;
@@ -133,9 +154,9 @@ class DensePropagator final : public Propagator {
   Potential::Support support_;
   const DenseMetric& metric_;
   Matrix all_F_;
-  LaneMatrix F_, FM_, mid_, T_;  // F_: the columns of forces
+  LaneMatrix F_, FM_, mid_, of_gradient_, T_;  // F_: the columns of forces
   bool in_energy_;
-  mutable Vector z_and_gradient_, dz_, q_, y_;
+  mutable Vector z_and_gradient_, difference_, dz_, q_, y_;
 };
 
 class DenseLinear final : public LinearPart {

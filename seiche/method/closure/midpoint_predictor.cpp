@@ -54,15 +54,16 @@ bool MidpointPredictor::recall(const State& s, const Propagator& propagator, dou
   return !has_missed_;
 }
 
-// What is missed takes a solve or a product of matrices of its own where nothing is fused, and mostly it is far too
-// small for that to be needed: |F_{h/2}d| ≤ (h/2)|Sd|, up to the condition of M.
+// What is missed takes a solve of its own where nothing is fused, and mostly it is far too small for that to be needed:
+// F_t d = tSd + ∫₀ᵗ (t − s)e^{SMs}SMSd ds, with t² instead of t²/2 for Cayley's map, and both keep lengths up to the
+// condition of M.
 void MidpointPredictor::recall_unfused(const State& s, const Propagator& propagator,
                                        const Propagator::Gradients& memory, double h, Vector& z_mid,
                                        Propagator::FieldFactors before, Propagator::Recalled& recalled) {
   const Potential::Support support = system_.potential->support();
   const auto of_support = [&](auto& v) { return v.segment(support.begin, support.size); };
   if (difference_.size() != s.z.size())
-    for (Vector* v : {&difference_, &pushed_, &at_rest_}) v->setZero(s.z.size());
+    for (Vector* v : {&difference_, &pushed_, &product_, &at_rest_}) v->setZero(s.z.size());
   of_support(difference_) =
       of_support(memory.g0) - of_support(memory.g1) - memory.ratio * (of_support(memory.g1) - of_support(memory.g2));
   of_support(z_mid) = of_support(memory.g0) + memory.weight * (of_support(memory.g0) - of_support(memory.g1));
@@ -72,8 +73,13 @@ void MidpointPredictor::recall_unfused(const State& s, const Propagator& propaga
   pushed_ = s.z;
   multiply_fields(before, pushed_);
   recalled.moved = space.squared_norm(of_support(z_mid) - of_support(pushed_));
+  const double t = h / 2;
   system_.linear->apply_S(difference_, pushed_);
-  recalled.missed = space.squared_norm(pushed_) * (h / 2) * (h / 2);
+  const double first = t * std::sqrt(space.squared_norm(of_support(pushed_)));
+  system_.linear->apply_M(pushed_, product_);
+  system_.linear->apply_S(product_, pushed_);
+  const double second = t * t * std::sqrt(space.squared_norm(of_support(pushed_)));
+  recalled.missed = (first + second) * (first + second);
   if (midpoint_memory::predicts_well(recalled.missed, recalled.moved)) return;
   propagator.predict(at_rest_, difference_, pushed_);
   recalled.missed = space.squared_norm(of_support(pushed_));

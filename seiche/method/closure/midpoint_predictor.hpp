@@ -47,8 +47,8 @@ class MidpointPredictor {
 
   const System& system_;
   Predictor kind_;
-  bool has_missed_ = false, discards_ = false;  // in this step
-  Vector difference_, pushed_, at_rest_;        // where the propagator does not fuse it
+  bool has_missed_ = false, discards_ = false;      // in this step
+  Vector difference_, pushed_, product_, at_rest_;  // where the propagator does not fuse it
 };
 
 }  // namespace seiche

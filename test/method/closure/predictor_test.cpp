@@ -163,6 +163,26 @@ TEST(Predictor, OfEveryBackendIsTheSame) {
   }
 }
 
+// At steps so long that what the memory missed is moved by t²SMS, and not by tS alone.
+TEST(Predictor, OfEveryBackendIsGuardedAtTheSameLongSteps) {
+  const std::vector<NamedProblem> waves = {
+      {"KG", klein_gordon_case()},
+      {"free",
+       klein_gordon({.grid = {.points = {16}, .length = {2.0}, .boundary = {Boundary::neumann}}, .alpha = 1.0})},
+      {"Duffing", duffing_case(0.1)}};
+  for (const auto& [name, problem] : waves) {
+    for (const double h : {2.5, 24.0}) {
+      std::vector<std::int64_t> gradients;
+      for (const BackendEntry& backend : backends_for(problem)) {
+        Simulation simulation(problem, by("seisav", Predictor::remembered, std::string(backend.name)));
+        for (int n = 0; n < 5; ++n) ASSERT_TRUE(simulation.step(h).solved()) << name;
+        gradients.push_back(simulation.system().potential->counts().gradients);
+        EXPECT_EQ(gradients.back(), gradients.front()) << name << " " << backend.name << " h = " << h;
+      }
+    }
+  }
+}
+
 TEST(Predictor, StartsAnewWithTheRun) {
   Simulation simulation(klein_gordon_case(), by("seisav", Predictor::remembered));
   Vector first;
