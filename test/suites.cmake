@@ -10,7 +10,7 @@ set(text "")
 foreach(name IN LISTS names)
   string(STRIP "${name}" name)
   string(REGEX REPLACE "\\.$" "" name "${name}")
-  string(APPEND text "add_test(${name} \"${tests}\" \"--gtest_filter=${name}.*\")\n"
+  string(APPEND text "add_test(${name} \"${tests}\" \"--gtest_filter=${name}.*${filter}\")\n"
     "set_tests_properties(${name} PROPERTIES TIMEOUT 600)\n")
 endforeach()
 file(WRITE "${suites}" "${text}")

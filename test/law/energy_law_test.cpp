@@ -50,7 +50,7 @@ class EveryMethod : public testing::TestWithParam<std::string> {};
 TEST_P(EveryMethod, RaisesItsEnergyInNoStepOfAnySize) {
   const MethodEntry& method = find_method(GetParam());
   const std::vector<double> sizes =
-      sanitized ? std::vector<double>{0.25, 2.5} : std::vector<double>{1.0 / 64, 0.1, 0.25, 1.0, 2.5, 10.0};
+      sanitized ? std::vector<double>{0.25} : std::vector<double>{1.0 / 64, 0.1, 0.25, 1.0, 2.5, 10.0};
   int finished = 0;
   int runs = 0;
   for (const auto& [name, problem] : all_cases()) {

@@ -40,7 +40,7 @@ TEST(Ledger, LeavesEveryBitOfASolutionAsItIsWithout) {
         const SimulationOptions options{.method = std::string(method.name), .backend = std::string(backend.name)};
         Simulation without(problem, options), with(problem, options);
         with.stepper().keep_ledger();
-        for (int n = 0; n < 8; ++n) {
+        for (int n = 0; n < repetitions(8); ++n) {
           ASSERT_EQ(without.step(1.0 / 8).status, StepReport::Status::solved) << name << " " << method.name;
           ASSERT_EQ(with.step(1.0 / 8).status, StepReport::Status::solved) << name << " " << method.name;
         }

@@ -1,5 +1,6 @@
 // An audit finds the energies of a healthy run healthy, whichever rows and states its files have.
 #include <test/support/error_of.hpp>
+#include <test/support/repetitions.hpp>
 #include <test/support/temporary_directory.hpp>
 
 #include <fmt/ranges.h>
@@ -13,6 +14,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,7 +53,8 @@ class AuditOfRows : public InTemporaryDirectory {
 
 TEST_F(AuditOfRows, AgreesWithEveryRhythmOfRowsAndSnapshots) {
   const std::string steps = "h = \"1/64\"", tolerance = "tolerance = 1e-5";
-  for (const char* name : {"seisav", "seilm", "avf", "egc4"}) {
+  const std::vector<std::string> all = {"egc4", "seisav", "seilm", "avf"};
+  for (const std::string& name : std::span(all).first(sanitized ? 1 : all.size())) {
     for (const std::string& by : {steps, tolerance}) {
       for (const auto& [rows, states] :
            std::vector<std::pair<int, int>>{{1, 1}, {16, 4}, {3, 7}, {16, 1}, {6, 4}, {1, 64}, {1000, 0}, {5, 1000}}) {
