@@ -11,26 +11,39 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace seiche {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-// Up to this hρ, with ρ the spectral radius of SM, round-off in F itself leaves the energy law alone.
+// Up to this hρ, with ρ the spectral radius of SM, round-off in F itself leaves the energy law alone, if ‖hSM‖ is of
+// that size or the contract says so.
 constexpr double plain_size = 16;
 constexpr double within_round_off = 1e-14;  // of a product with one matrix instead of two
 constexpr double most_defect = 1e-13;
 
+// G + Gᵀ + GᵀMG, of which the contract says that it is ⪯ 0, and how much of it may be round-off.
+struct Contract {
+  Contract(const Matrix& G, const Matrix& M, double h)
+      : R((h < 0 ? -1 : 1) * (G + G.transpose() + G.transpose() * (M * G))),
+        room(most_defect * std::max(1.0, G.cwiseAbs().maxCoeff())) {}
+  bool holds() const {
+    return R.allFinite() &&
+           Eigen::LLT<Matrix>(room * Matrix::Identity(R.rows(), R.cols()) - R).info() == Eigen::Success;
+  }
+  Matrix R;
+  double room;
+};
+
 void require_contract(const Matrix& G, const Matrix& M, double h, double size) {
-  const double unit = std::max(1.0, G.cwiseAbs().maxCoeff());
-  const Matrix R = (h < 0 ? -1 : 1) * (G + G.transpose() + G.transpose() * (M * G));
+  const Contract contract(G, M, h);
+  if (contract.holds()) return;
   double defect = std::numeric_limits<double>::infinity();
-  if (R.allFinite()) {
-    const Matrix room = most_defect * unit * Matrix::Identity(R.rows(), R.cols()) - R;
-    if (Eigen::LLT<Matrix>(room).info() == Eigen::Success) return;
-    defect = Eigen::SelfAdjointEigenSolver<Matrix>(R, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-    if (defect <= most_defect * unit) return;
+  if (contract.R.allFinite()) {
+    defect = Eigen::SelfAdjointEigenSolver<Matrix>(contract.R, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    if (defect <= contract.room) return;
   }
   throw Error(
       "the dense backend cannot keep the energy law of a step h = {:.6g}: its fastest frequency ρ has hρ = {:.3g}, and H would rise "
@@ -107,18 +120,24 @@ class InEnergyCoordinates {
 }  // namespace
 
 DenseForce dense_force(PropagatorKind kind, const Matrix& S, const Matrix& M, double h) {
-  const double size = scaled_norm<Matrix>(h * (S * M));
+  const Matrix A = h * (S * M);
+  const double size = scaled_norm<Matrix>(A);
   if (!std::isfinite(size))
     throw Error(
         "(hSM)³ of the dense backend is not finite for h = {:.6g}: take a smaller h, or other units of length and time",
         h);
-  if (size > plain_size) {
-    if (auto coordinates = energy_coordinates(M)) {
-      coordinates->scale_kernel(kernel_unit(*coordinates, S, h));
-      return InEnergyCoordinates(kind, *std::move(coordinates), S).maps(h, size);
-    }
-  }
+  std::optional<EnergyCoordinates<Matrix>> coordinates;
+  if (force_map_detail::norm_1(A) > plain_size) coordinates = energy_coordinates(M);
+  if (coordinates) coordinates->scale_kernel(kernel_unit(*coordinates, S, h));
+  const auto in_energy_coordinates = [&] {
+    return InEnergyCoordinates(kind, *std::move(coordinates), S).maps(h, size);
+  };
+  if (coordinates && size > plain_size) return in_energy_coordinates();
   const ForceMaps<Matrix> maps = force_maps(kind, S, M, h);
+  if (coordinates) {  // where A is far from normal, round-off is more than hρ tells
+    const Matrix G = coordinates->inverse * maps.F * coordinates->inverse.transpose();
+    if (!Contract(G, coordinates->metric(), h).holds()) return in_energy_coordinates();
+  }
   return {maps.F, maps.F * M, maps.Q, maps.Q * M, {}};
 }
 
