@@ -18,7 +18,7 @@ import numpy as np
 
 from .system import System
 
-TIME_OUT = 60  # seconds of a processor, of which no run here takes a tenth; one that takes longer has the wrong verdict
+TIME_OUT = 60  # seconds of a processor, of which no run here takes a tenth; a longer one has the wrong verdict
 PROGRAM = Path(os.environ.get("SEICHE", "build/release/seiche")).resolve()
 
 

@@ -40,7 +40,8 @@ class Line {
   // Whether V and ∇V are finite at s, as far as the values there are moderate.
   bool is_inside(double s) {
     constexpr double moderate = 1e50;  // beyond it the solution blows up, and V with it
-    return !(space_.max_norm(at(s)) < moderate) || is_finite(at(s));
+    const Vector u = at(s);
+    return !(space_.max_norm(u) < moderate) || is_finite(u);
   }
 
   // "V is not a finite number at q = -1.0003": of what is finite at `inside`, if anything is, and not at `outside`.
