@@ -61,13 +61,13 @@ class BarPotential final : public PointwisePotential {
   }
 
   int degree() const override {
-    if constexpr (requires { W::degree; }) return W::degree;
+    if constexpr (IsPolynomial<W>) return w_.degree();
     return 0;
   }
 
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
     std::fill(coefficients.begin(), coefficients.end(), 0.0);
-    if constexpr (requires { W::degree; }) {
+    if constexpr (IsPolynomial<W>) {
       for (const Bar& bar : bars_) w_.add_along(elongation(bar, p), elongation(bar, q), coefficients.data());
     }
   }

@@ -52,12 +52,12 @@ class BondPotential final : public PointwisePotential {
   }
 
   int degree() const override {
-    if constexpr (requires { W::degree; }) return W::degree;
+    if constexpr (IsPolynomial<W>) return w_.degree();
     return 0;
   }
 
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
-    if constexpr (requires { W::degree; }) {
+    if constexpr (IsPolynomial<W>) {
       sum_coefficients(p.empty() ? 0 : p.size() - 1, coefficients,
                        [&](std::size_t j, double* into) { w_.add_along(p[j + 1] - p[j], q[j + 1] - q[j], into); });
       for_ends(p, [&](std::size_t left, std::size_t right, double d) {

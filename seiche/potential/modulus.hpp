@@ -53,13 +53,13 @@ class ModulusPotential final : public PointwisePotential {
   }
 
   int degree() const override {
-    if constexpr (requires { W::degree; }) return 2 * W::degree;
+    if constexpr (IsPolynomial<W>) return 2 * w_.degree();
     return 0;
   }
 
   // |ψ + xφ|² = ρ + 2σx + τx², put into W by Horner's rule.
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
-    if constexpr (requires { W::degree; }) {
+    if constexpr (IsPolynomial<W>) {
       const std::size_t n = p.size() / 2;
       sum_coefficients(n, coefficients, [&](std::size_t j, double* into) {
         const double sigma = p[j] * q[j] + p[n + j] * q[n + j];
@@ -77,13 +77,14 @@ class ModulusPotential final : public PointwisePotential {
   static double density(std::span<const double> u, std::size_t j) { return square(u[j]) + square(u[u.size() / 2 + j]); }
 
   void add_composition(double c0, double c1, double c2, double* out) const {
-    std::array<double, 2 * W::degree + 1> sum{};
-    for (std::size_t i = W::degree + 1; i-- > 0;) {
-      for (std::size_t k = sum.size(); k-- > 0;)
+    std::array<double, 2 * W::most + 1> sum{};
+    const auto degree = static_cast<std::size_t>(w_.degree());
+    for (std::size_t i = degree + 1; i-- > 0;) {
+      for (std::size_t k = 2 * degree + 1; k-- > 0;)
         sum[k] = c0 * sum[k] + (k >= 1 ? c1 * sum[k - 1] : 0.0) + (k >= 2 ? c2 * sum[k - 2] : 0.0);
       sum[0] += w_.c[i];
     }
-    for (std::size_t k = 0; k < sum.size(); ++k) out[k] += sum[k];
+    for (std::size_t k = 0; k <= 2 * degree; ++k) out[k] += sum[k];
   }
 
   W w_;

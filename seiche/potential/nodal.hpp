@@ -40,12 +40,12 @@ class NodalPotential final : public PointwisePotential {
   }
 
   int degree() const override {
-    if constexpr (requires { W::degree; }) return W::degree;
+    if constexpr (IsPolynomial<W>) return w_.degree();
     return 0;
   }
 
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
-    if constexpr (requires { W::degree; }) {
+    if constexpr (IsPolynomial<W>) {
       sum_coefficients(p.size(), coefficients, [&](std::size_t j, double* into) { w_.add_along(p[j], q[j], into); });
     } else {
       std::fill(coefficients.begin(), coefficients.end(), 0.0);

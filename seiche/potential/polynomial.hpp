@@ -19,38 +19,46 @@ concept PointPotential = requires(const W w, double u) {
   { w.grows_outward() } -> std::convertible_to<bool>;     // u W'(u) ≥ 0 for all u
 };
 
-template <int Degree>
+// Of a degree up to Most, where that is not above `most_exact`, and of Most itself up to there.
+template <int Most>
 struct Polynomial {
-  static constexpr int degree = Degree;
-  std::array<double, Degree + 1> c{};
+  static constexpr int most = Most;
+  static constexpr int most_exact = 6;
+  std::array<double, Most + 1> c{};
+  int last = Most;  // the coefficients behind this one are zero
+
+  int degree() const {
+    if constexpr (Most <= most_exact) return Most;
+    return last;
+  }
 
   // Of one number, or of Lanes.
   template <class X>
   [[gnu::always_inline]] X value(const X& u) const {
-    X sum = X{} + c[Degree];
-    for (std::size_t i = Degree; i-- > 0;) sum = sum * u + c[i];
+    X sum = X{} + c[Most];
+    for (std::size_t i = Most; i-- > 0;) sum = sum * u + c[i];
     return sum;
   }
 
   // Σ|c_i uⁱ|: what round-off in the value is a fraction of, also where the terms cancel.
   double size(double u) const {
-    double sum = std::abs(c[Degree]);
-    for (std::size_t i = Degree; i-- > 0;) sum = sum * std::abs(u) + std::abs(c[i]);
+    double sum = std::abs(c[Most]);
+    for (std::size_t i = Most; i-- > 0;) sum = sum * std::abs(u) + std::abs(c[i]);
     return sum;
   }
 
   template <class X>
   [[gnu::always_inline]] X slope(const X& u) const {
-    X sum = X{} + Degree * c[Degree];
-    for (std::size_t i = Degree; i-- > 1;) sum = sum * u + static_cast<double>(i) * c[i];
+    X sum = X{} + Most * c[Most];
+    for (std::size_t i = Most; i-- > 1;) sum = sum * u + static_cast<double>(i) * c[i];
     return sum;
   }
 
   // (W(b) − W(a)) / (b − a): divide by (u − a) with Horner's rule and evaluate the quotient at b.
   double mean_slope(double a, double b) const {
-    double quotient = c[Degree];
+    double quotient = c[Most];
     double sum = quotient;
-    for (std::size_t i = Degree; i-- > 1;) {
+    for (std::size_t i = Most; i-- > 1;) {
       quotient = c[i] + a * quotient;
       sum = sum * b + quotient;
     }
@@ -59,11 +67,12 @@ struct Polynomial {
 
   // Coefficients of x ↦ W(p + xq), added to `out`: Taylor's shift by repeated division, then powers of q.
   void add_along(double p, double q, double* out) const {
-    std::array<double, Degree + 1> taylor = c;
-    for (std::size_t k = 0; k < Degree; ++k)
-      for (std::size_t i = Degree; i-- > k;) taylor[i] += p * taylor[i + 1];
+    std::array<double, Most + 1> taylor = c;
+    const auto n = static_cast<std::size_t>(degree());
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t i = n; i-- > k;) taylor[i] += p * taylor[i + 1];
     double power = 1;
-    for (std::size_t i = 0; i <= Degree; ++i) {
+    for (std::size_t i = 0; i <= n; ++i) {
       out[i] += taylor[i] * power;
       power *= q;
     }
@@ -72,7 +81,7 @@ struct Polynomial {
   // The only power there is, or 0.
   int homogeneity() const {
     int power = 0;
-    for (int i = 0; i <= Degree; ++i) {
+    for (int i = 0; i <= Most; ++i) {
       if (c[static_cast<std::size_t>(i)] == 0) continue;
       if (power != 0 || i == 0) return 0;
       power = i;
@@ -81,10 +90,15 @@ struct Polynomial {
   }
 
   bool grows_outward() const {
-    for (std::size_t i = 1; i <= Degree; ++i)
+    for (std::size_t i = 1; i <= Most; ++i)
       if (c[i] < 0 || (i % 2 == 1 && c[i] != 0)) return false;
     return true;
   }
+};
+
+template <class W>
+concept IsPolynomial = requires(const W w) {
+  w.degree();
 };
 
 // 0 for what is not a polynomial.

@@ -11,16 +11,19 @@ namespace {
 
 using Pointer = std::shared_ptr<const PointwisePotential>;
 
-// The degree becomes a compile-time number, so that the loops over coefficients unroll.
-template <int Degree = 1, class Make>
+// The degree becomes a compile-time number, so that the loops over coefficients unroll: the next of 1 … 6, 8, 12, 16,
+// with zeros for the highest coefficients, which leave every bit of a value as it is.
+template <int Most = 1, class Make>
 Pointer with_degree(const std::vector<double>& c, const Make& make) {
-  if (static_cast<int>(c.size()) > Degree + 1) {
-    if constexpr (Degree < max_polynomial_degree) return with_degree<Degree + 1>(c, make);
+  if (static_cast<int>(c.size()) > Most + 1) {
+    constexpr int next = Most < 6 ? Most + 1 : Most == 6 ? 8 : Most + 4;
+    if constexpr (next <= max_polynomial_degree) return with_degree<next>(c, make);
     throw Error("a polynomial potential of degree {} is asked for; up to {} is allowed", c.size() - 1,
                 max_polynomial_degree);
   }
-  Polynomial<Degree> w;
+  Polynomial<Most> w;
   std::copy(c.begin(), c.end(), w.c.begin());
+  w.last = std::max(static_cast<int>(c.size()) - 1, 1);
   return make(w);
 }
 

@@ -330,10 +330,44 @@ TEST(Potential, GrowsOutwardOnlyForEvenPowersWithPositiveCoefficients) {
   EXPECT_FALSE(nodal_polynomial({0, 0, 1, 0, -2})->grows_outward());
 }
 
+// Degree 7 is computed as degree 8 with a zero, and so on.
+TEST(Potential, EveryDegreeIsToldAsItIsAndComputedByItsCoefficients) {
+  const std::vector<double> u = {0.3, -0.7, 1.1, 0.4, -0.2, 0.9, -1.2, 0.05, 0.6, -0.4};
+  std::vector<double> way(u.size(), 0.0);
+  for (std::size_t j = 0; j < u.size(); ++j) way[j] = 0.1 * static_cast<double>(j) - 0.3;
+  for (int degree = 1; degree <= max_polynomial_degree; ++degree) {
+    std::vector<double> c;
+    for (int i = 0; i <= degree; ++i) c.push_back(0.7 - 0.1 * i);
+    const auto V = nodal_polynomial(c);
+    ASSERT_EQ(V->degree(), degree);
+    ASSERT_EQ(modulus_polynomial(c)->degree(), 2 * degree);
+    const auto value = [&](double x) {
+      double sum = 0;
+      for (std::size_t j = 0; j < u.size(); ++j)
+        for (int i = 0; i <= degree; ++i) sum += c[static_cast<std::size_t>(i)] * std::pow(u[j] + x * way[j], i);
+      return sum;
+    };
+    EXPECT_NEAR(V->value(u), value(0), 1e-12 * V->magnitude(u)) << degree;
+    std::vector<double> taylor(static_cast<std::size_t>(degree) + 1);
+    V->along(u, way, taylor);
+    double along = 0;
+    for (std::size_t k = taylor.size(); k-- > 0;) along = 0.5 * along + taylor[k];
+    EXPECT_NEAR(along, value(0.5), 1e-12 * V->magnitude(u)) << degree;
+    std::vector<double> of_modulus(2 * static_cast<std::size_t>(degree) + 1);
+    const auto W = modulus_polynomial(c);
+    W->along(u, way, of_modulus);
+    double at_half = 0;
+    for (std::size_t k = of_modulus.size(); k-- > 0;) at_half = 0.5 * at_half + of_modulus[k];
+    std::vector<double> there(u.size());
+    for (std::size_t j = 0; j < u.size(); ++j) there[j] = u[j] + 0.5 * way[j];
+    EXPECT_NEAR(at_half, W->value(there), 1e-12 * (W->magnitude(u) + W->magnitude(there))) << degree;
+  }
+}
+
 TEST(Potential, ADegreeThatIsTooHighIsRefused) {
   EXPECT_NO_THROW(nodal_polynomial(monomial(1, max_polynomial_degree)));
   EXPECT_THROW(nodal_polynomial(monomial(1, max_polynomial_degree + 1)), Error);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

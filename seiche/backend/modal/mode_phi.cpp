@@ -33,6 +33,12 @@ template <class Scalar, int m>
 constexpr Index max_blocks = 20;  // z and the forces
 constexpr std::size_t max_lane_columns = 40;
 
+// Compiled once for all that asks for it, unlike what is inlined.
+template <class Block>
+SEICHE_MULTIVERSION void phi_of(const Block& A, const Lanes& size, int order, Block* phi) {
+  lane_phi_functions(A, size, order, phi);
+}
+
 // The blocks of one row for eight modes: of z, then of each force.
 template <class Scalar, int m>
 struct RowOfBlocks {
@@ -49,7 +55,7 @@ struct RowOfBlocks {
 
   [[gnu::always_inline]] inline void compute(const PhiRows& rows, const PhiRow& row, double h) {
     const int order = static_cast<int>(rows.order);
-    lane_phi_functions(all_lanes(row.theta) * L, row.theta * size, order, phi.data());
+    phi_of(all_lanes(row.theta) * L, row.theta * size, order, phi.data());
     blocks[0] = phi[0];
     const Block* times = rows.kind == PhiRows::Forces::gradients ? &S : nullptr;
     for (Index j = 0; j < rows.forces; ++j)
@@ -87,7 +93,7 @@ struct FlowBlocks {
   [[gnu::always_inline]] inline FlowBlocks(const Arrays& arrays, const PhiRows& rows, double h, Index first,
                                            RowOfBlocks<Scalar, m>& row)
       : M(load_block<Scalar, m>(arrays, Arrays::M, first)) {
-    lane_phi_functions(row.L, row.size, 2, row.phi.data());
+    phi_of(row.L, row.size, 2, row.phi.data());
     start[0].add_to_diagonal(all_lanes(1.0));
     end[0] = row.phi[0];
     integral[0] = all_lanes(h) * row.phi[1];
