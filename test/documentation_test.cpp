@@ -14,7 +14,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 std::string text_of(const std::string& path) {
   std::ifstream file(test::source_directory() + "/" + path);
@@ -159,5 +159,5 @@ TEST(Documentation, EveryEquationNumberOfTheMapStandsInAFunctionThatItsRowNames)
   EXPECT_EQ(code_of({file, "margin_against_drift"}).find("(3.1a)"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

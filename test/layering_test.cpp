@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
@@ -360,4 +360,4 @@ TEST(Layering, NothingIsLeftForLaterInTheSources) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE

@@ -64,9 +64,9 @@ std::function<bool(const SolveStep&)> observer_from(const py::object& function) 
   };
 }
 
-HeldSolution run(const HeldProblem& problem, const RunSpec& spec, double t_start, double t_end,
-                 const std::optional<Array>& z0, const std::optional<Array>& t_eval, const py::list& events,
-                 bool dense_output, const py::object& observer, std::int64_t record_every, bool ledger, int threads) {
+HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_start, double t_end,
+                   const std::optional<Array>& z0, const std::optional<Array>& t_eval, const py::list& events,
+                   bool dense_output, const py::object& observer, std::int64_t record_every, bool ledger, int threads) {
   SimulationOptions simulation = simulation_options(spec);
   simulation.backend_options.threads = threads;
   SolveOptions options{.method = spec.method,
@@ -186,7 +186,7 @@ void bind_solve(py::module_& module) {
       .def("at", &at)
       .def("report_json", &report_json)
       .def("certificate_json", [](const HeldSolution& s) { return certificate_json(s.solution->certificate); });
-  module.def("solve", &run);
+  module.def("solve", &solve);
 }
 
 }  // namespace seiche::python

@@ -10,7 +10,7 @@
 #include <algorithm>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 Vector state_after(const Problem& problem, std::string_view method, std::string_view backend, double h, int steps) {
   Simulation simulation(problem, {.method = std::string(method), .backend = std::string(backend)});
@@ -91,5 +91,5 @@ TEST(Agreement, CoordinatesAreOrthonormalAndInvertible) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -20,7 +20,7 @@
 #include <typeinfo>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // q̈ + γq̇ + ω²q = n₂ with q̇ = p + n₁, by the eigenvalues −γ/2 ± iw of L.
 class DampedOscillator {
@@ -174,5 +174,5 @@ TEST(ReferenceBackend, NeitherItsPartsNorTheirFunctionsAreThoseOfAnotherBackend)
   EXPECT_THAT(from_others, testing::UnorderedElementsAre("dense/dense.hpp", "grid/segment.hpp"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -12,7 +12,7 @@
 #include <string>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -219,5 +219,5 @@ TEST_F(CheckpointCli, RunsWithoutAReaderOfItsMessages) {
   EXPECT_TRUE(fs::exists(directory / "closed/final.txt"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

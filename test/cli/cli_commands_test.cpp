@@ -19,7 +19,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -169,5 +169,5 @@ TEST_F(Cli, SpectrumLeavesATableAndFigures) {
     EXPECT_GT(fs::file_size(directory / "out" / name), 1000U) << name;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

@@ -11,7 +11,7 @@
 #include <thread>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using test::HostileInput;
@@ -171,5 +171,5 @@ TEST_F(HostileInput, LinksThatLeadInCirclesAreNamedWithTheReason) {
   EXPECT_THAT(refused_in_a_line("run case.toml --out a/x"), HasSubstr("Too many levels of symbolic links"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

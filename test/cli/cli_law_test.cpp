@@ -16,7 +16,7 @@
 #include <string>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -385,5 +385,5 @@ TEST_F(CliLawSlow, EverySummaryHoldsTheCertificateThatCheckGives) {
   EXPECT_GT(open_questions, 0) << "gKdV has one";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

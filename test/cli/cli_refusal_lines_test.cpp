@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using test::HostileInput;
@@ -176,5 +176,5 @@ TEST_F(HostileInput, EveryRefusalIsOneLineOfAtMost400Bytes) {
   refused_in_a_line("check case.toml");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

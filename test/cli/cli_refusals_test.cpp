@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using nlohmann::json;
 using test::Cli;
@@ -153,5 +153,5 @@ TEST_F(Cli, AListOfOneEntryThatServesTwoAxesIsSaid) {
   EXPECT_THAT(seiche("run case.toml --out out --set problem.length=2.0").err, Not(HasSubstr("one entry")));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

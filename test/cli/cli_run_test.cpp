@@ -23,7 +23,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -339,5 +339,5 @@ TEST_F(Cli, MeasuredPlansAreKeptAndUsedAgain) {
   EXPECT_EQ(text("out/final.txt"), first);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

@@ -11,7 +11,7 @@
 #include <string>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -68,5 +68,5 @@ TEST_F(Surroundings, WhereMemoryIsLimitedARunSaysSo) {
   EXPECT_GT(refused, 0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -24,7 +24,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -549,5 +549,5 @@ TEST_F(Survival, TheProgramIsHardened) {
                                      HasSubstr("_chk@GLIBC"), HasSubstr("DYN (Position-Independent")));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -10,7 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 struct Setting {
   std::string name;
@@ -145,5 +145,5 @@ TEST(Contract, TheCayleyPropagatorIsCrankNicolson) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

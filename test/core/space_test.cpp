@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 // Another process holds the same numbers once more, or the maximum given.
 class HeldTwice final : public Space {
@@ -50,5 +50,5 @@ TEST(Space, MaximaAndDecisionsAreThoseOfAllParts) {
   EXPECT_FALSE(HeldTwice(1).is_finite(a)) << "another part is not finite";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

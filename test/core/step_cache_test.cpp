@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(StepCache, MakesEachOnceAndForgetsTheLeastRecentlyUsed) {
   StepCache<double> cache(2);
@@ -36,5 +36,5 @@ TEST(StepCache, KeepsWhatItHasWhereNothingCanBeMade) {
   EXPECT_EQ(cache.at(1, none), 5);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(ThreadTeam, DoesEveryBlockOnceWhateverTheNumbers) {
   for (const int threads : {2, 3, 7}) {
@@ -86,5 +86,5 @@ TEST(ThreadTeam, GoesOnInTheChildOfAFork) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

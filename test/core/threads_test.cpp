@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 Vector after_some_steps(const Problem& problem, const std::string& method, int threads) {
   Simulation simulation(problem, {.method = method, .backend = "modal", .backend_options = {.threads = threads}});
@@ -58,5 +58,5 @@ TEST(Threads, SimulationsOnThreadsOfTheCallerAreTheSame) {
   for (const auto& simulation : all) EXPECT_EQ(simulation->state().z, expected.head(simulation->state().z.size()));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

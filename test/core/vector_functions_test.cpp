@@ -14,7 +14,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using One = VectorFunctions::One VectorFunctions::*;
 
@@ -199,5 +199,5 @@ TEST(VectorFunctions, KeepNaNAndInfinity) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -23,7 +23,7 @@
 #include <cmath>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 FrictionFormula formula(const char* text) { return {.formula = compile_formula(text, {"v", "u", "t", "x", "y", "z"})}; }
 
@@ -344,5 +344,5 @@ TEST(Friction, FrictionThatAStepDoesNotResolveIsSaid) {
   EXPECT_TRUE(solve(p, {.method = "egc6", .h = 0.001, .t_end = 1}).report.remarks().empty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 RatePointer rate(const std::string& text) { return formula_rate(compile_formula(text, {"t"})); }
 
@@ -172,5 +172,5 @@ TEST(FieldRate, AGridWithTooFewAxesIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

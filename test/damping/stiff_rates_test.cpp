@@ -17,7 +17,7 @@
 #include <random>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using Matrix = Eigen::MatrixXd;
 
@@ -387,5 +387,5 @@ TEST(StiffRates, CasimirsStayWhateverTheStep) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -17,7 +17,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using testing::AllOf;
@@ -72,5 +72,5 @@ TEST_F(KilledEnsemble, IsKeptAndRecoveredWhicheverFileItHadComeTo) {
   EXPECT_EQ(summary()["status"], "success");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

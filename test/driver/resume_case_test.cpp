@@ -28,7 +28,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using testing::AllOf;
@@ -451,5 +451,5 @@ TEST_F(DamagedCheckpoint, IsNotFollowedWhereTheFilesAreOthers) {
   expect_same_files("whole", "out");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

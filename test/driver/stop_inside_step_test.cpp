@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // Stopped in its seventh step. Every step before it counts as one that was widened, halved and unresolved.
 class StopsInAStep : public Stepper {
@@ -68,5 +68,5 @@ TEST(StopInsideAStep, TakesBackLedgerAndCountsOfTheStepsThatItTakesBack) {
   EXPECT_EQ(report.unresolved, 4);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

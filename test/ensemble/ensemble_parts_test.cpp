@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using Matrix = Eigen::MatrixXd;
 
@@ -85,5 +85,5 @@ TEST(Statistics, AreTheTextbookOnes) {
   EXPECT_TRUE(std::isnan(statistics({}).mean));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

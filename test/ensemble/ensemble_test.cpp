@@ -23,7 +23,7 @@
 #include <numeric>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using testing::ContainsRegex;
 using testing::HasSubstr;
@@ -379,5 +379,5 @@ TEST(Ensemble, RecordsTheEnergiesOfItsMembersAndJudgesTheirLaws) {
   EXPECT_NEAR(records[2].H.maximum, *std::max_element(last.begin(), last.end()), 1e-13);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -9,7 +9,7 @@
 #include <cmath>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -51,5 +51,5 @@ TEST(Axis, AnAxisFromZeroEndsAtARoundNumberNearby) {
   EXPECT_EQ(axis_from_zero(43).high, 43);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

@@ -23,7 +23,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using test::error_of;
@@ -317,5 +317,5 @@ TEST_F(Figures, WhatGnuplotSaysIsReported) {
   EXPECT_THAT(error_of([&] { run_gnuplot({"exit\n"}, directory / "absent"); }), HasSubstr("absent"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

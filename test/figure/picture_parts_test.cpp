@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -96,5 +96,5 @@ TEST(Html, TextIsEscapedNumbersAreSetAndBytesAreEncoded) {
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

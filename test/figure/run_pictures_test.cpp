@@ -16,7 +16,7 @@
 #include <tuple>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using test::have_gnuplot;
@@ -377,5 +377,5 @@ TEST(ColourScales, OfManyPanelsAreOfOneKindAndEachNamed) {
   EXPECT_THAT(script, Not(HasSubstr("'words'"))) << "and none that could belong to any";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

@@ -20,7 +20,7 @@
 #include <string>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using test::have_gnuplot;
@@ -205,5 +205,5 @@ TEST(EnergyHistories, KeepPeaksAndSumsOfLongRunsInFewPoints) {
   for (std::size_t i = 1; i < history.H.t.size(); ++i) ASSERT_GE(history.H.t[i], history.H.t[i - 1]);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

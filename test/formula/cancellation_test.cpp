@@ -13,7 +13,7 @@
 #include <random>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using Long = long double;  // with 64 bits of a mantissa where tests run, or as many as double
 
@@ -202,5 +202,5 @@ TEST(ErrorBounds, AreThoseOfTheValueWhereThereIsNone) {
   EXPECT_EQ(bounds[graph.output(0) * ExpressionGraph::block], 0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

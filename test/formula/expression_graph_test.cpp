@@ -10,7 +10,7 @@
 #include <random>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 constexpr std::size_t block = ExpressionGraph::block;
 
@@ -264,5 +264,5 @@ TEST(ExpressionGraph, TaylorCoefficientsKnowWhatDoesNotChangeAlongTheLine) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

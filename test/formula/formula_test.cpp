@@ -19,7 +19,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using std::numbers::pi;
 using testing::HasSubstr;
@@ -287,5 +287,5 @@ TEST(Formula, ManyThreadsMayEvaluateAndCompileAtOnce) {
   for (const double error : worst) EXPECT_LT(error, 1e-14);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

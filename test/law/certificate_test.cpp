@@ -18,7 +18,7 @@
 #include <atomic>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -159,5 +159,5 @@ TEST(Certificate, PartsOfAConstantDampingAreJudgedTogether) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

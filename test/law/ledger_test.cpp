@@ -11,7 +11,7 @@
 #include <cmath>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(Ledger, AddsUpToTheChangeOfHInEveryStepOfEveryMethod) {
   for (const auto& [name, problem] : all_cases()) {
@@ -36,7 +36,7 @@ TEST(Ledger, LeavesEveryBitOfASolutionAsItIsWithout) {
   for (const auto& [name, problem] : all_cases()) {
     for (const MethodEntry& method : methods()) {
       if (!applies(method.name, problem)) continue;
-      for (const BackendEntry& backend : backends_for(problem)) {
+      for (const BackendEntry& backend : quick_backends_for(problem)) {
         const SimulationOptions options{.method = std::string(method.name), .backend = std::string(backend.name)};
         Simulation without(problem, options), with(problem, options);
         with.stepper().keep_ledger();
@@ -161,5 +161,5 @@ TEST(Ledger, CountsNoRejectedStep) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -20,7 +20,7 @@
 #include <string>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int steps = 6;
@@ -260,5 +260,5 @@ TEST(RandomSystemsSlow, KeepTheLawsOfTheirMethodsOnEveryBackend) {
   EXPECT_LE(counts.failed_steps + counts.refused, counts.runs / 10);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -25,7 +25,7 @@ extern "C" void* malloc(std::size_t size) {
 #endif
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(Allocation, NoStepOfAnyMethodAllocates) {
 #if defined(SEICHE_SANITIZED)
@@ -72,5 +72,5 @@ TEST(Allocation, TheCounterSeesAnAllocation) {
   EXPECT_GT(allocations - before, 0) << v.size();
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using Names = std::set<std::string>;
 
@@ -83,5 +83,5 @@ TEST(Applicability, OfEveryMethodToEveryProblemIsAsWritten) {
   EXPECT_EQ(met, rows) << "a problem of the table is no case any more";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 // The equation of each step is solved to a few ε, with an error whose sign stays: 6e-12 in 10⁶ steps, were it not made
 // up for.
@@ -23,5 +23,5 @@ TEST(DriftSlow, MultiplierMethodsDoNotDriftInAMillionStepsOfAFreePendulum) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

@@ -14,7 +14,7 @@
 #include <tuple>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(Exact, ExponentialMethodsSolveLinearGkdvExactly) {
   constexpr int steps = repetitions(640);
@@ -162,5 +162,5 @@ TEST(Exact, AStateThatStartsAtTheOriginLeavesItWhereVPulls) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -15,7 +15,7 @@
 #include <string>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // With a minimum of 0 at x = 0, and a curvature there between about 1 and 10.
 std::string random_well(const std::string& x, std::mt19937_64& random) {
@@ -96,5 +96,5 @@ TEST(Fading, OfAHundredRandomPotentialsIsNoViolationAndNoFailure) {
   EXPECT_GE(runs, 10 * potentials);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

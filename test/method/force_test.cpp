@@ -13,7 +13,7 @@
 #include <complex>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 constexpr double gamma_rate = 0.3, omega_squared = 2.0, strength = 0.8, frequency = 1.7;
 
@@ -159,5 +159,5 @@ TEST(Force, MethodsThatMergeTheDampingRefuseItAndNameThoseThatDoNot) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -7,7 +7,7 @@
 #include <map>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 const Reference& reference_for(const NamedProblem& c) {
   static std::map<std::string, Reference> cache;
@@ -63,5 +63,5 @@ TEST_P(GoldenErrors, OfTheRobustMultiplierAreNoLargerThanThoseOfPlainNewton) {
 INSTANTIATE_TEST_SUITE_P(Backends, GoldenErrors, testing::Values("dense", "modal"),
                          [](const auto& backend) { return backend.param; });
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

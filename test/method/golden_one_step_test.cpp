@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(Golden, InitialDataAreThoseOfTheOracle) {
   for (const auto& [name, problem] : golden_cases()) {
@@ -32,5 +32,5 @@ TEST(Golden, OneStepOfEveryMethodOnEveryBackendAgreesToThirteenDigits) {
   EXPECT_EQ(compared, static_cast<int>(backends().size()) * (9 + 9 + 9 + 9));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -13,7 +13,7 @@
 #include <map>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 const std::vector<double> step_sizes = {1.0 / 32, 1.0 / 64, 1.0 / 128, 1.0 / 256};
 
@@ -151,5 +151,5 @@ TEST(Order, OfTheRobustMultiplierIsTwoOnWeaklyDampedGkdvWithEveryStepResolved) {
   EXPECT_NEAR(fitted_order(h, errors), 2.0, 0.1) << table(h, errors);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

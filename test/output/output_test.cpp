@@ -31,7 +31,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using test::error_of;
@@ -331,5 +331,5 @@ TEST(Progress, NeverAsksForARecordAndDrawsAtMostTenTimesASecond) {
   EXPECT_EQ(drawn.find('\x1b'), std::string::npos) << "NO_COLOR is honoured";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

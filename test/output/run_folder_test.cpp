@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -199,5 +199,5 @@ TEST_F(RunFolders, AFilmIsWholeOrNotThere) {
   EXPECT_EQ(names("out/figures"), (std::set<std::string>{}));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -27,7 +27,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using test::error_of;
@@ -526,5 +526,5 @@ TEST_F(Solution, AFullDiskEndsTheRunWithASentence) {
   EXPECT_TRUE(fs::exists(directory / "out/final.txt"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

@@ -14,7 +14,7 @@
 #include <utility>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(TextTables, HoldQuotedCellsOverSeveralLines) {
   const std::filesystem::path file =
@@ -36,5 +36,5 @@ TEST(TextTables, HoldQuotedCellsOverSeveralLines) {
   std::filesystem::remove(file);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -13,7 +13,7 @@
 #include <set>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using test::gkdv_case;
 
@@ -102,5 +102,5 @@ TEST(PaperStudy, StopsWhenAsked) {
   EXPECT_TRUE(one.verdicts.empty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

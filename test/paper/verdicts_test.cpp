@@ -9,7 +9,7 @@
 #include <cmath>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 // Rows with error = scale·h^order and time = cost/h.
 std::vector<StudyRow> synthetic(const std::string& method, double scale, double order, double cost) {
@@ -222,5 +222,5 @@ TEST(Verdicts, SolversAreJudgedByTheirWork) {
   EXPECT_NE(tolerance.measured.find("3 scalar equations"), std::string::npos) << tolerance.measured;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

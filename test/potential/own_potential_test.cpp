@@ -14,7 +14,7 @@
 #include <stdexcept>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
@@ -318,5 +318,5 @@ TEST(OwnPotential, KinksOfTheGradientAndStatesWithoutAPotentialAreNoComplaint) {
     EXPECT_EQ(gradient_complaint(cancelling, std::vector<double>{start, 0, -start, start / 7}), "") << start;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -20,7 +20,7 @@
 #include <cmath>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 std::vector<NamedProblem> problems_with_every_kind_of_potential() {
   std::vector<NamedProblem> list = all_cases();

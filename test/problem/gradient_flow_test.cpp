@@ -14,7 +14,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 struct Flow {
   std::string name;
@@ -88,5 +88,5 @@ TEST(EnergyInterval, CostsNoAccuracyOnGradientFlows) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

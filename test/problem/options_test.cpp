@@ -15,7 +15,7 @@
 #include <limits>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -69,5 +69,5 @@ TEST(Options, ANetworkHasANode) {
   EXPECT_THAT(error_of([] { network({.adjacency = SparseMatrix(0, 0)}); }), HasSubstr("at least one node"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -11,7 +11,7 @@
 #include <numbers>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 Vector after(const Problem& problem, const char* method, const char* backend, double h, int steps) {
   Simulation simulation(problem, {.method = method, .backend = backend});
@@ -121,5 +121,5 @@ TEST(Poisson, MethodsForOneStructureMatrixRefuseItAndNameThoseThatTakeIt) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -20,7 +20,7 @@
 #include <numbers>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 Vector right_hand_side(const Problem& problem) {
   const System system = find_backend("dense").system(problem, {});
@@ -187,5 +187,5 @@ TEST(SpongeLayer, SwallowsThePulse) {
   EXPECT_GE(energy_left({"problem.gamma=0"}), 0.999);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -22,7 +22,7 @@
 #include <numbers>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // Asks for the times of a reference and compares; watches the energy of accepted steps.
 class Judge final : public Observer {
@@ -376,5 +376,5 @@ TEST(Adaptive, AToleranceIsMeasuredByTheStateItIsAbout) {
   EXPECT_THROW(run_with(1e-24), Error);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

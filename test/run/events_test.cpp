@@ -17,7 +17,7 @@
 #include <numbers>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // q'' + q = 0 from q = 1 at rest: q = cos t, which first vanishes at π/2.
 TEST(Adaptive, AnEventIsMetWhereItHappensAndTheRunGoesOnFromThere) {
@@ -202,5 +202,5 @@ TEST(Adaptive, EventsThatAccumulateEndTheRun) {
   EXPECT_NE(report.message.find("events accumulate at t = 4.06"), std::string::npos) << report.message;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -17,7 +17,7 @@
 #include <cmath>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using testing::ContainsRegex;
 using testing::HasSubstr;
@@ -219,5 +219,5 @@ initial = { q = "0.5", s = "0", p = "-2", r = "0" })toml"));
               HasSubstr("V is not a finite number at q = -1 (where s = 0), straight ahead of t = 1 at t ≈ 1.00"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -14,7 +14,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -109,5 +109,5 @@ TEST(RoundOff, OfALongUniformChainDoesNotAddUp) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

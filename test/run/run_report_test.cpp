@@ -14,7 +14,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 using Status = RunReport::Status;
@@ -166,5 +166,5 @@ TEST(RunReport, OneReplacedStepIsSaidInWords) {
       << "taken back";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

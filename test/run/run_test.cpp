@@ -15,7 +15,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 using Status = RunReport::Status;
@@ -321,5 +321,5 @@ TEST_F(TimeLoop, CountsOfStepsAddUp) {
   EXPECT_EQ(report.potential_counts.gradients, 10);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

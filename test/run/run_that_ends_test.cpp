@@ -18,7 +18,7 @@
 #include <functional>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -195,5 +195,5 @@ TEST_F(RunThatEndsCli, TheProgramSaysWhatToTryAndLeavesItsData) {
   EXPECT_EQ(lines("out/final.txt").size(), 2U);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

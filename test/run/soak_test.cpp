@@ -18,7 +18,7 @@
 #include <string>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // `make soak` asks for ten million.
 std::int64_t steps_to_take() {
@@ -109,5 +109,5 @@ TEST_F(SoakSlow, MillionsOfStepsOfAFreePendulumKeepMemoryAndEnergy) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -13,7 +13,7 @@
 #include <regex>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(Adaptive, TheSolutionBetweenStepsEndsWhereTheStepDoes) {
   const Problem p = klein_gordon_case();
@@ -139,5 +139,5 @@ TEST(Adaptive, AReplacedStepIsNotCountedWhereItIsTakenBackOrItsErrorIsAccepted) 
   EXPECT_EQ(report.replaced.count, 0) << report.message;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -11,7 +11,7 @@
 #include <chrono>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // Never ends its fourth step, in which it has moved the state already, and is asked to stop there.
 class HangsInAStep : public Stepper {
@@ -65,5 +65,5 @@ TEST(StopRequest, OfARunInsideAnotherIsItsOwn) {
   EXPECT_THROW(while (std::chrono::steady_clock::now() < hangs) end_if_asked(), Stopped);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

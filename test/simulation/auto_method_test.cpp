@@ -18,7 +18,7 @@
 #include <numbers>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(AutoMethod, RatesAreThoseOfTheLinearPartAndOfTheSolution) {
   const Problem wave = klein_gordon({.grid = {.points = {64}, .length = {6.4}}, .kappa = 1.0, .omega_squared = 4.0});
@@ -173,5 +173,5 @@ TEST(AutoMethod, ACaseSaysWhatWasChosenAndWhy) {
   EXPECT_EQ(parse_case(write_case(spec), "y.toml").method, spec.method);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 struct MeasuredRun {
   const char* problem;  // the keys of [problem] and what follows it
@@ -71,5 +71,5 @@ TEST_F(RunMemorySlow, IsWithinAFactorOfWhatARunTakes) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -15,7 +15,7 @@
 #include <numbers>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 Problem harmonic(double gamma = 0.0) {  // q = cos t without damping
   return oscillator({.omega_squared = 1.0, .alpha = 0.0, .gamma = constant_rate(gamma)});
@@ -273,5 +273,5 @@ TEST(Solve, SaysWhereHDoesNotResolveTheDamping) {
   EXPECT_TRUE(solve(overdamped, {.method = "egc4", .h = 0.1, .t_end = 1}).notes.empty());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -10,7 +10,7 @@
 #include <string>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // Two oscillators, of the rates 10⁷ and 1.
 Problem fast_and_slow() {
@@ -69,5 +69,5 @@ TEST(SparseWork, PadeFactorsOfOneDegreeServeEveryStep) {
   EXPECT_NEAR(simulation.physical()[1], std::cos(10.0) + 0.3 * std::sin(10.0), 1e-13);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -15,7 +15,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // The discrete gradient of Gonzalez, about the midpoint m = ½(z + z⁺) with δ = z⁺ − z:
 //   f = ∇V(m) + [V(z⁺) − V(z) − ∇V(m)ᵀδ] δ/|δ|²
@@ -125,5 +125,5 @@ TEST(AddedRows, AGonzalezClosureHasItsOrderItsLawAndItsAgreement) {
   EXPECT_GT((by_avf - expected).norm(), 1e-9);  // it is another closure
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -19,7 +19,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 class AuditOfRows : public InTemporaryDirectory {
  protected:
@@ -105,5 +105,5 @@ TEST_F(AuditOfRows, FindTheirColumnsByName) {
               testing::HasSubstr("no column H: its columns are t, H_modified"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -12,7 +12,7 @@
 #include <cmath>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using test::gkdv_case;
 using test::klein_gordon_case;
@@ -153,5 +153,5 @@ TEST(Converge, RecordsARunThatFailsAndGoesOn) {
   EXPECT_TRUE(study.rows[3].order.has_value());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

@@ -26,7 +26,7 @@
 #include <sstream>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 using Complex = std::complex<double>;
@@ -319,5 +319,5 @@ TEST(Spectrum, StopsWhenAsked) {
   EXPECT_EQ(error_of([&] { spectrum(damped_oscillator(1.0, 0.1), {.method = "seisav"}, 0.1, &stop); }), "interrupted");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

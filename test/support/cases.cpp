@@ -302,4 +302,10 @@ std::vector<BackendEntry> backends_for(const Problem& problem) {
   return list;
 }
 
+std::vector<BackendEntry> quick_backends_for(const Problem& problem) {
+  std::vector<BackendEntry> backends = backends_for(problem);
+  std::erase_if(backends, [](const BackendEntry& backend) { return backend.name == "reference"; });
+  return backends;
+}
+
 }  // namespace seiche::test

@@ -42,5 +42,7 @@ std::vector<NamedProblem> all_cases();
 bool applies(std::string_view method, const Problem& problem);
 // The backends that take it: modal no matrices, sparse no spectral derivatives.
 std::vector<BackendEntry> backends_for(const Problem& problem);
+// The same without "reference", whose long double takes as long as all others together.
+std::vector<BackendEntry> quick_backends_for(const Problem& problem);
 
 }  // namespace seiche::test

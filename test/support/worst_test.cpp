@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -26,5 +26,5 @@ TEST(Worst, TheWorstOfSeveralNumbersIsNaNWhereAnyIsNaN) {
   EXPECT_EQ(largest(Eigen::VectorXd()), 0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

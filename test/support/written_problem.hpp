@@ -14,7 +14,7 @@ inline RunSpec read(const std::string& problem, const std::vector<std::string>& 
   return parse_case("[problem]\nname = \"custom\"\n" + problem + "\n[time]\nend = 10\n", "x.toml", overrides);
 }
 
-inline std::string complaint(const std::string& problem) {
+inline std::string complaint_of_problem(const std::string& problem) {
   return error_of([&] { make_problem(read(problem)); });
 }
 

@@ -23,21 +23,25 @@ int reference_halvings(const LongMatrix& A) {
 std::vector<LongMatrix> reference_phi_functions(const LongMatrix& A, Index order) {
   const int halvings = reference_halvings(A);
   const Eigen::SparseMatrix<long double> small = (std::ldexp(1.0L, -halvings) * A).eval().sparseView();
-  const LongMatrix I = long_identity(A.rows());
   constexpr int terms = 27;  // 2²⁷/27! is below the round-off of long double
   const auto count = static_cast<std::size_t>(std::max<Index>(order, 1)) + 1;
-  std::vector<long double> factorial = {1};
-  while (factorial.size() <= count + terms)
-    factorial.push_back(factorial.back() * static_cast<long double>(factorial.size()));
+  std::vector<long double> over_factorial = {1};  // 1/k!
+  while (over_factorial.size() <= count + terms)
+    over_factorial.push_back(over_factorial.back() / static_cast<long double>(over_factorial.size()));
+  const auto times_small_plus = [&](const LongMatrix& from, std::size_t k) -> LongMatrix {  // … + I/k!
+    LongMatrix product = from * small;
+    product.diagonal().array() += over_factorial[k];
+    return product;
+  };
 
   std::vector<LongMatrix> phi(count, LongMatrix::Zero(A.rows(), A.cols()));
-  for (std::size_t j = terms; j-- > 0;) phi[count - 1] = (phi[count - 1] * small + I / factorial[count - 1 + j]).eval();
-  for (std::size_t k = count - 1; k-- > 1;) phi[k] = phi[k + 1] * small + I / factorial[k];
+  for (std::size_t j = terms; j-- > 0;) phi[count - 1] = times_small_plus(phi[count - 1], count - 1 + j);
+  for (std::size_t k = count - 1; k-- > 1;) phi[k] = times_small_plus(phi[k + 1], k);
   phi[0] = phi[1] * small;
   for (int i = 0; i < halvings; ++i) {
     for (std::size_t k = count - 1; k >= 1; --k) {  // φ_k(2A) asks for φ_l(A) with l ≤ k
       LongMatrix sum = phi[k] + phi[0] * phi[k];
-      for (std::size_t l = 1; l <= k; ++l) sum += phi[l] / factorial[k - l];
+      for (std::size_t l = 1; l <= k; ++l) sum += over_factorial[k - l] * phi[l];
       phi[k] = std::ldexp(1.0L, -static_cast<int>(k)) * sum;
     }
     phi[0] = (2 * phi[0] + phi[0] * phi[0]).eval();

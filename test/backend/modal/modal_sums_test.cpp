@@ -12,7 +12,7 @@
 #include <utility>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // Another process holds the same numbers once more.
 class HeldTwice final : public Space {
@@ -125,5 +125,5 @@ TEST(ModalSums, WhatDampingTakesIsThatOfAllParts) {
   EXPECT_EQ(all, 2 * part);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -12,7 +12,7 @@
 #include <string>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // φ₀(θhL)z + h Σ_k w_k φ_{k+1}(θhL) n, by the exponential of an augmented matrix.
 Vector expected_sum(const Matrix& L, const PhiRow& row, double h, const Vector& z, const Vector& n) {
@@ -173,5 +173,5 @@ TEST(ModePhi, SumsOfAnyNumberOfColumnsAreSums) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
+#include <tuple>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 Matrix L_of(const Problem& p) {
   const Matrix D0 = p.matrices ? Matrix(constant_damping_matrix(p)) : constant_damping(p).matrix(p.grid);
@@ -37,6 +39,7 @@ TEST(PhiSlow, SumsOfEveryBackendAreThoseOfTheDefinition) {
     if (problem.friction || problem.has_forces()) continue;  // the L of another case
     const Matrix L = L_of(problem);
     const Matrix S = S_of(problem);
+    std::map<std::tuple<double, bool, std::size_t>, Vector> sums;  // by h, the kind of forces, and the row
     for (const BackendEntry& backend : backends_for(problem)) {
       const System system = backend.system(problem, {});
       const auto phi = system.make_phi();
@@ -63,7 +66,8 @@ TEST(PhiSlow, SumsOfEveryBackendAreThoseOfTheDefinition) {
                 c.col(k) += h * rows.rows[i].weights[static_cast<std::size_t>(3 * j + k)] * n;
             }
             const double theta = rows.rows[i].theta;
-            const Vector expected = phi_sum(theta * h * L, system.space->physical(z), c);
+            Vector& expected = sums[{h, gradients, i}];
+            if (expected.size() == 0) expected = phi_sum(theta * h * L, system.space->physical(z), c);
             const double size = largest(expected) + largest(c);
             EXPECT_LE(largest(system.space->physical(out[i]) - expected), 2e-13 * size)
                 << name << " " << backend.name << " h = " << h << " row " << i
@@ -136,5 +140,5 @@ TEST(Phi, CasimirsAreTheKernelOfSAndNothingElse) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

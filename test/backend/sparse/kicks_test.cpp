@@ -26,7 +26,7 @@
 #include <random>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 Vector random_vector(Index size, unsigned seed = 1) {
   std::mt19937_64 random(seed);
@@ -285,5 +285,5 @@ TEST(Rates, RatesOfASplitDampingThatBalancesForcesAreSaidBeforeTheRun) {
     EXPECT_EQ(beyond_splitting(Simulation(problem, {.method = "seisav"}), 1.0 / 16), "") << name;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

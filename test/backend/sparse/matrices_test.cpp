@@ -15,7 +15,7 @@
 #include <string>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(Sparse, DefinitenessAgreesWithEigenvalues) {
   std::srand(7);
@@ -137,5 +137,5 @@ TEST(Sparse, CaseFilesNameMatricesBesideThemselves) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

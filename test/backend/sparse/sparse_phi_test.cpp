@@ -18,7 +18,7 @@
 #include <utility>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // Three rows of one trajectory and a fourth that lies on none.
 PhiRows several_rows() {
@@ -135,5 +135,5 @@ TEST(SparsePhi, KernelsAreFoundInLargeRingsToo) {
   EXPECT_EQ(sparse_kernel(everything).cols(), 0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -23,7 +23,7 @@
 #include <cmath>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 System sparse(const Problem& problem, const SparseOptions& options = {}) {
   return find_backend("sparse").system(problem, {.sparse = options});
@@ -307,5 +307,5 @@ TEST(Sparse, MergedDampingSolvesTheSameEquation) {
   EXPECT_FALSE(merged.has_damping());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -15,7 +15,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using test::complaint;
@@ -282,5 +282,5 @@ TEST(CaseFile, AnIntervalBetweenSnapshotsIsCountedInStepsOfOneSize) {
   EXPECT_THAT(complaint(with("0.01")), HasSubstr("write snapshot_every = 1, for one every 0.1"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

@@ -17,7 +17,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 namespace fs = std::filesystem;
 using test::complaint;
@@ -126,5 +126,5 @@ TEST_F(CaseFolder, WhatAFileCannotTellAContinuedRunIsSaid) {
   EXPECT_EQ(lost(constant, "egc4", 1, 2.5), "");
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

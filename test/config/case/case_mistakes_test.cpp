@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using test::complaint;
 using test::error_of;
@@ -168,5 +168,5 @@ TEST(CaseFile, AToleranceThatMakesNoSenseIsSaidBeforeWhatNeedsOne) {
   EXPECT_THAT(complaint(minimal + "[method]\nh_max = 0.5\ntolerance = -1\n"), HasSubstr(about));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

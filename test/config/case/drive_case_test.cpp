@@ -8,7 +8,7 @@
 #include <string>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using testing::HasSubstr;
 
@@ -77,5 +77,5 @@ TEST(DriveCase, FrictionAndForcesThatCannotBeAreRefusedInASentence) {
   EXPECT_THAT(refusal("force = \"sin(t)\"", "truss"), HasSubstr("say which of the fields x, y, px, py"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

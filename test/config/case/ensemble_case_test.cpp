@@ -27,7 +27,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 RunSpec ensemble_case(const std::string& section) {
   return parse_case("[problem]\nname = \"klein_gordon\"\nalpha = 1.0\n[time]\nend = 1.0\n[ensemble]\n" + section,
@@ -285,5 +285,5 @@ TEST_F(EnsembleProgram, RefusesACaseThatIsWrongBeforeAnythingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(directory / "out"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -19,7 +19,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -73,13 +73,14 @@ initial = { u = "0.4*exp(-(x - 5)^2/2)" }
 }
 
 TEST(Custom, AnMThatIsNotSymmetricIsRefused) {
-  EXPECT_THAT(complaint("M = [[2, 1], [0, 1]]\ninitial = \"zero\"\n"),
+  EXPECT_THAT(complaint_of_problem("M = [[2, 1], [0, 1]]\ninitial = \"zero\"\n"),
               HasSubstr("problem.M must be symmetric, but row 2, column 1 is \"0\" and row 1, column 2 is \"1\""));
   const std::string ring = "length = 1.0\npoints = 8\ninitial = \"zero\"\n";
-  EXPECT_THAT(complaint(ring + "M = [[2, \"d_x\"], [\"d_x\", \"300 - laplacian\"]]\n"),
+  EXPECT_THAT(complaint_of_problem(ring + "M = [[2, \"d_x\"], [\"d_x\", \"300 - laplacian\"]]\n"),
               HasSubstr("changes its sign there"));
-  EXPECT_EQ(complaint(ring + "M = [[2, \"d_x\"], [\"-d_x\", \"300 - laplacian\"]]\n"), "");
-  EXPECT_THAT(complaint(ring + "fields = [\"u\"]\nS = \"d_x\"\nM = \"1 + d_x\"\n"), HasSubstr("is not symmetric"));
+  EXPECT_EQ(complaint_of_problem(ring + "M = [[2, \"d_x\"], [\"-d_x\", \"300 - laplacian\"]]\n"), "");
+  EXPECT_THAT(complaint_of_problem(ring + "fields = [\"u\"]\nS = \"d_x\"\nM = \"1 + d_x\"\n"),
+              HasSubstr("is not symmetric"));
 }
 
 TEST(Custom, AFieldThatTheEnergyForgetsIsSaid) {
@@ -164,7 +165,8 @@ TEST(Custom, DampingMayChangeWithTimeAndPlaceOnTheDiagonal) {
   std::vector<double> gamma(8);
   in_place.damping.field_rate->values(0, gamma);
   EXPECT_NEAR(gamma[3], 0.6, 1e-15);
-  EXPECT_THAT(complaint(wave + "D = [[0, \"sin(t)\"], [0, 1]]"), HasSubstr("off the diagonal D is constant"));
+  EXPECT_THAT(complaint_of_problem(wave + "D = [[0, \"sin(t)\"], [0, 1]]"),
+              HasSubstr("off the diagonal D is constant"));
 }
 
 TEST(Custom, OneRateMayBeWrittenInTwoWays) {
@@ -172,15 +174,15 @@ TEST(Custom, OneRateMayBeWrittenInTwoWays) {
   const Problem p = make_problem(read(two + "D = { q = \"g*(1 + sin(t))\", p = \"sin(t)/10 + 0.1\" }"));
   EXPECT_EQ(p.damping.rate_fields, (std::vector<bool>{true, true}));
   EXPECT_DOUBLE_EQ(p.damping.rate->value(2), 0.1 * (1 + std::sin(2.0)));
-  EXPECT_THAT(complaint(two + "D = { q = \"g*(1 + sin(t))\", p = \"g*sin(t)\" }"),
+  EXPECT_THAT(complaint_of_problem(two + "D = { q = \"g*(1 + sin(t))\", p = \"g*sin(t)\" }"),
               HasSubstr("problem.D has two rates that change"));
 }
 
 TEST(Custom, OddDerivativesSayWhichEndsTheyNeed) {
   const std::string fixed = "points = 8\nboundary = \"dirichlet\"\ninitial = \"zero\"\n";
-  EXPECT_THAT(complaint(fixed + "H = \"v^2/2 + u_x*u\""),
+  EXPECT_THAT(complaint_of_problem(fixed + "H = \"v^2/2 + u_x*u\""),
               AllOf(HasSubstr("problem.H = \"v^2/2 + u_x*u\""), HasSubstr("along x needs periodic ends there")));
-  EXPECT_THAT(complaint(fixed + "H = \"v^2/2 + u^2/2\"\nD = { v = \"d_x\" }"),
+  EXPECT_THAT(complaint_of_problem(fixed + "H = \"v^2/2 + u^2/2\"\nD = { v = \"d_x\" }"),
               AllOf(HasSubstr("problem.D"), HasSubstr("along x needs periodic ends there")));
 }
 
@@ -213,14 +215,16 @@ TEST(Custom, EveryCaseFileHasAFolderOfItsOwn) {
 }
 
 TEST(Custom, ParametersDoNotTakeThePlaceOfFieldsAndTheirDerivatives) {
-  EXPECT_THAT(complaint("parameters = { u = 0.3 }\nH = \"p^2/2 + u*q^2/2\"\ninitial = { q = 1, p = 0 }\n"
-                        "friction = { kind = \"position\", coefficient = \"u\" }"),
+  EXPECT_THAT(complaint_of_problem("parameters = { u = 0.3 }\nH = \"p^2/2 + u*q^2/2\"\ninitial = { q = 1, p = 0 }\n"
+                                   "friction = { kind = \"position\", coefficient = \"u\" }"),
               HasSubstr("u is the coordinate here, and a parameter of that name is not"));
   const std::string wave = "points = 8\ninitial = \"zero\"\nH = \"v^2/2 + u_x^2/2\"\n";
-  EXPECT_THAT(complaint(wave + "parameters = { u_x = 4 }"), HasSubstr("u_x is a derivative or difference of a field"));
-  EXPECT_THAT(complaint(wave + "parameters = { du = 4 }"), HasSubstr("du is a derivative or difference of a field"));
+  EXPECT_THAT(complaint_of_problem(wave + "parameters = { u_x = 4 }"),
+              HasSubstr("u_x is a derivative or difference of a field"));
+  EXPECT_THAT(complaint_of_problem(wave + "parameters = { du = 4 }"),
+              HasSubstr("du is a derivative or difference of a field"));
   for (const char* fields : {"[\"u_x\", \"u\"]", "[\"u\", \"u_x\"]"})
-    EXPECT_THAT(complaint(fmt::format("points = 8\ninitial = \"zero\"\nfields = {}\nH = \"u^2/2\"", fields)),
+    EXPECT_THAT(complaint_of_problem(fmt::format("points = 8\ninitial = \"zero\"\nfields = {}\nH = \"u^2/2\"", fields)),
                 HasSubstr("problem.fields: u_x is a derivative or difference of a field"));
 }
 
@@ -270,8 +274,8 @@ TEST(Custom, TheEnergyLawHoldsWithPowersOfThePlaceInV) {
 // Formulas are tried on a few points first, where 1/(x − 5) may have its pole, and the grid of the case has none.
 TEST(Custom, APoleBetweenThePointsOfAGridIsAccepted) {
   const std::string wave = "length = 10.0\nH = \"v^2/2 + u_x^2/2\"\nD = { v = \"1/(x - 5)^2\" }\ninitial = \"zero\"\n";
-  EXPECT_EQ(complaint(wave + "points = 63"), "");
-  EXPECT_THAT(complaint(wave + "points = 64"), HasSubstr("is inf at t = 0 at x = 5 (j = 32)"));
+  EXPECT_EQ(complaint_of_problem(wave + "points = 63"), "");
+  EXPECT_THAT(complaint_of_problem(wave + "points = 64"), HasSubstr("is inf at t = 0 at x = 5 (j = 32)"));
 }
 
 TEST(Custom, FrictionAndForcesMayNameTheParameters) {
@@ -291,37 +295,37 @@ TEST(Custom, FrictionAndForcesMayNameTheParameters) {
 
 TEST(Custom, AMistakeIsSaidAtItsKeyWithThePlaceInTheFormula) {
   const std::string start = "initial = { q = 1, p = 0 }\n";
-  EXPECT_THAT(complaint(start + "H = \"p^2/2 + r^4\""),
+  EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2 + r^4\""),
               AllOf(StartsWith("x.toml:4:5: problem.H: formula, column 9: unknown name 'r'"), HasSubstr("Allowed: ")));
-  EXPECT_THAT(complaint(start + "H = \"p^2/2 + sin(q, 2)\""), HasSubstr("sin takes 1 argument, not 2"));
-  EXPECT_THAT(complaint(start + "H = \"p^2/2 + 1/(q - 1)\""),
+  EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2 + sin(q, 2)\""), HasSubstr("sin takes 1 argument, not 2"));
+  EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2 + 1/(q - 1)\""),
               AllOf(HasSubstr("the force of V on q is"), HasSubstr("where q = 1")));
-  EXPECT_THAT(complaint(start + "H = \"p^2/2 + sqrt(q - 3)\""), HasSubstr("the force of V on q is"));
-  EXPECT_THAT(complaint(start + "H = \"p^2/2 + max(q, 0)\""),
+  EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2 + sqrt(q - 3)\""), HasSubstr("the force of V on q is"));
+  EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2 + max(q, 0)\""),
               AllOf(HasSubstr("formula, column 9"), HasSubstr("max has no derivative, and forces are derivatives")));
-  EXPECT_THAT(complaint(start + "H = \"p^2/2\"\nV = \"q^4\""), HasSubstr("H is the whole energy"));
-  EXPECT_THAT(complaint(start), HasSubstr("[problem] has no energy"));
-  EXPECT_THAT(complaint("H = \"p^2/2 + q^2\""), HasSubstr("no initial state"));
-  EXPECT_THAT(complaint("fields = [\"a\", \"b\", \"c\"]\nH = \"a^2\"\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2\"\nV = \"q^4\""), HasSubstr("H is the whole energy"));
+  EXPECT_THAT(complaint_of_problem(start), HasSubstr("[problem] has no energy"));
+  EXPECT_THAT(complaint_of_problem("H = \"p^2/2 + q^2\""), HasSubstr("no initial state"));
+  EXPECT_THAT(complaint_of_problem("fields = [\"a\", \"b\", \"c\"]\nH = \"a^2\"\ninitial = \"zero\""),
               HasSubstr("S is not given, and [[0, I], [−I, 0]] needs coordinates and as many momenta"));
-  EXPECT_THAT(complaint("fields = [\"a\", \"a\"]\nH = \"a^2\"\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem("fields = [\"a\", \"a\"]\nH = \"a^2\"\ninitial = \"zero\""),
               HasSubstr("the name a stands for something else"));
-  EXPECT_THAT(complaint("points = 8\nH = \"v^2/2 + u_x^4\"\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2 + u_x^4\"\ninitial = \"zero\""),
               HasSubstr("derivatives stand in quadratic terms only"));
-  EXPECT_THAT(complaint("points = 8\nH = \"v^2/2 + du^3*u\"\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2 + du^3*u\"\ninitial = \"zero\""),
               HasSubstr("mixes a difference between neighbours with what belongs to one point"));
-  EXPECT_THAT(complaint("points = 8\nboundary = \"neumann\"\nH = \"v^2/2 + du^4\"\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem("points = 8\nboundary = \"neumann\"\nH = \"v^2/2 + du^4\"\ninitial = \"zero\""),
               HasSubstr("need a ring (periodic) or fixed ends"));
-  EXPECT_THAT(complaint("points = 8\nH = \"v^2/2\"\nS = [[0, 1], [-1]]\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2\"\nS = [[0, 1], [-1]]\ninitial = \"zero\""),
               HasSubstr("problem.S must have 2 rows of 2 entries"));
-  EXPECT_THAT(complaint("points = 8\nH = \"v^2/2\"\nD = { w = 1 }\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2\"\nD = { w = 1 }\ninitial = \"zero\""),
               HasSubstr("unknown field in problem.D 'w'"));
-  EXPECT_THAT(complaint("points = 8\nH = \"v^2/2\"\nD = { v = \"d_x^5\" }\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2\"\nD = { v = \"d_x^5\" }\ninitial = \"zero\""),
               HasSubstr("derivatives are there up to the fourth"));
-  EXPECT_THAT(complaint(start + "parameters = { boundary = 1 }\nH = \"p^2/2\""),
+  EXPECT_THAT(complaint_of_problem(start + "parameters = { boundary = 1 }\nH = \"p^2/2\""),
               HasSubstr("the name boundary is taken by a key of [problem]"));
-  EXPECT_THAT(complaint(start + "H = \"p^2/2 + 0^q\""), HasSubstr("0^(q) has no derivative"));
-  EXPECT_THAT(complaint("points = 8\nH = \"v^2/2\"\nHH = 1\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2 + 0^q\""), HasSubstr("0^(q) has no derivative"));
+  EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2\"\nHH = 1\ninitial = \"zero\""),
               HasSubstr("unknown key in [problem] custom 'HH'"));
 }
 
@@ -346,13 +350,13 @@ TEST(CustomCase, AFormulaThatCannotBeReadIsSaidAtItsKeyAlsoByOverride) {
 }
 
 TEST(CustomCase, AFewDegreesOfFreedomHaveNoPlaceInSentences) {
-  const std::string said = complaint("H = \"p^2/2 + 1/(q - 1)\"\ninitial = { q = 1, p = 0 }");
+  const std::string said = complaint_of_problem("H = \"p^2/2 + 1/(q - 1)\"\ninitial = { q = 1, p = 0 }");
   EXPECT_THAT(said, HasSubstr("at the initial state, where q = 1, p = 0"));
   EXPECT_THAT(said, testing::Not(HasSubstr("x = ")));
   EXPECT_THAT(said, testing::Not(HasSubstr("j = ")));
-  EXPECT_THAT(complaint("points = 8\nH = \"v^2/2 + 1/(u - 1)\"\ninitial = { u = 1, v = 0 }"),
+  EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2 + 1/(u - 1)\"\ninitial = { u = 1, v = 0 }"),
               HasSubstr("x = 0.125 (j = 1)"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -16,7 +16,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using ::testing::HasSubstr;
 
@@ -39,7 +39,8 @@ TEST(EnergySplit, ANegativeSquareGoesToThePotentialSoThatMStaysSemidefinite) {
       make_problem(read("fields = [\"a\", \"b\", \"c\", \"d\"]\nH = \"(c^2 + d^2)/2 + 3*a*b + a^4\"\n"
                         "initial = { a = 1, b = 0, c = 0, d = 0 }"));
   EXPECT_DOUBLE_EQ(coupled.potential->value(std::vector<double>{2.0, 1.0}), 22.0);
-  EXPECT_THAT(complaint("points = 8\nH = \"v^2/2 - u_x^2/2\"\ninitial = \"zero\""), HasSubstr("its quadratic part, "));
+  EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2 - u_x^2/2\"\ninitial = \"zero\""),
+              HasSubstr("its quadratic part, "));
 }
 
 TEST(EnergySplit, ProductsOfFieldsThatMakeMIndefiniteGoToVAlone) {
@@ -54,9 +55,9 @@ TEST(EnergySplit, CoefficientsThatAreNoDecimalsAreNumbersAllTheSame) {
       make_problem(read("H = \"p^2/2 + sqrt(2)*q^2/2 + sqrt(2*q)*sqrt(q)*q^3\"\ninitial = { q = 1, p = 0 }"));
   EXPECT_DOUBLE_EQ(p.M(0, 0).identity_part(), std::sqrt(2.0));
   EXPECT_NEAR(p.potential->value(std::vector<double>{1.5}), std::sqrt(2.0) * std::pow(1.5, 4), 1e-14);
-  EXPECT_THAT(complaint("H = \"p^2/2 + (q - q - 1)^0.5*q^2\"\ninitial = { q = 1, p = 0 }"),
+  EXPECT_THAT(complaint_of_problem("H = \"p^2/2 + (q - q - 1)^0.5*q^2\"\ninitial = { q = 1, p = 0 }"),
               HasSubstr("is not a real function"));
-  EXPECT_THAT(complaint("H = \"p^2/2\"\nD = { p = \"(t - t - 1)^0.5\" }\ninitial = { q = 1, p = 0 }"),
+  EXPECT_THAT(complaint_of_problem("H = \"p^2/2\"\nD = { p = \"(t - t - 1)^0.5\" }\ninitial = { q = 1, p = 0 }"),
               HasSubstr("problem.D"));
 }
 
@@ -67,20 +68,22 @@ TEST(EnergySplit, AConstantThatIsLeftOutOfHIsSaid) {
   const Problem with_V = make_problem(read("H = \"p^2/2 + q^4 + 7\"\ninitial = { q = 1, p = 0 }"));
   EXPECT_EQ(with_V.potential->value(std::vector<double>{0.0}), 7);
   for (const char* complex : {"sqrt(-1 - q^2 + q^2)", "log(-1 + q - q)"})
-    EXPECT_THAT(complaint(fmt::format("H = \"p^2/2 + q^2/2 + {}\"\ninitial = {{ q = 1, p = 0 }}", complex)),
+    EXPECT_THAT(complaint_of_problem(fmt::format("H = \"p^2/2 + q^2/2 + {}\"\ninitial = {{ q = 1, p = 0 }}", complex)),
                 HasSubstr("is not a real function"));
 }
 
 // Exact arithmetic would take minutes and gigabytes.
 TEST(EnergySplit, PowersWithoutEndAreRefusedAtOnce) {
   for (const char* power : {"(1e300*q)^(-1000000)", "(2.5*q)^-100000", "(sin(q) + 1.000000001)^500000"})
-    EXPECT_THAT(complaint(fmt::format("H = \"p^2/2 + {}\"\ninitial = {{ q = 1, p = 0 }}", power)),
+    EXPECT_THAT(complaint_of_problem(fmt::format("H = \"p^2/2 + {}\"\ninitial = {{ q = 1, p = 0 }}", power)),
                 HasSubstr("of anything but one name, exponents are at most 1000"))
         << power;
-  EXPECT_THAT(complaint("H = \"p^2/2 + (1e300*q)^-1000\"\ninitial = { q = 1, p = 0 }"), HasSubstr("too many digits"));
-  EXPECT_THAT(complaint("H = \"p^2/2 + (q - q)^-1\"\ninitial = { q = 1, p = 0 }"), HasSubstr("0^(-1) divides by zero"));
-  EXPECT_EQ(complaint("H = \"p^2/2 + q^4 + (q - q)^0\"\ninitial = { q = 1, p = 0 }"), "");
-  EXPECT_EQ(complaint("H = \"p^2/2 + q^-12/12 - q^-6/6\"\ninitial = { q = 1, p = 0 }"), "");
+  EXPECT_THAT(complaint_of_problem("H = \"p^2/2 + (1e300*q)^-1000\"\ninitial = { q = 1, p = 0 }"),
+              HasSubstr("too many digits"));
+  EXPECT_THAT(complaint_of_problem("H = \"p^2/2 + (q - q)^-1\"\ninitial = { q = 1, p = 0 }"),
+              HasSubstr("0^(-1) divides by zero"));
+  EXPECT_EQ(complaint_of_problem("H = \"p^2/2 + q^4 + (q - q)^0\"\ninitial = { q = 1, p = 0 }"), "");
+  EXPECT_EQ(complaint_of_problem("H = \"p^2/2 + q^-12/12 - q^-6/6\"\ninitial = { q = 1, p = 0 }"), "");
 }
 
 // A potential is where it is: about q = 10 it acts as about 0, and squares of (q − 10)⁴ are no stiffness.
@@ -127,7 +130,7 @@ TEST(EnergySplit, WhatOneBracketHoldsAnotherMayCancel) {
   const Problem bracketed = make_problem(read(ring + "H = \"v^2/2 + (du + u)*du/2 - u*du/2\""));
   const Problem plain = make_problem(read(ring + "H = \"v^2/2 + du^2/2\""));
   EXPECT_EQ(bracketed.notes, plain.notes);
-  EXPECT_EQ(complaint("H = \"p^2/2 + (q + 1)^2*q^2 - (q - 1)^2*q^2\"\ninitial = { q = 1, p = 0 }"), "");
+  EXPECT_EQ(complaint_of_problem("H = \"p^2/2 + (q + 1)^2*q^2 - (q - 1)^2*q^2\"\ninitial = { q = 1, p = 0 }"), "");
 }
 
 TEST(EnergySplit, TheForceOfAnOddPowerOfTheModulusIsZeroAtRest) {
@@ -159,5 +162,5 @@ TEST(EnergySplit, ASechIsZeroFarOut) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using ::testing::HasSubstr;
 
@@ -120,5 +120,5 @@ TEST(OutwardGrowth, FrictionOnMomentaOfAMovingMassIsSeenToTakeEnergy) {
       << "of another degree";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -20,7 +20,7 @@
 #include <numbers>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using enum Boundary;
 constexpr std::array discretisations = {Discretisation::fd2, Discretisation::fd4, Discretisation::spectral};
@@ -232,5 +232,5 @@ TEST(Grid, ListsThatDoNotFitAreRefused) {
   EXPECT_THROW(Stencil::derivative({.axes = {{8, 1.0, dirichlet}}}), Error);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

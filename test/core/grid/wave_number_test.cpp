@@ -16,7 +16,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -211,5 +211,5 @@ TEST(WaveNumber, AMistakeIsSaidWithTheTermAndTheWaveNumber) {
   EXPECT_THAT(error_of([&] { entry("k^2", line).sparse_matrix(line); }), HasSubstr("no sparse matrix"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -13,7 +13,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -195,5 +195,5 @@ TEST(OrderOfComplaints, WhatTheProblemLacksComesBeforeHowItStarts) {
   EXPECT_THAT(said("H = \"p^2/2\""), HasSubstr("no initial state"));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

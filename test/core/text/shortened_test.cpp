@@ -5,7 +5,7 @@
 #include <string>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 TEST(Shortened, ShortTextsStayAsTheyAre) {
   EXPECT_EQ(shortened("problem.gamma = ½γu²"), "problem.gamma = ½γu²");
@@ -37,5 +37,5 @@ TEST(Shortened, WhatIsUtf8IsKnown) {
     EXPECT_FALSE(is_utf8(text)) << text;
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

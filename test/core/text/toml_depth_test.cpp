@@ -8,7 +8,7 @@
 #include <string_view>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using ::testing::HasSubstr;
 
@@ -69,5 +69,5 @@ TEST(TomlDepth, ThePlaceIsInLinesAndCharacters) {
   EXPECT_EQ(complaint.column, 23U);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

@@ -8,7 +8,7 @@
 #include <random>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 using test::PlainSpace;
 
@@ -64,5 +64,5 @@ TEST(Gmres, GivesTheBestThereIsWhereTheMapIsSingular) {
   EXPECT_TRUE(x.allFinite());
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche

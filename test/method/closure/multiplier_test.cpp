@@ -11,7 +11,7 @@
 #include <cmath>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 // Hides that a potential is a polynomial, so that the general path of the equation is taken.
 class Opaque final : public PointwisePotential {
@@ -123,5 +123,5 @@ TEST(Multiplier, TheRobustSolverLeavesNoStepUnresolvedWherePlainNewtonDoes) {
   EXPECT_GT(fallbacks, 0);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -13,7 +13,7 @@
 #include <numbers>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 const std::vector<std::string> closures = {"seisav", "seilm", "seidm", "seavf"};
 
@@ -215,5 +215,5 @@ TEST(Predictor, IsOfOrderTwoWhereStepsChangeTheirSize) {
   EXPECT_NEAR(fitted_order(h, errors), 2, 0.1) << table(h, errors);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -10,7 +10,7 @@
 #include <limits>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 struct Outcome {
   int sweeps = 0, questions = 0;
@@ -69,5 +69,5 @@ TEST(SweepControl, LeavesOutSweepsWhereTheNonlinearityIsWeak) {
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

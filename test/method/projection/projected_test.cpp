@@ -18,7 +18,7 @@
 #include <cmath>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -265,5 +265,5 @@ TEST(Chin, CountsWhatItsInnerProjectionsFallBackTo) {
   EXPECT_GT(fallbacks(8.0), 5);
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

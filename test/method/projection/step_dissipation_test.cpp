@@ -12,7 +12,7 @@
 #include <cmath>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 TEST(NestedRules, TheFinerOneIsExactBeyondTheCoarser) {
   for (int s = 1; s <= 4; ++s) {
@@ -89,5 +89,5 @@ TEST(StepDissipation, FollowsNoEnergiesWhereSomethingElseDissipates) {
   EXPECT_FALSE(follows(leaky));
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

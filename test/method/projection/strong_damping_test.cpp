@@ -16,7 +16,7 @@
 #include <vector>
 
 namespace seiche::test {
-namespace {
+namespace TEST_FILE {
 
 struct Strong {
   std::string name, text;
@@ -227,5 +227,5 @@ initial = { q = "1", p = "0" })toml";
   }
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche::test

@@ -16,7 +16,7 @@
 #include <string>
 
 namespace seiche {
-namespace {
+namespace TEST_FILE {
 
 class OrderedDriver : public test::InTemporaryDirectory {
  protected:
@@ -104,5 +104,5 @@ TEST_F(OrderedDriver, NoExceptionLeavesIt) {
   EXPECT_EQ(on_disk(), std::string(length, '.')) << "as it was at the last flush";
 }
 
-}  // namespace
+}  // namespace TEST_FILE
 }  // namespace seiche
