@@ -89,7 +89,7 @@ class DensePhiForms final : public PhiForms {
       Matrix gram = Matrix::Zero(stack_.size(), stack_.size());
       for (std::size_t i = 0; i < form.rows.rows.size(); ++i) {
         const Matrix row = stack_.joined(blocks.of(form.rows.rows[i]));
-        gram.noalias() += form.coefficients[i] * (row.transpose() * (Q * row));
+        gram += form.coefficients[i] * congruence(Q, row);
       }
       if (form.minus_integral) gram -= integral_of_dissipation(form.rows, linear, h);
       grams_.emplace_back(gram);
@@ -106,7 +106,7 @@ class DensePhiForms final : public PhiForms {
     zero_and_forces[0].setZero();
     Matrix z_and_n(2 * n, stack_.size());
     z_and_n << Matrix::Identity(n, stack_.size()), stack_.joined(zero_and_forces);
-    return z_and_n.transpose() * (flow_dissipation(linear, h) * z_and_n);
+    return congruence(flow_dissipation(linear, h), z_and_n);
   }
 
   void apply(const Vector& z, std::span<const Vector> forces, std::span<double> values) const override {

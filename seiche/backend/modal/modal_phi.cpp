@@ -150,7 +150,7 @@ class ModalPhiForms final : public PhiForms {
           const std::vector<Matrix>& of_row = blocks.of(forms[l].rows.rows[i]);
           for (Index j = 0; j < columns_.size(); ++j)
             row.col(j) = of_row[static_cast<std::size_t>(columns_[j].block)].col(columns_[j].field);
-          gram += forms[l].coefficients[i] * (row.adjoint() * (Q * row));
+          gram += forms[l].coefficients[i] * congruence(Q, row);
         }
         if (forms[l].minus_integral) gram -= integral_of_dissipation<Matrix>(forms[l].rows, mode, h);
         for (Index i = 0; i < columns_.size(); ++i)
@@ -178,7 +178,7 @@ class ModalPhiForms final : public PhiForms {
       else
         z_and_n(m + columns_[j].field, j) = 1;
     }
-    return z_and_n.adjoint() * (flow_dissipation(mode, h) * z_and_n);
+    return congruence(flow_dissipation(mode, h), z_and_n);
   }
 
   const Space& space_;

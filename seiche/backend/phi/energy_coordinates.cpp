@@ -1,4 +1,5 @@
 #include <seiche/backend/phi/energy_coordinates.hpp>
+#include <seiche/core/numerics/congruence.hpp>
 
 #include <Eigen/Dense>
 
@@ -29,13 +30,13 @@ void make_kernel_orthonormal(EnergyCoordinates<Matrix>& c) {
 
 template <class Matrix>
 Matrix EnergyCoordinates<Matrix>::structure(const Matrix& S) const {
-  const Matrix skew = inverse * ((S - S.adjoint()) / 2) * inverse.adjoint();
+  const Matrix skew = congruence<Matrix>((S - S.adjoint()) / 2, inverse.adjoint());
   return (skew - skew.adjoint()) / 2 - loss(S) / 2;
 }
 
 template <class Matrix>
 Matrix EnergyCoordinates<Matrix>::loss(const Matrix& S) const {
-  const Matrix rate = inverse * (-(S + S.adjoint())) * inverse.adjoint();
+  const Matrix rate = congruence<Matrix>(-(S + S.adjoint()), inverse.adjoint());
   return (rate + rate.adjoint()) / 2;
 }
 

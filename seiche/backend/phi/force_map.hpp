@@ -1,6 +1,7 @@
 // The map F of a linear substep z⁺ = Ez + Ff, as matrices: the whole system (dense) or one small block per mode.
 #pragma once
 
+#include <seiche/core/numerics/congruence.hpp>
 #include <seiche/core/propagator.hpp>
 
 #include <Eigen/Dense>
@@ -49,9 +50,11 @@ Matrix taylor(const Matrix& S, const Matrix& M, double h) {
 // is, −W leaves it room.
 template <class Matrix>
 void restore_contract(Matrix& F, const Matrix& M, const Matrix* W) {
-  Matrix R = F + F.adjoint() + F.adjoint() * (M * F);
+  Matrix R = F + F.adjoint() + congruence(M, F);
   if (W != nullptr) R += *W;
-  F -= (0.5 * (R + F * (M * R))).eval();
+  const Matrix MR = M * R;
+  R += F * MR;
+  F -= 0.5 * R;
 }
 
 // F of a step h, grown from steps so small that Taylor's series is short:
@@ -76,7 +79,7 @@ class ForceDoubling {
     }
     for (int i = 1; i <= doublings; ++i) {
       if (loses_ && doublings > harmless) double_loss();
-      F_ = (2 * F_ + F_ * (M_ * F_)).eval();
+      double_force();
       if (i % harmless == 0 && i < doublings) restore();
     }
     if (doublings > harmless) restore();
@@ -98,14 +101,19 @@ class ForceDoubling {
     for (std::size_t i = 0; i < place.size(); ++i) {
       for (const double side : {-1.0, 1.0}) {
         const Matrix B = I + M_ * taylor<Matrix>(S, M_, h * (1 + side * place[i]) / 2);
-        W_ += (h * weight[i] / 2) * (B.adjoint() * (rate_ * B));
+        W_ += (h * weight[i] / 2) * congruence(rate_, B);
       }
     }
     F_ = taylor<Matrix>(S, M_, h);
     for (int i = 0; i < parts; ++i) {
       double_loss();
-      F_ = (2 * F_ + F_ * (M_ * F_)).eval();
+      double_force();
     }
+  }
+
+  void double_force() {
+    const Matrix MF = M_ * F_;
+    F_ = (2 * F_ + F_ * MF).eval();
   }
 
   void double_loss() {
@@ -183,7 +191,7 @@ Matrix contracting_cayley_force(const Matrix& S, const Matrix& M, const Matrix& 
   kernels.restore(F);
   for (int i = 0; i < 2; ++i) {
     const Matrix B = Matrix::Identity(S.rows(), S.cols()) + M * F / 2;
-    const Matrix W = h * (B.adjoint() * (rate * B));
+    const Matrix W = h * congruence(rate, B);
     force_map_detail::restore_contract(F, M, &W);
   }
   return F;

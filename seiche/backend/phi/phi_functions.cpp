@@ -2,6 +2,7 @@
 #include <seiche/backend/phi/energy_coordinates.hpp>
 #include <seiche/backend/phi/force_map.hpp>
 #include <seiche/backend/phi/phi_functions.hpp>
+#include <seiche/core/numerics/congruence.hpp>
 #include <seiche/core/numerics/gauss_rule.hpp>
 #include <seiche/core/phi.hpp>
 
@@ -50,7 +51,7 @@ class FlowDoubling {
     for (const GaussNode& node : gauss_rule(8)) {
       Matrix E = term[0];
       for (std::size_t k = 1; k < term.size(); ++k) E += std::pow(node.place, static_cast<double>(k)) * term[k];
-      W_ += node.weight * (E.adjoint() * (rate * E));
+      W_ += node.weight * congruence(rate, E);
     }
   }
 
@@ -152,7 +153,8 @@ void PhiRowBlocks<Matrix>::use_energy(const LinearBlocks<Matrix>& blocks) {
   const Matrix M = c->metric();
   const Matrix D = c->inverse * blocks.D0 * c->T;
   L_ = c->structure(blocks.S) * M - D;
-  rate_ = M * c->loss(blocks.S) * M + M * D + D.adjoint() * M;
+  const Matrix MD = M * D;
+  rate_ = congruence(c->loss(blocks.S), M) + MD + MD.adjoint();
   rank_ = c->rank;
   T_ = std::move(c->T);
   inverse_ = std::move(c->inverse);
@@ -192,8 +194,9 @@ Matrix flow_dissipation(const LinearBlocks<Matrix>& blocks, double h) {
   end << first[0], first[1];
   integral.leftCols(m) = first[1];
   integral.rightCols(m) = sums.of({1.0, {0.0, h}})[1];
-  const Matrix work = force.adjoint() * (blocks.M * integral);
-  return 0.5 * (start.adjoint() * (blocks.M * start) - end.adjoint() * (blocks.M * end) + work + work.adjoint());
+  const Matrix M_integral = blocks.M * integral;
+  const Matrix work = force.adjoint() * M_integral;
+  return 0.5 * (congruence(blocks.M, start) - congruence(blocks.M, end) + work + work.adjoint());
 }
 
 template void phi_functions(const Eigen::MatrixXd& A, Index order, std::vector<Eigen::MatrixXd>& phi,

@@ -1,6 +1,7 @@
 // φ-functions of a matrix, real or complex: the whole system (dense) or one small block per mode.
 #pragma once
 
+#include <seiche/core/numerics/congruence.hpp>
 #include <seiche/core/phi.hpp>
 #include <seiche/core/vector.hpp>
 
@@ -59,7 +60,7 @@ class PhiRowBlocks {
 template <class Matrix>
 Matrix dissipation_matrix(const Matrix& S, const Matrix& M, const Matrix& D) {
   const Matrix MD = M * D;
-  return 0.5 * (MD + MD.adjoint()) - 0.5 * (M * (S + S.adjoint()) * M);
+  return 0.5 * (MD + MD.adjoint()) - 0.5 * congruence<Matrix>(S + S.adjoint(), M);
 }
 
 // ∫₀ʰ Q(x) dt along ẋ = Lx + n as a form of z = x(0) above n, by the energy at both ends:
