@@ -29,6 +29,7 @@ class System:
     limits: dict[str, float] = field(default_factory=dict)  # method → order that the system allows, where less than declared
     tolerances: tuple[float, ...] = (1e-4, 1e-6, 1e-8)
     files: dict[str, str] = field(default_factory=dict)  # name → text, beside the case file
+    slope: float = 1.0  # the steepest V of an angle: what round-off in the angle makes of H
     quick: bool = False  # part of the quick run
     about: str = ""
 

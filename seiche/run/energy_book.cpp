@@ -55,7 +55,13 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
     const double allowed =
         steps * (has_modified_energy_ ? round_off(last_.modified_round_off, reading.modified_round_off, growth)
                                       : round_off(last_.round_off, reading.round_off, growth));
-    if (increase > allowed && !violation_.found) violation_ = {t, increase, allowed, true};
+    // The method's shift C may grow by more than any solution, and take the digits of a modified energy with it.
+    const double with_shift = steps * reading.modified_round_off;
+    if (increase > allowed && has_modified_energy_ && increase <= with_shift && with_shift > size_) {
+      if (!violation_.found && !lost_in_round_off_.found) lost_in_round_off_ = {t, with_shift, size_, true};
+    } else if (increase > allowed && !violation_.found) {
+      violation_ = {t, increase, allowed, true};
+    }
     // Round-off explains it, and would explain more than all there was at the start: the law cannot be checked. But in
     // the first step it is that rise itself which takes all there was.
     if (increase > size_ && increase <= allowed) {

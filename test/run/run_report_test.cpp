@@ -99,6 +99,30 @@ TEST(EnergyBook, DoesNotExcuseARiseByTheRoundOffThatCameWithIt) {
   EXPECT_EQ(law_of({{1, 1}}), LawVerdict::not_tested);
 }
 
+// C may rise in one step beyond what any solution does, and H̃ is then a small difference of large numbers.
+TEST(EnergyBook, SaysThatAModifiedEnergyHasLostItsDigitsToTheShift) {
+  const auto booked_behind = [](double before, double terms, double modified, double shift) {
+    EnergyBook book({true, "damped", true, false}, true);
+    const auto add = [&](double energy, double size, int n) {
+      book.add({.H = 1, .modified = energy, .round_off = 1e-14, .modified_round_off = 50 * epsilon * size}, n, n);
+    };
+    add(1, 2, 0);
+    add(before, terms, 1);
+    add(modified, shift, 2);
+    RunReport report;
+    book.write_to(report);
+    return report;
+  };
+  const RunReport lost = booked_behind(1, 2, 1e5, 1e20), risen = booked_behind(1, 2, 1e9, 1e20);
+  const RunReport small = booked_behind(1e-9, 1e-9, 1e-9 + 1e-16, 1e-2);
+  EXPECT_EQ(small.law, LawVerdict::violated);
+  EXPECT_THAT(small.law_reason, HasSubstr("round-off explains only")) << "less than there was at the start";
+  EXPECT_EQ(lost.law, LawVerdict::violated);
+  EXPECT_THAT(lost.law_reason, HasSubstr("can no longer be told from round-off: at t = 2"));
+  EXPECT_EQ(risen.law, LawVerdict::violated);
+  EXPECT_THAT(risen.law_reason, HasSubstr("round-off explains only"));
+}
+
 // H may fall, but not away from the energy that the law is about.
 TEST(EnergyBook, SaysThatHAndItsModifiedEnergyHaveParted) {
   EnergyBook book({true, "damped", true, false}, true);

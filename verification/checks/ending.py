@@ -143,7 +143,7 @@ def decays(gamma: float, error: float | None, words: tuple = ("take a smaller h"
 SPLIT = ("seisav", "seilm", "savf")  # their decay is that of the averages over a step, which oscillations are not resolved by
 WITHIN = "H = H(0)e^(−γt) within 1e-6, or a note; exit 1 or 2 with a word"
 BOUNDED = "no rise, no faster fall than e^(−2γt); exit 1 or 2 with a word"
-ILL = ("the solution blows up", "no solution was found", "the directed multiplier was not found")
+ILL = ("the solution blows up", "a blow-up, of the solution or of the method", "no solution was found", "the directed multiplier was not found")
 DRAG_WORDS = ("h does not resolve the nonlinear part, and errors may be large", "the collocation equations were not solved in the step")
 SPLIT_WORDS = ("splits the damping from the forces", "no solution was found, because the result of the Runge–Kutta–Nyström splitting is not finite")
 

@@ -68,14 +68,22 @@ def two_masses(H, D, start, extra=""):
     )
 
 
-def stiff_in_V(name, H, forces, D, start, end, gross, about):
+def stiff_in_V(name, H, forces, D, start, end, gross, about, slope=1.0):
     def rhs(t, s):
         a, b, p, r = s
         f, g = forces(a, b)
         return np.array([p, r, f - D[0] * p, g - D[1] * r])
 
     return System(
-        name=name, problem=two_masses(H, D, start), rhs=rhs, z0=np.array(start, float), end=end, gross=gross, tolerances=(1e-6, 1e-8), about=about
+        name=name,
+        problem=two_masses(H, D, start),
+        rhs=rhs,
+        z0=np.array(start, float),
+        end=end,
+        gross=gross,
+        tolerances=(1e-6, 1e-8),
+        slope=slope,
+        about=about,
     )
 
 
@@ -162,7 +170,7 @@ SYSTEMS = [
     ),
     stiff_in_V(
         "steep_pendulum", "b^2/2 + 900*(1 - cos(3*a)) + 0.3*a^2*b^2", lambda a, b: (-2700 * np.sin(3 * a) - 0.6 * a * b * b, -b - 0.6 * a * a * b),
-        (15, 0.1), (0.1, 1, 0, 0), 4.0, (1 / 50, 1 / 100), "frequency 90 in V",
+        (15, 0.1), (0.1, 1, 0, 0), 4.0, (1 / 50, 1 / 100), "frequency 90 in V", 2700,
     ),
     fading("fading_log", "log(1 + q^2)", lambda q: -2 * q / (1 + q * q), 0.5),
     fading("fading_steep_log", "50*log(1 + 20*q^2)", lambda q: -2000 * q / (1 + 20 * q * q), 0.1),
