@@ -19,7 +19,7 @@ concept PointPotential = requires(const W w, double u) {
   { w.grows_outward() } -> std::convertible_to<bool>;     // u W'(u) ≥ 0 for all u
 };
 
-// Of a degree up to Most, where that is not above `most_exact`, and of Most itself up to there.
+// Of degree Most up to `most_exact`; above it of degree `last` ≤ Most, with zeros behind.
 template <int Most>
 struct Polynomial {
   static constexpr int most = Most;

@@ -16,8 +16,9 @@ using Pointer = std::shared_ptr<const PointwisePotential>;
 template <int Most = 1, class Make>
 Pointer with_degree(const std::vector<double>& c, const Make& make) {
   if (static_cast<int>(c.size()) > Most + 1) {
-    constexpr int next = Most < 6 ? Most + 1 : Most == 6 ? 8 : Most + 4;
-    if constexpr (next <= max_polynomial_degree) return with_degree<next>(c, make);
+    constexpr int exact = Polynomial<Most>::most_exact;
+    constexpr int next = Most < exact ? Most + 1 : Most == exact ? Most + 2 : Most + 4;
+    if constexpr (Most < max_polynomial_degree) return with_degree<std::min(next, max_polynomial_degree)>(c, make);
     throw Error("a polynomial potential of degree {} is asked for; up to {} is allowed", c.size() - 1,
                 max_polynomial_degree);
   }

@@ -27,7 +27,7 @@ struct IntegrateOptions {
   LawPromise law = {};
   // Asked when the run ends: why the promise is withdrawn after all, or "".
   std::function<std::string()> objection = {};
-  std::function<std::string()> explanation = {};  // of a step that failed, from the state that is left; "" if none
+  std::function<std::string()> explanation = {};  // of a step that failed, from the state then; "" if none
   const std::atomic<bool>* stop = nullptr;        // set by a signal handler: the run ends after the current step
   // Located by shorter steps from the left end of the step they lie in; behind one, steps of length h go on from its
   // time.

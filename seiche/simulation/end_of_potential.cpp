@@ -14,6 +14,8 @@
 namespace seiche {
 namespace {
 
+constexpr int halvings = 40;  // of the way to where V ends
+
 // The values that V depends on, on the line u + s du.
 class Line {
  public:
@@ -26,7 +28,8 @@ class Line {
     system.right_hand_side(s.t, s.z, dz);
     u_ = space_.physical(s.z).segment(begin_, start_.size());
     du_ = space_.physical(dz).segment(begin_, start_.size());
-    if (!space_.is_finite(du_)) du_.setZero();  // V ends here already
+    is_endless_ = !space_.is_finite(du_);
+    if (is_endless_) du_.setZero();  // V ends here already
     values_ = slopes_ = u_;
   }
 
@@ -34,6 +37,8 @@ class Line {
     const double speed = space_.norm(du_);
     return speed > 0 ? 0.1 * space_.norm(u_) / speed : 0;
   }
+  // Further than a tenth of itself in the time s?
+  bool runs_away(double s) const { return is_endless_ || s * space_.norm(du_) > 0.1 * space_.norm(u_); }
   Vector at(double s) const { return u_ + s * du_; }
   const Vector& start() const { return start_; }  // of the run
 
@@ -50,12 +55,17 @@ class Line {
     is_finite(outside);
     const char* what = std::isfinite(V_) ? "∇V" : "V";
     if (!has_place) return fmt::format("{} is not a finite number", what);
-    // Of those values that have to go back to where they were inside for V to be finite, the last.
+    // Next to where V ends between the two: of those values that have to go back for V to be finite, the last.
+    Vector near = inside, far = outside;
+    for (int k = 0; k < halvings; ++k) {
+      Vector middle = near + (far - near) / 2;
+      (is_finite(middle) ? near : far).swap(middle);
+    }
     Index low = 0, high = outside.size();
     while (high - low > 1) {
       const Index middle = low + (high - low) / 2;
-      Vector mixed = outside;
-      mixed.head(middle) = inside.head(middle);
+      Vector mixed = far;
+      mixed.head(middle) = near.head(middle);
       (is_finite(mixed) ? high : low) = middle;
     }
     return fmt::format("{} is not a finite number at {}", what, named(outside, low));
@@ -107,20 +117,21 @@ class Line {
   const Space& space_;
   Index begin_;
   double V_ = 0;
+  bool is_endless_ = false;  // ż is not finite
   Vector start_, u_, du_, values_, slopes_;
 };
 
 std::string on_line(const Problem& problem, const System& system, const Vector& initial, const State& s, double h) {
   Line line(problem, system, initial, s);
   if (!line.is_inside(0)) return fmt::format("{} at t = {:.6g}", line.complaint(line.start(), line.at(0)), s.t);
-  constexpr int parts = 64, halvings = 40;
+  constexpr int parts = 64;
   const double reach = h > 0 ? 2 * h : line.tenth();
   double inside = 0, outside = 0;
   for (int k = 1; k <= parts && outside == inside; ++k) {
     outside = reach * k / parts;
     if (line.is_inside(outside)) inside = outside;
   }
-  if (outside == inside) return line.tenth() < reach ? line.blow_up() : "";
+  if (outside == inside) return line.runs_away(reach) ? line.blow_up() : "";
   for (int k = 0; k < halvings; ++k) {
     const double middle = inside + (outside - inside) / 2;
     (line.is_inside(middle) ? inside : outside) = middle;

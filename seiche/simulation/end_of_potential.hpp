@@ -12,8 +12,8 @@ namespace seiche {
 // z + s ż, 0 ≤ s ≤ 2h, at which V or a component of ∇V is NaN or infinite though the values of the state are moderate,
 // with the field, the point, and the other values that V depends on there. h = 0: on the line up to a tenth of |z|.
 // Where the state itself is such a place, "… at q = -1.0113 at t = 0.588". If the whole line is defined, that the
-// state has grown a million times since `initial`, the physical values at the start of the run, and moves by more than
-// a tenth of itself in 2h: a blow-up; else "".
+// largest of the values that V depends on is a million times as large as in `initial`, the physical values at the start
+// of the run (not all zero), and that they move by more than a tenth of themselves in 2h: a blow-up; else "".
 std::string end_of_potential(const Problem& problem, const System& system, const Vector& initial, const State& s,
                              double h);
 

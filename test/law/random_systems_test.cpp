@@ -105,6 +105,10 @@ class Systems {
       }
       ++counts_.steps;
       const EnergyReading after = simulation.energy();
+      const double largest = simulation.state().z.lpNorm<Eigen::Infinity>();
+      const bool overflows = largest > 1e50;  // energies may not be finite then
+      expect(std::isfinite(largest) && (overflows || (std::isfinite(after.H) && std::isfinite(after.modified))), what,
+             [&] { return fmt::format("a step that is called solved leaves |z| = {} and H = {}", largest, after.H); });
       if (!(std::max(after.round_off, after.modified_round_off) <= blow_up * start.modified_round_off)) return;
       const double modified_round_off = std::max(before.modified_round_off, after.modified_round_off);
       const double rise = (after.modified - before.modified) / modified_round_off;

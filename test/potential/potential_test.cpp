@@ -5,6 +5,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/grid/grid_potential.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/numerics/gauss_rule.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/potential/bond.hpp>
 #include <seiche/potential/cosine_panel.hpp>
@@ -337,7 +338,7 @@ TEST(Potential, EveryDegreeIsToldAsItIsAndComputedByItsCoefficients) {
   for (std::size_t j = 0; j < u.size(); ++j) way[j] = 0.1 * static_cast<double>(j) - 0.3;
   for (int degree = 1; degree <= max_polynomial_degree; ++degree) {
     std::vector<double> c;
-    for (int i = 0; i <= degree; ++i) c.push_back(0.7 - 0.1 * i);
+    for (int i = 0; i <= degree; ++i) c.push_back(0.75 - 0.1 * i);
     const auto V = nodal_polynomial(c);
     ASSERT_EQ(V->degree(), degree);
     ASSERT_EQ(modulus_polynomial(c)->degree(), 2 * degree);
@@ -348,6 +349,30 @@ TEST(Potential, EveryDegreeIsToldAsItIsAndComputedByItsCoefficients) {
       return sum;
     };
     EXPECT_NEAR(V->value(u), value(0), 1e-12 * V->magnitude(u)) << degree;
+    std::vector<double> there(u.size()), gradient(u.size()), mean(u.size()), in_place = u;
+    for (std::size_t j = 0; j < u.size(); ++j) there[j] = u[j] + 0.5 * way[j];
+    V->gradient(u, gradient);
+    V->mean_gradient(u, there, mean);
+    V->value_and_gradient_in_place(1, 1, in_place);
+    const auto rows = static_cast<Index>(u.size());
+    Panel states(rows), slopes(rows);
+    for (Index j = 0; j < rows; ++j)
+      for (Index l = 0; l < panel_members; ++l) states(j, l) = u[static_cast<std::size_t>(j)];
+    const std::vector<std::shared_ptr<const PointwisePotential>> members(panel_members, V);
+    V->for_members(members, rows)->gradient(states.row(0), slopes.row(0));
+    for (std::size_t j = 0; j < u.size(); ++j) {
+      double slope = 0, mean_slope = 0;  // Σ i c_i uⁱ⁻¹, and that by Gauss's rule
+      for (int i = 1; i <= degree; ++i) {
+        const double factor = i * c[static_cast<std::size_t>(i)];
+        slope += factor * std::pow(u[j], i - 1);
+        for (const GaussNode& node : gauss_rule(9))
+          mean_slope += node.weight * factor * std::pow(u[j] + node.place * (there[j] - u[j]), i - 1);
+      }
+      EXPECT_NEAR(gradient[j], slope, 1e-11) << degree;
+      EXPECT_NEAR(in_place[j], slope, 1e-11) << degree;
+      EXPECT_NEAR(slopes(static_cast<Index>(j), 3), slope, 1e-11) << degree << ", of many states";
+      EXPECT_NEAR(mean[j], mean_slope, 1e-11) << degree;
+    }
     std::vector<double> taylor(static_cast<std::size_t>(degree) + 1);
     V->along(u, way, taylor);
     double along = 0;
@@ -358,8 +383,6 @@ TEST(Potential, EveryDegreeIsToldAsItIsAndComputedByItsCoefficients) {
     W->along(u, way, of_modulus);
     double at_half = 0;
     for (std::size_t k = of_modulus.size(); k-- > 0;) at_half = 0.5 * at_half + of_modulus[k];
-    std::vector<double> there(u.size());
-    for (std::size_t j = 0; j < u.size(); ++j) there[j] = u[j] + 0.5 * way[j];
     EXPECT_NEAR(at_half, W->value(there), 1e-12 * (W->magnitude(u) + W->magnitude(there))) << degree;
   }
 }

@@ -7,6 +7,7 @@
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
+#include <seiche/simulation/end_of_potential.hpp>
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/simulation/solve.hpp>
 #include <seiche/study/reference.hpp>
@@ -176,6 +177,22 @@ initial = { u = "0", v = "-3*exp(-10*(x - 3)^2)" })toml"));
   const Solution failed = solve(problem, {.method = "seisav", .h = 0.5, .t_end = 5});
   EXPECT_FALSE(failed.success());
   EXPECT_THAT(failed.report.message, HasSubstr("V is not a finite number at u = -1 (x = 3), straight ahead of t = 0"));
+}
+
+// The bond from x = 6 to 7 alone has ended. The one that closes the ring would end too, if one end of it went back to
+// the start.
+TEST(FailureMode, SaysAtWhichBondVIsNotDefined) {
+  const Problem problem = make_problem(read(R"toml(fields = ["u", "v"]
+length = 16.0
+points = 16
+H = "v^2/2 - log(1 + du)"
+initial = { u = "0", v = "0" })toml"));
+  const Simulation simulation(problem, {.method = "seavf", .backend = "dense"});
+  State s = simulation.state();
+  s.z.head(16).setConstant(10);
+  s.z[5] = 12;
+  EXPECT_EQ(end_of_potential(problem, simulation.system(), problem.initial, s, 0.5),
+            "V is not a finite number at u = 12 (x = 6) at t = 0");
 }
 
 TEST(FailureMode, TellsABlowUpFromAPotentialThatEnds) {

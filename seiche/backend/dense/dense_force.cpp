@@ -27,7 +27,7 @@ constexpr double most_defect = 1e-13;
 // G + Gᵀ + GᵀMG, of which the contract says that it is ⪯ 0, and how much of it may be round-off.
 struct Contract {
   Contract(const Matrix& G, const Matrix& M, double h)
-      : R((h < 0 ? -1 : 1) * (G + G.transpose() + G.transpose() * (M * G))),
+      : R((h < 0 ? -1 : 1) * (G + G.transpose() + congruence(M, G))),
         room(most_defect * std::max(1.0, G.cwiseAbs().maxCoeff())) {}
   bool holds() const {
     return R.allFinite() &&
@@ -37,7 +37,8 @@ struct Contract {
   double room;
 };
 
-void require_contract(const Matrix& G, const Matrix& M, double h, double size) {
+// `size` and `norm`: hρ and ‖hSM‖.
+void require_contract(const Matrix& G, const Matrix& M, double h, double size, double norm) {
   const Contract contract(G, M, h);
   if (contract.holds()) return;
   double defect = std::numeric_limits<double>::infinity();
@@ -46,15 +47,23 @@ void require_contract(const Matrix& G, const Matrix& M, double h, double size) {
     if (defect <= contract.room) return;
   }
   throw Error(
-      "the dense backend cannot keep the energy law of a step h = {:.6g}: its fastest frequency ρ has hρ = {:.3g}, and H would rise "
+      "the dense backend cannot keep the energy law of a step h = {:.6g}: its fastest frequency ρ has hρ = {:.3g}, ‖hSM‖ = {:.3g}, and H would rise "
       "by {:.2g} of itself; take a smaller h, backend \"modal\" on a grid, or backend \"sparse\" with [backend] pade_degree = 2",
-      h, size, defect);
+      h, size, norm, defect);
 }
 
 // Is the product TA as good as first A, then T? Judged in the coordinates of energy.
 bool may_join(const Matrix& TA, const EnergyCoordinates<Matrix>& c, const Matrix& right, const Matrix& G) {
   const Matrix back = c.inverse * TA * right;
   return (back - G).cwiseAbs().maxCoeff() <= within_round_off * std::max(1.0, G.cwiseAbs().maxCoeff());
+}
+
+// xᵀAx < 0 for some x, beyond round-off?
+bool has_negative_direction(const Matrix& A) {
+  const double round_off = 1e-13 * A.cwiseAbs().maxCoeff();
+  if (round_off == 0) return false;
+  const Matrix shifted = A + round_off * Matrix::Identity(A.rows(), A.cols());
+  return Eigen::LLT<Matrix>(shifted).info() != Eigen::Success;
 }
 
 class InEnergyCoordinates {
@@ -79,9 +88,9 @@ class InEnergyCoordinates {
     return contracting_cayley_force(S_, M_, rate_, kernels_, h);
   }
 
-  DenseForce maps(double h, double size) const {
+  DenseForce maps(double h, double size, double norm) const {
     const Matrix G = force(h);
-    if (!feeds_) require_contract(G, M_, h, size);
+    if (!feeds_) require_contract(G, M_, h, size, norm);
     const Matrix T = without(casimirs_);  // else up to round-off of what is fast
     const Matrix of_force = feeds_ ? without(unmoved_) : T;
     const Matrix half = kind_ == PropagatorKind::cayley ? Matrix(G / 2) : force(h / 2);
@@ -100,13 +109,6 @@ class InEnergyCoordinates {
     return Eigen::HouseholderQR<Matrix>(columns).householderQ() * Matrix::Identity(columns.rows(), columns.cols());
   }
 
-  // xᵀAx < 0 for some x, beyond round-off?
-  static bool has_negative_direction(const Matrix& A) {
-    const double round_off = 1e-13 * A.cwiseAbs().maxCoeff();
-    if (round_off == 0) return false;
-    const Matrix shifted = A + round_off * Matrix::Identity(A.rows(), A.cols());
-    return Eigen::LLT<Matrix>(shifted).info() != Eigen::Success;
-  }
   Matrix without(const Matrix& columns) const { return c_.T - columns * (columns.transpose() * c_.T); }
 
   EnergyCoordinates<Matrix> c_;
@@ -127,14 +129,16 @@ DenseForce dense_force(PropagatorKind kind, const Matrix& S, const Matrix& M, do
         "(hSM)³ of the dense backend is not finite for h = {:.6g}: take a smaller h, or other units of length and time",
         h);
   std::optional<EnergyCoordinates<Matrix>> coordinates;
-  if (force_map_detail::norm_1(A) > plain_size) coordinates = energy_coordinates(M);
+  const double norm = force_map_detail::norm_1(A);
+  if (norm > plain_size) coordinates = energy_coordinates(M);
   if (coordinates) coordinates->scale_kernel(kernel_unit(*coordinates, S, h));
   const auto in_energy_coordinates = [&] {
-    return InEnergyCoordinates(kind, *std::move(coordinates), S).maps(h, size);
+    return InEnergyCoordinates(kind, *std::move(coordinates), S).maps(h, size, norm);
   };
   if (coordinates && size > plain_size) return in_energy_coordinates();
   const ForceMaps<Matrix> maps = force_maps(kind, S, M, h);
-  if (coordinates) {  // where A is far from normal, round-off is more than hρ tells
+  // Where A is far from normal, round-off is more than hρ tells; where S feeds, there is no contract to ask for.
+  if (coordinates && !has_negative_direction(coordinates->loss(S))) {
     const Matrix G = coordinates->inverse * maps.F * coordinates->inverse.transpose();
     if (!Contract(G, coordinates->metric(), h).holds()) return in_energy_coordinates();
   }

@@ -13,7 +13,7 @@ using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 inline LongMatrix long_identity(Index size) { return LongMatrix::Identity(size, size); }
 
-// How often A is halved until ‖A‖₁ ≤ 2. Throws Error where that is too often for any digits to be left.
+// How often A is halved until ‖A‖₁ ≤ 2. Throws Error where that is so often that fewer than ten digits would be left.
 int reference_halvings(const LongMatrix& A);
 
 // e^A − I, φ₁(A), … φ_order(A), and φ₁ in any case, of a matrix halved so often: the last by its series

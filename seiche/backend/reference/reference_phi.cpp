@@ -104,8 +104,9 @@ class ReferencePhiMap final : public PhiMap {
   mutable Vector result_;
 };
 
-// ∫₀ʰ Q(x) dt along ẋ = Lx + n from x = z, as a form of (z, n): by Gauss's rule over a time t in which little happens,
-// and doublings W(2t) = W(t) + EᵀW(t)E with E the flow of (x, n) over t. It leaves n alone: of E only x is kept.
+// ∫₀ʰ Q(x) dt along ẋ = Lx + n from x = z, as a form of (z, n): by Gauss's rule (nodes in double) over a time t in
+// which little happens, and doublings W(2t) = W(t) + EᵀW(t)E with E the flow of (x, n) over t. It leaves n alone: of E
+// only x is kept.
 LongMatrix integral_along_flow(const LongMatrix& L, const LongMatrix& Q, double h) {
   const Index n = L.rows();
   const int halvings = reference_halvings(static_cast<long double>(h) * L);
@@ -139,23 +140,22 @@ class ReferencePhiForms final : public PhiForms {
   ReferencePhiForms(std::span<const PhiEvaluator::Form> forms, const ReferenceOperators& of, double h)
       : stack_(forms.front().rows, of) {
     const Index n = of.L.rows();
-    const Matrix Q = of.Q.cast<double>();
     for (const auto& [rows, coefficients, minus_integral] : forms) {
       const Index size = n * (1 + rows.forces);
-      Matrix gram = Matrix::Zero(size, size);
+      LongMatrix gram = LongMatrix::Zero(size, size);
       ReferenceRows maps(rows, of, h);
       for (std::size_t i = 0; i < rows.rows.size(); ++i) {
-        const Matrix row = maps.of(rows.rows[i]).cast<double>();
-        gram += coefficients[i] * (row.transpose() * (Q * row));
+        const LongMatrix row = maps.of(rows.rows[i]);
+        gram += static_cast<long double>(coefficients[i]) * (row.transpose() * (of.Q * row));
       }
       if (minus_integral) {
         LongMatrix z_and_n = LongMatrix::Zero(2 * n, size);
         z_and_n.topLeftCorner(n, n) = long_identity(n);
         for (Index j = 1; j <= rows.forces; ++j)
           z_and_n.block(n, n * j, n, n) = rows.kind == PhiRows::Forces::gradients ? LongMatrix(of.S) : long_identity(n);
-        gram -= (z_and_n.transpose() * (integral_along_flow(of.L, of.Q, h) * z_and_n)).cast<double>();
+        gram -= z_and_n.transpose() * (integral_along_flow(of.L, of.Q, h) * z_and_n);
       }
-      grams_.push_back(std::move(gram));
+      grams_.emplace_back(gram.cast<double>());
     }
     image_.resize(grams_.front().rows());
   }

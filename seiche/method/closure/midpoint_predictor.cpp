@@ -54,9 +54,10 @@ bool MidpointPredictor::recall(const State& s, const Propagator& propagator, dou
   return !has_missed_;
 }
 
-// What is missed takes a solve of its own where nothing is fused, and mostly it is far too small for that to be needed:
-// F_t d = tSd + ∫₀ᵗ (t − s)e^{SMs}SMSd ds, with t² instead of t²/2 for Cayley's map, and both keep lengths up to the
-// condition of M.
+// What is missed takes a solve of its own where nothing is fused, and mostly it is far too small for that to be
+// needed: F_t d = tSd + ∫₀ᵗ (t − s)e^{SMs}SMSd ds, with t² instead of t²/2 for Cayley's map. Of both terms it is the
+// part on the support that is measured: a bound where e^{SMs} keeps lengths and V depends on all of z, and else an
+// estimate.
 void MidpointPredictor::recall_unfused(const State& s, const Propagator& propagator,
                                        const Propagator::Gradients& memory, double h, Vector& z_mid,
                                        Propagator::FieldFactors before, Propagator::Recalled& recalled) {
@@ -73,7 +74,7 @@ void MidpointPredictor::recall_unfused(const State& s, const Propagator& propaga
   pushed_ = s.z;
   multiply_fields(before, pushed_);
   recalled.moved = space.squared_norm(of_support(z_mid) - of_support(pushed_));
-  const double t = h / 2;
+  const double t = std::abs(h) / 2;
   system_.linear->apply_S(difference_, pushed_);
   const double first = t * std::sqrt(space.squared_norm(of_support(pushed_)));
   system_.linear->apply_M(pushed_, product_);
