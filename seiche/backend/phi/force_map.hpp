@@ -57,11 +57,16 @@ void restore_contract(Matrix& F, const Matrix& M, const Matrix* W) {
   F -= 0.5 * R;
 }
 
-// F of a step h, grown from steps so small that Taylor's series is short:
-//   F ← 2F + FMF,   which is E(2h) = E(h)² with E = I + FM.
-// Each doubling also doubles what round-off has added to the contract F + Fᴴ + FᴴMF = −W. For skew S the loss W is
-// zero. Otherwise it obeys W ← W + BᴴWB, B = I + MF, sums of what is ⪰ 0 and thus known to round-off; so the contract
-// is restored on the way.
+// F ← 2F + FMF: of twice the step, as E(2h) = E(h)² with E = I + FM.
+template <class Matrix>
+void double_force(Matrix& F, const Matrix& M) {
+  const Matrix MF = M * F;
+  F = (2 * F + F * MF).eval();
+}
+
+// F of a step h, grown by doubling from steps so small that Taylor's series is short. Each doubling also doubles what
+// round-off has added to the contract F + Fᴴ + FᴴMF = −W. For skew S the loss W is zero. Otherwise it obeys
+// W ← W + BᴴWB, B = I + MF, sums of what is ⪰ 0 and thus known to round-off; so the contract is restored on the way.
 template <class Matrix>
 class ForceDoubling {
  public:
@@ -79,7 +84,7 @@ class ForceDoubling {
     }
     for (int i = 1; i <= doublings; ++i) {
       if (loses_ && doublings > harmless) double_loss();
-      double_force();
+      double_force(F_, M_);
       if (i % harmless == 0 && i < doublings) restore();
     }
     if (doublings > harmless) restore();
@@ -107,13 +112,8 @@ class ForceDoubling {
     F_ = taylor<Matrix>(S, M_, h);
     for (int i = 0; i < parts; ++i) {
       double_loss();
-      double_force();
+      double_force(F_, M_);
     }
-  }
-
-  void double_force() {
-    const Matrix MF = M_ * F_;
-    F_ = (2 * F_ + F_ * MF).eval();
   }
 
   void double_loss() {
@@ -214,7 +214,7 @@ Matrix damping_exponential(const Matrix& D, double h) {
   const Matrix I = Matrix::Identity(D.rows(), D.cols());
   const int doublings = doublings_for(scaled_norm<Matrix>(-h * D));
   Matrix F = taylor<Matrix>(-I, D, std::ldexp(h, -doublings));
-  for (int i = 0; i < doublings; ++i) F = (2 * F + F * (D * F)).eval();
+  for (int i = 0; i < doublings; ++i) double_force(F, D);
   return I + F * D;
 }
 
