@@ -4,6 +4,7 @@
 #include <seiche/ensemble/panel_block.hpp>
 #include <seiche/ensemble/parallel_for.hpp>
 #include <seiche/run/energy_book.hpp>
+#include <seiche/run/state_round_off.hpp>
 #include <seiche/run/time_grid.hpp>
 
 #include <algorithm>
@@ -236,9 +237,12 @@ class Run {
       report.message = fmt::format("reached t = {:.9g} in {}", report.t, counted_steps(report.steps));
     }
     report.judge_replaced();
-    hear_objection(block_of(member).simulation(member % panel_members), at.fed, report);
-    if (report.drift) report.message += "; " + report.remark_on_drift();
+    const Simulation* simulation = block_of(member).simulation(member % panel_members);
     result.final = block_of(member).physical(member % panel_members);
+    if (report.drift && is_round_off_of_state(*report.drift, simulation->system(), result.final, report.steps))
+      report.drift.reset();
+    hear_objection(simulation, at.fed, report);
+    if (report.drift) report.message += "; " + report.remark_on_drift();
     if (result.final.size() == 0) {
       report.law = LawVerdict::not_promised;
       report.law_reason = "the member never started";

@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/vector.hpp>
 #include <seiche/run/recording.hpp>
+#include <seiche/run/state_round_off.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -173,6 +174,8 @@ RunReport Recording::finish(const std::function<std::string()>& objection, const
   report_.steps = steps();
   report_.t = state_.t;
   book_.write_to(report_);
+  if (report_.drift && is_round_off_of_state(*report_.drift, system_, system_.space->physical(state_.z), report_.steps))
+    report_.drift.reset();
   hear_objection(objection);
   report_.potential_counts = counts();
   complete_message(remark);

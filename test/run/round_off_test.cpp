@@ -34,6 +34,19 @@ TEST(RoundOff, OfASolutionThatLeavesAnUnstableRestIsNoViolation) {
   }
 }
 
+// H is 1e-29 there, left over of 1/4 − u²/2 + u⁴/4; what transforms round moves the state by 1e-16.
+TEST(RoundOff, OfAFieldThatRestsInAWellIsNoDriftOfItsEnergy) {
+  const Problem at_rest = custom_problem({.grid = GridOptions{.points = {32, 32}, .length = {10, 10}},
+                                          .H = "v^2/2 + u_x^2/2 + u_y^2/2 + (u^2 - 1)^2/4",
+                                          .initial = {{"u", "1"}, {"v", "0"}}});
+  for (const char* method : {"seisav", "sav", "seilm", "avf", "egc4", "crkn6"}) {
+    const Solution s = solve(at_rest, {.method = method, .h = 1.0 / 16, .t_end = 2});
+    EXPECT_FALSE(s.report.drift) << method << ": " << s.report.message;
+    EXPECT_EQ(s.report.law, LawVerdict::holds) << method << ": " << s.report.message;
+    EXPECT_GT(s.H.back(), 1.2 * s.H.front()) << method << " has nothing to be told from round-off";
+  }
+}
+
 TEST(RoundOff, BehindAnEventIsThatOfTheStateItLeft) {
   const Problem p = oscillator_of("p^2/2 - cos(q)", 0, 0);
   SolveOptions o{.method = "egc4", .h = 1.0 / 64, .t_end = 20};

@@ -1,0 +1,23 @@
+#include <seiche/core/vector.hpp>
+#include <seiche/run/state_round_off.hpp>
+
+#include <cmath>
+
+namespace seiche {
+
+bool is_round_off_of_state(const EnergyDrift& drift, const System& system, const Vector& values, std::int64_t steps) {
+  const double in_all = 4 * epsilon * std::sqrt(static_cast<double>(steps) + 1);
+  const Index points = values.size() / system.fields;
+  Vector moved = values;
+  for (Index f = 0; f < system.fields; ++f) {
+    auto field = moved.segment(f * points, points);
+    const double off = in_all * system.space->max_norm(values.segment(f * points, points));
+    for (Index i = 0; i < points; ++i) field[i] += i % 2 == 0 ? off : -off;
+  }
+  Vector z(system.space->size()), z_moved(z.size());
+  system.space->from_physical(values, z);
+  system.space->from_physical(moved, z_moved);
+  return std::abs(drift.to - drift.from) <= 10 * std::abs(system.energy(z_moved) - system.energy(z));
+}
+
+}  // namespace seiche
