@@ -50,5 +50,7 @@ def judge(system, method, reference) -> list[Row]:
             return [row(system.name, name, "law", "no rise", wrong, False, got.case)]
     if promised == {"not promised"}:
         return [row(system.name, name, "law", "no rise", "not promised", True, note=got.said)]
+    if codes == {1} and rise == -np.inf:  # no step that long has a solution, and the program says so
+        return [row(system.name, name, "law", "no rise", "exit 1 at every h", True, case)]
     shown = f"{rise:.0e}" + (", exit 1 at some h" if 1 in codes else "") + (f", digits lost to C at h = {', '.join(lost)}" if lost else "")
     return [row(system.name, name, "law", "no rise", shown, np.isfinite(rise) and rise <= ROUND_OFF, case, f"largest at h = {at:g}, relative to |H|")]
