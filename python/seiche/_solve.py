@@ -88,6 +88,7 @@ def solve(
         With a tolerance: no step is longer.
     t_eval : (times,) array
         The times to record, ascending. They shorten no step but, with a tolerance, perhaps the first. By default all steps.
+        A run that ends early also records where it did, whatever was asked for.
     events : function or list of functions
         ``g(t, y) -> float``; an event is a change of its sign from one step to the next. Attributes as in SciPy: ``direction`` (> 0 rising, < 0 falling),
         ``terminal`` (True, or the number of occurrences that end the run); and ``action(t, y)``, which may return a new state.

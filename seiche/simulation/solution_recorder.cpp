@@ -52,6 +52,10 @@ void SolutionRecorder::record_asked(const State& state, const EnergyReading& ene
   }
 }
 
+void SolutionRecorder::record_end(const State& state, const EnergyReading& energy) {
+  if (solution_.t.empty() || solution_.t.back() < state.t) record(state, energy);
+}
+
 void SolutionRecorder::record(const State& state, const EnergyReading& energy) {
   simulation_.system().space->to_physical(state.z, physical_);
   solution_.t.push_back(state.t);

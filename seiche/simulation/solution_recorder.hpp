@@ -18,6 +18,8 @@ class SolutionRecorder final : public Observer {
   void observe(const State& state, const EnergyReading& energy) override;
   double next_time() const override;
   void finish(const RunReport&) override {}
+  // Beside the times asked for, the state where a run ended before its time.
+  void record_end(const State& state, const EnergyReading& energy);
 
  private:
   void record(const State& state, const EnergyReading& energy);

@@ -138,6 +138,8 @@ class Run {
     const std::vector<Observer*> observers = {&recorder};
     const std::vector<Event> events = physical_events(options_, *simulation.system().space, solution_);
     solution_.report = run_.integrate(steps_, run_.adaptive() != nullptr ? &steps_ : nullptr, stop_, observers, events);
+    const State& last = simulation.state();
+    if (!solution_.success() && last.t == solution_.report.t) recorder.record_end(last, steps_.energy(last));
     solution_.certificate = run_.certificate_after(solution_.report);
   }
 

@@ -60,7 +60,8 @@ struct SolveOptions {
 
 struct Solution {
   Index size = 0;                  // of a state: fields × points
-  std::vector<double> t;           // recorded times; where events change z, z is that behind them
+  std::vector<double> t;           // recorded times; where events change z, z is that behind them; of a run that ended
+                                   // early, also where it did
   std::vector<double> z;           // physical values, one state of `size` after the other
   std::vector<double> H;           // at these times
   std::vector<double> modified;    // the energy that the method keeps a law for, where it is another; else empty

@@ -209,6 +209,8 @@ TEST(Solve, AnObserverSeesEveryStepAndMayEndTheRun) {
     EXPECT_EQ(s.report.status, RunReport::Status::interrupted) << way.method;
     EXPECT_EQ(seen, 4) << way.method;
     EXPECT_EQ(s.report.t, last) << way.method;
+    EXPECT_EQ(s.t.back(), last) << way.method << ": where it ended, beside the times asked for";
+    EXPECT_EQ(s.z.size(), s.t.size() * 2) << way.method;
   }
 }
 
