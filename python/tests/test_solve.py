@@ -218,6 +218,10 @@ def test_xarray_has_the_dimensions_and_attributes_of_the_program(tmp_path, name,
                 assert data[variable].attrs[attribute] == written.attrs[attribute], variable
         for field in fields:
             assert list(data[field].dims) == [axis[0].name[1:] for axis in file[field].dims]
+    pytest.importorskip("h5netcdf")
+    with pytest.importorskip("xarray").open_dataset(tmp_path / "out/solution.h5") as opened:
+        for field in fields:
+            assert opened[field].dims == data[field].dims and np.allclose(opened[field], data[field], atol=1e-12)
 
 
 def test_ensembles():

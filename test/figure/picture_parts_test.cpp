@@ -78,6 +78,16 @@ TEST(MethodStyle, EveryMethodThatHasAStyleLooksLikeNoOther) {
   EXPECT_EQ(method_of_curve("seisavage"), "");
 }
 
+TEST(MethodStyle, ASchemeAsPrintedIsGreyAndDottedInWhateverCompany) {
+  const LineStyle third = curve_line("SEILM as printed (V frozen, Newton)", 2, 0);
+  const LineStyle second = curve_line("SEILM as printed (V frozen, Newton)", 1, 4);
+  for (const LineStyle& line : {third, second}) {
+    EXPECT_EQ(line.colour, "#808080");
+    EXPECT_EQ(line.dash, Dash::dotted);
+  }
+  EXPECT_EQ(curve_line("SEILM, V transported, Newton", 1, 0).colour, method_line("seilm").colour);
+}
+
 TEST(Html, TextIsEscapedNumbersAreSetAndBytesAreEncoded) {
   EXPECT_EQ(html_escaped("<a href=\"x\">&'"), "&lt;a href=&quot;x&quot;&gt;&amp;&#39;");
   EXPECT_EQ(html_number(1.42e-5), "1.42·10<sup>−5</sup>");

@@ -115,6 +115,7 @@ std::string_view method_of_curve(std::string_view curve_name) {
 LineStyle curve_line(std::string_view curve_name, int nth, int index) {
   const std::string_view method = method_of_curve(curve_name);
   if (method.empty()) return neutral_line(index);
+  if (curve_name.find("as printed") != std::string_view::npos) nth = 2;
   LineStyle line = method_line(method);
   if (nth == 0) return line;
   line.dash = nth == 1 ? Dash::dashed : Dash::dotted;

@@ -34,7 +34,8 @@ std::string method_label(std::string_view name);  // the name itself if unknown
 LineStyle method_line(std::string_view name);     // black if unknown
 
 // For curves whose names say more than the method, as "SEISAV as printed (r frozen)". The first word decides the
-// method; of several curves of one method the `nth` (from 0) keeps its colour and changes dash and filling.
+// method; of several curves of one method the `nth` (from 0) keeps its colour and changes dash and filling. A scheme
+// "as printed" is grey and dotted, in whatever company.
 std::string_view method_of_curve(std::string_view curve_name);  // "" if the first word is no method
 LineStyle curve_line(std::string_view curve_name, int nth, int index);
 
