@@ -26,6 +26,12 @@ DampingRate ParameterValues::damping_rate(const std::string& name) const {
   return get<RatePointer>(name);
 }
 
+std::vector<double> ParameterValues::numbers(const Parameter& p) const {
+  if (p.kind == ParameterKind::real) return p.per_axis ? reals(p.name) : std::vector{real(p.name)};
+  if (!p.per_axis) return {static_cast<double>(integer(p.name))};
+  return {integers(p.name).begin(), integers(p.name).end()};
+}
+
 std::string out_of_bounds(const Parameter& p, double value) {
   if (!std::isfinite(value)) return fmt::format("{} = {} must be a finite number", p.name, number_text(value));
   const bool low = p.minimum_excluded ? value <= p.minimum : value < p.minimum;

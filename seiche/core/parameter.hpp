@@ -50,6 +50,7 @@ class ParameterValues {
   const std::vector<double>& reals(const std::string& name) const { return get<std::vector<double>>(name); }
   const std::vector<long>& integers(const std::string& name) const { return get<std::vector<long>>(name); }
   const std::vector<std::string>& choices(const std::string& name) const { return get<std::vector<std::string>>(name); }
+  std::vector<double> numbers(const Parameter& parameter) const;  // of one that is real or integer, per axis or not
 
  private:
   const ParameterValue& at(const std::string& name) const;

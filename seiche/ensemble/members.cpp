@@ -67,6 +67,7 @@ void set_number(RunSpec& spec, const std::string& name, double value) {
 
 std::shared_ptr<const Problem> problem_of(RunSpec spec, const Members& members, const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) set_number(spec, members.parameters[i], values[i]);
+  if (!values.empty()) renew_rates(spec);
   return std::make_shared<const Problem>(make_problem(spec));
 }
 

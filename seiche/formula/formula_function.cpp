@@ -10,6 +10,7 @@ namespace seiche {
 namespace {
 
 double sech(double x) { return 1.0 / std::cosh(x); }
+double step(double x) { return x == 0 ? 0.5 : std::isnan(x) ? x : x > 0 ? 1.0 : 0.0; }
 double sign(double x) { return x == 0 || std::isnan(x) ? x : std::copysign(1.0, x); }
 // Unlike std::fmin, NaN stays NaN: a wrong value must not vanish in a minimum.
 double smaller(double a, double b) { return std::isnan(a) || a < b ? a : b; }
@@ -47,6 +48,7 @@ double slope_of_sqrt(double a, double b) { return 1 / (std::sqrt(a) + std::sqrt(
 // At a = b = 0 the mean of both sides: |x| has no slope there.
 double slope_of_abs(double a, double b) { return a == 0 && b == 0 ? 0.0 : (a + b) / (std::abs(a) + std::abs(b)); }
 double slope_of_sign(double a, double b) { return a == b ? 0.0 : (sign(b) - sign(a)) / (b - a); }
+double slope_of_step(double a, double b) { return slope_of_sign(a, b) / 2; }
 double slope_of_sech(double a, double b) {
   if (std::abs(b - a) > 1) return (sech(b) - sech(a)) / (b - a);
   return -slope_of_cosh(a, b) * sech(a) * sech(b);
@@ -148,7 +150,7 @@ double carried_to_an_end(double c, double off) {
 }
 double carried_by_arc(double x, double, double off) { return carried_to_an_end((1 - x) * (1 + x), off); }
 
-constexpr std::array<FormulaFunction, 22> function_table = {{
+constexpr std::array<FormulaFunction, 23> function_table = {{
     {"sin", 1, [](double x) { return std::sin(x); }, nullptr, slope_of_sin, carried_by_sine, true,
      &VectorFunctions::sin, slopes_of_sin},
     {"cos", 1, [](double x) { return std::cos(x); }, nullptr, slope_of_cos, carried_by_sine, true,
@@ -187,6 +189,7 @@ constexpr std::array<FormulaFunction, 22> function_table = {{
      &VectorFunctions::sqrt},
     {"abs", 1, [](double x) { return std::fabs(x); }, nullptr, slope_of_abs, as_far},
     {"sign", 1, sign, nullptr, slope_of_sign, [](double, double, double) { return 0.0; }, false},
+    {"step", 1, step, nullptr, slope_of_step, [](double, double, double) { return 0.0; }, false},
     {"sech", 1, sech, nullptr, slope_of_sech, [](double, double y, double off) { return y * off; }},
     {"min", 2, nullptr, smaller, nullptr, nullptr, false},
     {"max", 2, nullptr, larger, nullptr, nullptr, false},

@@ -1,6 +1,7 @@
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_parser.hpp>
 #include <seiche/formula/formula_text.hpp>
+#include <seiche/formula/other_languages.hpp>
 
 #include <fmt/ranges.h>
 
@@ -198,6 +199,8 @@ class Parser {
     if (last.kind == FormulaToken::Kind::number && is_unit(next.text) && !is_known(next.text))
       throw error(fmt::format("units such as {} are not part of the language: numbers are in those of the equation",
                               next.text));
+    if (next.kind == FormulaToken::Kind::name && !is_known(next.text) && !spelling_here(next.text).empty())
+      throw unknown(next);
     const bool called = last.kind == FormulaToken::Kind::name && next.is('(');
     if (!called)
       throw error(
@@ -219,11 +222,10 @@ class Parser {
   }
 
   Error unknown(const FormulaToken& name) const {
-    if (name.text == "e") return formula_error(text_, name.position, "there is no 'e'; write exp(1)");
-    if (name.text == "ln") return formula_error(text_, name.position, "there is no 'ln'; write log( )");
-    if (name.text == "nan" || name.text == "inf")
+    if (const std::string_view here = spelling_here(name.text); !here.empty())
       return formula_error(text_, name.position,
-                           fmt::format("there is no '{}': numbers in formulas are finite", name.text));
+                           fmt::format("there is no '{}'{} {}", name.text, here.starts_with("write") ? ';' : ':',
+                                       here));
     std::vector<std::string> names = variables_;
     std::erase(names, "");  // arguments that this formula has no name for
     for (const auto& [constant, value] : constants_) names.push_back(constant);

@@ -1,11 +1,10 @@
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_text.hpp>
+#include <seiche/formula/other_languages.hpp>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <utility>
 
 namespace seiche {
 namespace {
@@ -26,26 +25,6 @@ std::size_t end_of_character(std::string_view text, std::size_t position) {
   ++position;
   while (position < text.size() && continues_character(text[position])) ++position;
   return position;
-}
-
-std::string_view advice(std::string_view character) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> hints = {{
-      {"=", "; a formula is a value, not an equation"},
-      {"[", "; write ( )"},
-      {"{", "; write ( )"},
-      {";", "; write , between arguments"},
-      {"·", "; write *"},
-      {"×", "; write *"},
-      {"÷", "; write /"},
-      {"−", "; write -"},
-      {"²", "; write ^2"},
-      {"³", "; write ^3"},
-      {"π", "; write pi"},
-      {"√", "; write sqrt( )"},
-  }};
-  for (const auto& [sign, hint] : hints)
-    if (sign == character) return hint;
-  return "";
 }
 
 // digits [. digits] [e [±] digits]; an e that no digits follow is the start of a name.
@@ -124,12 +103,16 @@ std::vector<FormulaToken> tokenise_formula(std::string_view text, const std::vec
     } else {
       const std::string_view character = text.substr(at, end_of_character(text, at) - at);
       const bool shows = static_cast<unsigned char>(c) >= 0x20U && c != 0x7F;
-      if (c == '[' && !tokens.empty() && tokens.back().kind == TokenKind::name)
-        if (const std::string hint = hint_on_neighbours(tokens.back().text, names); !hint.empty())
-          throw formula_error(text, at, fmt::format("{} has no index: {}", shortened(tokens.back().text), hint));
+      const std::string_view name_before =
+          !tokens.empty() && tokens.back().kind == TokenKind::name ? tokens.back().text : std::string_view();
+      if (c == '[' && !name_before.empty())
+        if (const std::string hint = hint_on_neighbours(name_before, names); !hint.empty())
+          throw formula_error(text, at, fmt::format("{} has no index: {}", shortened(name_before), hint));
       const std::string sign =
           shows ? fmt::format("'{}'", character) : fmt::format("with code {}", static_cast<int>(c));
-      throw formula_error(text, at, fmt::format("the character {} has no meaning here{}", sign, advice(character)));
+      throw formula_error(text, at,
+                          fmt::format("the character {} has no meaning here{}", sign,
+                                      advice_on_character(text, at, character, name_before, names)));
     }
   }
   tokens.push_back({.kind = TokenKind::end, .text = {}, .position = text.size()});

@@ -157,6 +157,9 @@ TEST(ExpressionGraph, MeanSlopesOfFunctionsLoseNoDigits) {
       {"sqrt", [](long double x) { return std::sqrt(x); }, 0.7},
       {"abs", [](long double x) { return std::fabs(x); }, 0.7},
       {"sign", [](long double x) -> long double { return x == 0 ? 0 : std::copysign(1.0L, x); }, -0.1},
+      {"step", [](long double x) -> long double { return x == 0  ? 0.5L
+                                                         : x > 0 ? 1
+                                                                 : 0; }, -0.1},
       {"sech", [](long double x) { return 1 / std::cosh(x); }, 0.7},
   };
   for (const FormulaFunction& function : formula_functions()) {

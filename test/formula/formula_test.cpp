@@ -158,6 +158,15 @@ TEST(Formula, WhatIsNoPolynomialHasNoCoefficients) {
   EXPECT_FALSE(compile_formula("t*x", {"t", "x"})->polynomial()) << "two variables";
 }
 
+TEST(Formula, StepIsZeroThenAHalfThenOne) {
+  const FormulaPointer step = in_u("step(u)");
+  EXPECT_EQ((*step)(-1e-300), 0);
+  EXPECT_EQ((*step)(0.0), 0.5);
+  EXPECT_EQ((*step)(-0.0), 0.5);
+  EXPECT_EQ((*step)(1e-300), 1);
+  EXPECT_TRUE(std::isnan((*step)(std::nan(""))));
+}
+
 TEST(Formula, WhatIsNotRealComesBackAsNaNOrInfinity) {
   EXPECT_TRUE(std::isnan((*in_u("sqrt(u)"))(-1.0)));
   EXPECT_TRUE(std::isnan((*in_u("log(u)"))(-1.0)));
@@ -194,6 +203,18 @@ TEST(Formula, EachMistakeHasItsOwnSentence) {
       {"max(u)", "max takes 2 arguments, not 1"},
       {"sinn(u)", "did you mean 'sin'?"},
       {"gamm", "unknown name 'gamm'"},
+      {"np.sin(u)", "column 3: the character '.' has no meaning here; functions stand without a module: write sin"},
+      {"0.1.*u", "every formula is that of one point: write *"},
+      {"u > 1 ? 1 : 0", "write step( )"},
+      {"1 if u else 0", "there is no 'if': a switch is written with step"},
+      {"heaviside(u)", "there is no 'heaviside'; write step( )"},
+      {"arctan(u)", "there is no 'arctan'; write atan( )"},
+      {"pow(u, 2)", "there is no 'pow'; write a^b"},
+      {"|u|", "write abs( )"},
+      {"\\frac{u}{2}", "formulas are not LaTeX"},
+      {"α*u", "names are in Latin letters: write alpha"},
+      {"u⁴", "write ^4"},
+      {"∂u", "derivatives are written u_x in an energy"},
       {"e^u", "write exp(1)"},
       {"ln(u)", "write log( )"},
       {"(u + 1", "not closed"},

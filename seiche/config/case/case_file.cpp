@@ -225,6 +225,8 @@ std::string case_text(const std::filesystem::path& file) {
   std::ifstream input(file, std::ios::binary);
   std::string text = text_up_to(input, largest_case);
   if (!input.is_open() || input.bad()) throw Error("the case file {} cannot be read", name);
+  if (text.size() <= largest_case && text.find('\0') != std::string::npos)
+    throw Error("{} is no case file: it holds binary data", name);
   return text;
 }
 
@@ -241,6 +243,9 @@ RunSpec parse_case(std::string_view text, std::string_view name, const std::vect
                       .table = read_case_table(text, name, overrides)};
   reading.spec.source = reading.name;
   reading.spec.overrides = overrides;
+  for (const CaseSection& section : reading.table.sections)
+    for (const CaseEntry& entry : section.entries)
+      reading.spec.places[section.name + "." + entry.key] = entry.value.place;
   Sections(reading).read();
   reading.throw_first_complaint();
   return std::move(reading.spec);

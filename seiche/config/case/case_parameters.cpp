@@ -1,4 +1,5 @@
 #include <seiche/config/case/case_parameters.hpp>
+#include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/custom/custom_case.hpp>
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/config/data/matrix_market.hpp>
@@ -42,17 +43,19 @@ RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, Tim
 
 // A formula in t alone is a rate for all points. Any other is checked on the grid.
 ParameterValue read_formula_rate(const std::string& key, const Parameter& parameter, const std::string& text,
-                                 TimeSpan sampled) {
-  if (FormulaPointer formula = compiled(text, {"t"})) return checked_rate(parameter, std::move(formula), sampled);
-  return compile_space_rate(key, text);
+                                 const FormulaConstants& constants, TimeSpan sampled) {
+  if (FormulaPointer formula = compiled(text, {"t"}, constants))
+    return checked_rate(parameter, std::move(formula), sampled);
+  return compile_space_rate(key, text, constants);
 }
 
-ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, TimeSpan sampled) {
+ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, const FormulaConstants& constants,
+                         TimeSpan sampled) {
   const std::string key = "problem." + parameter.name;
   if (value.kind != CaseValue::Kind::number && value.kind != CaseValue::Kind::text)
     throw Error("{} = {} must be a number, or a formula in t (and x, y, z) such as \"0.1 + 0.05*sin(t)\"", key,
                 value.shown());
-  if (value.kind == CaseValue::Kind::text) return read_formula_rate(key, parameter, value.text, sampled);
+  if (value.kind == CaseValue::Kind::text) return read_formula_rate(key, parameter, value.text, constants, sampled);
   const double gamma = read_number(key, value);
   require(out_of_bounds(parameter, gamma));
   return constant_rate(gamma);
@@ -71,19 +74,18 @@ std::filesystem::path find_file(std::string_view what, const std::string& name, 
               shortened_path(name));
 }
 
-FormulaData read_formulas(std::string_view key, const CaseValue& value, const ProblemEntry& problem) {
-  const FormulaContext context = formula_context(problem, FormulaContext::Kind::initial);
+FormulaData read_formulas(std::string_view key, const CaseValue& value, const RunSpec& spec) {
+  const ProblemEntry& problem = problem_entry(spec);
+  const FormulaContext context = formula_context(spec, FormulaContext::Kind::initial);
   const NameAdvice advice = advice_in(context);
-  std::vector<std::string> names = place_variables(context.axes);
-  for (const Parameter& parameter : problem.parameters)
-    if (parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::integer)
-      names.push_back(parameter.name);
+  const std::vector<std::string> places = place_variables(context.axes);
+  const FormulaConstants constants = formula_constants(spec);
   FormulaData data;
   for (const auto& [field, formula] : value.entries) {
     if (formula.kind != CaseValue::Kind::text && formula.kind != CaseValue::Kind::number)
       throw Error("{}.{} = {} must be a formula in quotes, or a number", key, field, formula.shown());
     try {
-      compile_formula(formula.text, names, {}, advice);
+      compile_formula(formula.text, places, constants, advice);
     } catch (const Error& error) {
       throw Error("{}.{}: {}", key, field, error.what());
     }
@@ -98,10 +100,26 @@ FormulaData read_formulas(std::string_view key, const CaseValue& value, const Pr
               has_zero ? ", or initial = \"zero\" for all fields" : "");
 }
 
+// Other words for what happens at the ends.
+std::string boundary_meant(std::string_view word) {
+  const auto is_one_of = [&](const std::vector<std::string_view>& words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  if (is_one_of({"absorbing", "open", "outflow", "radiation", "transparent", "sponge", "pml"}))
+    return "waves are absorbed by damping that grows towards the ends, as in cases/sponge_layer.toml";
+  if (is_one_of({"fixed", "zero", "clamped", "Dirichlet"})) return "did you mean 'dirichlet'?";
+  if (is_one_of({"free", "reflecting", "no-flux", "noflux", "Neumann"})) return "did you mean 'neumann'?";
+  return is_one_of({"ring", "cyclic", "Periodic"}) ? "did you mean 'periodic'?" : "";
+}
+
 // A number or name, checked, and how a case file writes it: 2 and 2.0 are one case.
 std::pair<ParameterValue, std::string> read_parameter(const std::string& key, const Parameter& parameter,
                                                       const CaseValue& value) {
   if (parameter.kind == ParameterKind::choice) {
+    if (parameter.name == "boundary")
+      if (const std::string meant = boundary_meant(value.text); !meant.empty())
+        throw Error("unknown {} '{}'; {}. Allowed: {}", key, shortened(value.text), meant,
+                    fmt::join(parameter.choices, ", "));
     const std::string name = read_name(key, value, parameter.choices);
     return {name, name};
   }
@@ -122,12 +140,24 @@ std::vector<T> gathered(const std::vector<ParameterValue>& values) {
 
 }  // namespace
 
-FormulaContext formula_context(const ProblemEntry& problem, FormulaContext::Kind kind) {
+FormulaContext formula_context(const RunSpec& spec, FormulaContext::Kind kind) {
+  const ProblemEntry& problem = problem_entry(spec);
   const bool is_custom = problem.name == custom_name;
-  const bool has_grid = std::any_of(problem.parameters.begin(), problem.parameters.end(),
-                                    [](const Parameter& parameter) { return parameter.name == "length"; });
-  constexpr Index most_axes = 3;  // how many there are is known with the grid
-  return {kind, problem.fields, is_custom && !has_grid ? 0 : most_axes, is_custom};
+  FormulaContext context{kind, problem.fields, is_custom ? 0 : 3, is_custom};
+  for (const Parameter& p : problem.parameters)
+    if (p.name == "length")
+      context.axes = !p.per_axis ? 1
+                                 : static_cast<Index>(std::max(spec.parameters.reals("length").size(),
+                                                               spec.parameters.integers("points").size()));
+  return context;
+}
+
+void renew_rates(RunSpec& spec) {
+  for (const Parameter& parameter : problem_entry(spec).parameters) {
+    if (parameter.kind != ParameterKind::rate) continue;
+    const std::string text = spec.parameter_texts.at(parameter.name);
+    if (!is_toml_number(text)) set_parameter(spec, parameter, default_value(text));
+  }
 }
 
 SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text, const FormulaConstants& constants,
@@ -176,7 +206,8 @@ void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& v
     return;
   }
   if (parameter.kind == ParameterKind::rate) {
-    spec.parameters.set(parameter.name, read_rate(parameter, value, {spec.t_start, spec.duration()}));
+    spec.parameters.set(parameter.name,
+                        read_rate(parameter, value, formula_constants(spec), {spec.t_start, spec.duration()}));
     spec.parameter_texts[parameter.name] = is_toml_number(value.text) ? toml_real(read_number(key, value)) : value.text;
     return;
   }
@@ -206,8 +237,9 @@ void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& v
   spec.parameter_texts[parameter.name] = is_list ? fmt::format("[{}]", fmt::join(texts, ", ")) : texts.front();
 }
 
-InitialData read_initial(std::string_view key, const CaseValue& value, const ProblemEntry& problem,
+InitialData read_initial(std::string_view key, const CaseValue& value, const RunSpec& spec,
                          const std::filesystem::path& folder) {
+  const ProblemEntry& problem = problem_entry(spec);
   if (value.kind == CaseValue::Kind::text) {
     try {
       return PresetData{read_name(key, value, problem.presets)};
@@ -228,9 +260,13 @@ InitialData read_initial(std::string_view key, const CaseValue& value, const Pro
 
   const auto file =
       std::find_if(value.entries.begin(), value.entries.end(), [](const auto& e) { return e.first == "file"; });
-  if (file == value.entries.end()) return read_formulas(key, value, problem);
+  if (file == value.entries.end()) return read_formulas(key, value, spec);
   if (value.entries.size() > 1) throw Error("{} is either a file or formulas, not both", key);
-  return FileData{find_file("initial", read_text(fmt::format("{}.file", key), file->second), folder)};
+  return read_initial_file_name(fmt::format("{}.file", key), file->second, folder);
+}
+
+FileData read_initial_file_name(const std::string& key, const CaseValue& name, const std::filesystem::path& folder) {
+  return {find_file("initial", read_text(key, name), folder)};
 }
 
 }  // namespace seiche

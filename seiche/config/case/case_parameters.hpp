@@ -13,8 +13,8 @@
 
 namespace seiche {
 
-// Needs spec.t_start and t_end: a rate must be finite, and within its bounds, between them. A relative file name starts
-// at `folder`, or else at the current one.
+// A rate needs spec.t_start and t_end, between which it must be finite and within its bounds, and the other parameters,
+// which its formula may name. A relative file name starts at `folder`, or else at the current one.
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
                    const std::filesystem::path& folder = {});
 
@@ -30,12 +30,18 @@ SpaceRatePointer compile_space_rate(const std::string& key, const std::string& t
 DampingRate compile_damping_rate(const std::string& key, const std::string& text,
                                  const FormulaConstants& constants = {});
 
-// What formulas of [problem] are told about names that they do not know.
-FormulaContext formula_context(const ProblemEntry& problem, FormulaContext::Kind kind);
+// Once more all rates that are formulas: after other parameters have changed, which these may name.
+void renew_rates(RunSpec& spec);
+
+// What formulas of [problem] are told about names that they do not know. Needs the parameters.
+FormulaContext formula_context(const RunSpec& spec, FormulaContext::Kind kind);
 
 // A preset, { file = "…" }, or a formula for every field. A relative file name starts at `folder`, or else at the
 // current one.
-InitialData read_initial(std::string_view key, const CaseValue& value, const ProblemEntry& problem,
+InitialData read_initial(std::string_view key, const CaseValue& value, const RunSpec& spec,
                          const std::filesystem::path& folder);
+
+// { file = "…" } alone, whose file must exist.
+FileData read_initial_file_name(const std::string& key, const CaseValue& name, const std::filesystem::path& folder);
 
 }  // namespace seiche

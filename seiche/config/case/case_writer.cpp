@@ -69,6 +69,22 @@ std::string line(const std::string& key, const std::string& value, const std::st
   return fmt::format("{:<34}# {}\n", fmt::format("{} = {}", key, value), comment);
 }
 
+// As comments: with it a case is many runs.
+std::string example_ensemble(const ProblemEntry& entry) {
+  std::string text =
+      "\n# [ensemble]                      # many runs at once, which leave statistics instead of a solution\n";
+  text += line("# members", "64", "how many; as many as there are files, if not given");
+  text += line("# seed", "1", "of all random numbers");
+  text += line("# perturb_initial", "1e-3", "standard deviation of what is added to every initial value");
+  for (const Parameter& parameter : entry.parameters)
+    if (may_vary(parameter)) {
+      text += line("# " + parameter.name, "{ from = 0.1, to = 0.2 }",
+                   "any number of [problem]; or { uniform = [0.1, 0.2] }, { normal = [0.1, 0.01] }");
+      break;
+    }
+  return text + line("# initial", "{ files = [\"a.txt\", \"b.txt\"] }", "a state for each member");
+}
+
 // [method] and what follows it.
 std::string example_sections(const ProblemEntry& entry) {
   std::string text;
@@ -113,7 +129,7 @@ std::string example_sections(const ProblemEntry& entry) {
   text += line("every_seconds", "600", "from which `seiche resume` goes on; 0: when a signal asks for one");
   text += line("every_steps", "0", "steps; 0: by the clock alone");
   text += line("keep", "2", "files: 2, the newest and the one before it, or 1");
-  return text;
+  return text + example_ensemble(entry);
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ void check_formula_in_time(const std::string& key, const std::string& text, cons
 
 }  // namespace
 
-FrictionSpec read_friction(const std::string& key, const CaseValue& value, const ProblemEntry& problem,
+FrictionSpec read_friction(const std::string& key, const CaseValue& value, const FormulaContext& context,
                            const FormulaConstants& constants) {
   if (value.kind != CaseValue::Kind::table)
     throw Error("{} = {} must be a table such as {{ kind = \"quadratic\", coefficient = 0.1 }}, with kind one of {}",
@@ -142,7 +142,6 @@ FrictionSpec read_friction(const std::string& key, const CaseValue& value, const
   const CaseValue* given_kind = entry("kind");
   if (given_kind == nullptr)
     throw Error("{} has no kind; write kind = \"…\" with one of {}", key, fmt::join(kind_names(), ", "));
-  const FormulaContext context = formula_context(problem, FormulaContext::Kind::friction);
   FrictionSpec spec{.kind = read_name(key + ".kind", *given_kind, kind_names()), .texts = {}};
   const FrictionKind& kind = find_kind(spec.kind);
   std::vector<std::string> allowed = {"kind"};
@@ -167,12 +166,12 @@ FrictionSpec read_friction(const std::string& key, const CaseValue& value, const
       if (given->kind != CaseValue::Kind::text && given->kind != CaseValue::Kind::number)
         throw Error("{} = {} must be a formula in quotes, or a number", name, given->shown());
       try {
-        check_friction_names(given->text, problem.fields, constants, context.axes > 0, advice_in(context));
+        check_friction_names(given->text, context.fields, constants, context.axes > 0, advice_in(context));
       } catch (const Error& error) {
         throw Error("{}: {}", name, error.what());
       }
       if (k.name == "coefficient" &&
-          names_one_of(in_velocity_and_coordinate(given->text, problem.fields, 1), {"v"}, constants))
+          names_one_of(in_velocity_and_coordinate(given->text, context.fields, 1), {"v"}, constants))
         throw Error("{} = {} must not name v: it stands before v already; for other laws write kind = \"formula\"",
                     name, given->shown());
       spec.texts[k.name] = given->text;
@@ -182,9 +181,8 @@ FrictionSpec read_friction(const std::string& key, const CaseValue& value, const
 }
 
 std::map<std::string, std::string> read_forces(const std::string& key, const CaseValue& value,
-                                               const ProblemEntry& problem, const FormulaConstants& constants) {
+                                               const FormulaContext& context, const FormulaConstants& constants) {
   std::map<std::string, std::string> forces;
-  const FormulaContext context = formula_context(problem, FormulaContext::Kind::force);
   const NameAdvice advice = advice_in(context);
   const auto add = [&](const std::string& name, const std::string& field, const CaseValue& formula) {
     if (formula.kind != CaseValue::Kind::text && formula.kind != CaseValue::Kind::number)
@@ -201,8 +199,8 @@ std::map<std::string, std::string> read_forces(const std::string& key, const Cas
     return forces;
   }
   for (const auto& [field, formula] : value.entries) {
-    if (std::find(problem.fields.begin(), problem.fields.end(), field) == problem.fields.end())
-      throw unknown_name("field in " + key, field, problem.fields);
+    if (std::find(context.fields.begin(), context.fields.end(), field) == context.fields.end())
+      throw unknown_name("field in " + key, field, context.fields);
     add(fmt::format("{}.{}", key, field), field, formula);
   }
   return forces;
@@ -226,7 +224,12 @@ void add_drives(const DriveSpec& spec, Problem& problem, const FormulaConstants&
     const auto at = field.empty() ? static_cast<std::size_t>(obvious_field(problem))
                                   : static_cast<std::size_t>(found - problem.fields.begin());
     const std::string key = field.empty() ? "problem.force" : "problem.force." + field;
-    problem.forces[at] = compile_space_rate(key, text, constants)->on(problem.grid);
+    const SpaceRatePointer force = compile_space_rate(key, text, constants);
+    try {
+      problem.forces[at] = force->on(problem.grid);
+    } catch (const Error& error) {
+      throw Error("{}: {}", key, error.what());
+    }
   }
 }
 

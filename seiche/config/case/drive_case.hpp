@@ -3,6 +3,7 @@
 
 #include <seiche/config/case/case_value.hpp>
 #include <seiche/core/problem.hpp>
+#include <seiche/core/text/name_advice.hpp>
 #include <seiche/formula/formula_parser.hpp>
 #include <seiche/problem/problems.hpp>
 
@@ -25,13 +26,14 @@ struct DriveSpec {
   bool operator==(const DriveSpec&) const = default;
 };
 
-// { kind = "…", … }. Formulas may name `constants`, and the fields of `problem` where these are one coordinate and its
-// momentum. Throws Error with a sentence that names the key, the value and what is allowed.
-FrictionSpec read_friction(const std::string& key, const CaseValue& value, const ProblemEntry& problem,
+// { kind = "…", … }. Formulas may name `constants`, and the fields of the problem where these are one coordinate and
+// its momentum; `context` is for what is said of other names. Throws Error with a sentence that names the key, the
+// value and what is allowed.
+FrictionSpec read_friction(const std::string& key, const CaseValue& value, const FormulaContext& context,
                            const FormulaConstants& constants);
 // A formula or number, or one for each of some fields.
 std::map<std::string, std::string> read_forces(const std::string& key, const CaseValue& value,
-                                               const ProblemEntry& problem, const FormulaConstants& constants);
+                                               const FormulaContext& context, const FormulaConstants& constants);
 
 // Adds them to a problem. Throws Error where the problem has no velocities, or a formula names an axis that is not
 // there.

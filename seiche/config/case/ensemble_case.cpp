@@ -11,10 +11,6 @@ namespace {
 
 constexpr std::int64_t most_members = 10'000'000;
 
-bool may_vary(const Parameter& p) {
-  return (p.kind == ParameterKind::real || p.kind == ParameterKind::rate) && !p.per_axis;
-}
-
 const CaseValue& entry_of(const std::string& key, const CaseValue& table, const std::string& name) {
   for (const auto& [entry, value] : table.entries)
     if (entry == name) return value;
@@ -64,21 +60,22 @@ void require_bounds(const std::string& key, const Parameter& parameter, const Pa
 }
 
 std::vector<std::filesystem::path> read_files(const std::string& key, const CaseValue& value,
-                                              const ProblemEntry& problem, const std::filesystem::path& folder) {
+                                              const std::filesystem::path& folder) {
   const bool has_files = value.kind == CaseValue::Kind::table && value.entries.size() == 1 &&
                          value.entries[0].first == "files" && value.entries[0].second.kind == CaseValue::Kind::list &&
                          !value.entries[0].second.entries.empty();
   if (!has_files) throw Error("{} = {} must be {{ files = [\"a.txt\", \"b.txt\", …] }}", key, value.shown());
   std::vector<std::filesystem::path> files;
-  for (const auto& [name, file] : value.entries[0].second.entries) {
-    CaseValue one = value;  // as [problem] has it, for one state
-    one.entries = {{"file", file}};
-    files.push_back(std::get<FileData>(read_initial(key, one, problem, folder)).file);
-  }
+  for (const auto& [name, file] : value.entries[0].second.entries)
+    files.push_back(read_initial_file_name(key + ".file", file, folder).file);
   return files;
 }
 
 }  // namespace
+
+bool may_vary(const Parameter& p) {
+  return (p.kind == ParameterKind::real || p.kind == ParameterKind::rate) && !p.per_axis;
+}
 
 std::vector<std::string> ensemble_keys(const ProblemEntry* problem) {
   std::vector<std::string> keys = {"members", "seed", "initial", "perturb_initial"};
@@ -97,7 +94,7 @@ void read_ensemble_key(EnsembleSpec& ensemble, const std::string& name, const Ca
   } else if (name == "seed") {
     ensemble.seed = static_cast<std::uint64_t>(read_whole(key, value, 0));
   } else if (name == "initial") {
-    ensemble.files = read_files(key, value, problem, folder);
+    ensemble.files = read_files(key, value, folder);
   } else if (name == "perturb_initial") {
     ensemble.perturb_initial = read_number(key, value);
     if (ensemble.perturb_initial < 0) throw Error("{} = {} must be ≥ 0", key, value.shown());

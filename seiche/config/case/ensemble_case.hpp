@@ -32,6 +32,9 @@ struct EnsembleSpec {
   bool operator==(const EnsembleSpec&) const = default;
 };
 
+// Is it one number, which [ensemble] may give every member anew?
+bool may_vary(const Parameter& parameter);
+
 // The keys of [ensemble]: its own, and the parameters of the problem that are one number.
 std::vector<std::string> ensemble_keys(const ProblemEntry* problem);
 

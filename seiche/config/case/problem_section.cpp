@@ -22,17 +22,15 @@ class ProblemSection {
 
   void read() {
     const bool can_be_read = compare_matrices();
-    for (const Parameter& parameter : r_.problem->parameters) {
-      if (parameter.kind == ParameterKind::matrix && !can_be_read) continue;
-      const bool given = r_.on("problem", parameter.name, [&](const std::string&, const CaseValue& value) {
-        set_parameter(spec_, parameter, value, r_.folder);
-      });
-      if (!given) set_parameter(spec_, parameter, default_value(parameter.default_value));
-    }
+    for (const bool rates : {false, true})  // which may name the others
+      for (const Parameter& parameter : r_.problem->parameters)
+        if ((parameter.kind == ParameterKind::rate) == rates &&
+            (parameter.kind != ParameterKind::matrix || can_be_read))
+          read(parameter);
     note_short_lists();
     spec_.initial = PresetData{r_.problem->presets.front()};
     r_.on("problem", "initial", [&](const std::string& key, const CaseValue& value) {
-      spec_.initial = read_initial(key, value, *r_.problem, r_.folder);
+      spec_.initial = read_initial(key, value, spec_, r_.folder);
     });
     try_custom();  // what the problem lacks comes before how it starts
     if (spec_.custom && !r_.gives("problem", "initial"))
@@ -45,15 +43,26 @@ class ProblemSection {
     } catch (const Error&) {  // one of them has a complaint of its own
     }
     r_.on("problem", "friction", [&](const std::string& key, const CaseValue& value) {
-      spec_.drives.friction = read_friction(key, value, *r_.problem, constants);
+      spec_.drives.friction =
+          read_friction(key, value, formula_context(spec_, FormulaContext::Kind::friction), constants);
     });
     r_.on("problem", "force", [&](const std::string& key, const CaseValue& value) {
-      spec_.drives.forces = read_forces(key, value, *r_.problem, constants);
+      spec_.drives.forces = read_forces(key, value, formula_context(spec_, FormulaContext::Kind::force), constants);
     });
     note_unused_parameters();
   }
 
  private:
+  void read(const Parameter& parameter) {
+    bool is_set = false;
+    r_.on("problem", parameter.name, [&](const std::string&, const CaseValue& value) {
+      set_parameter(spec_, parameter, value, r_.folder);
+      is_set = true;
+    });
+    // Also after a complaint: what is read next may name it.
+    if (!is_set) set_parameter(spec_, parameter, default_value(parameter.default_value));
+  }
+
   // Before any of them takes memory: matrices of one system are square and of one size, and hardly a row is empty.
   bool compare_matrices() {
     const std::size_t complaints = r_.complaints.size();

@@ -2,6 +2,7 @@
 #include <seiche/config/data/initial_file.hpp>
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/problem/problems.hpp>
@@ -51,17 +52,21 @@ void require_utf8(const RunSpec& spec) {
   for (const auto& [name, text] : spec.parameter_texts) require("file in problem." + name, text);
 }
 
-// Where the value of the key stands that a complaint begins with: what was given after --set is not in the file.
+bool begins_with_key(std::string_view complaint, std::string_view key) {
+  return complaint.starts_with(key) && complaint.find_first_of(" :.,", key.size()) == key.size();
+}
+
+// Where the value of the key stands that a complaint begins with, after --set or in the file; else the file.
 std::string blamed(const RunSpec& spec, std::string_view complaint) {
-  const auto given = std::find_if(spec.overrides.rbegin(), spec.overrides.rend(), [&](const std::string& text) {
-    const std::size_t end = text.find('=');
-    std::string key = text.substr(0, text.find_last_not_of(" \t", end - 1) + 1);
-    key =
-        key.substr(0, key.find('.', key.find('.') + 1));  // what is inside a table is complained about as the table is
-    return complaint.starts_with(key) && complaint.find_first_of(" :.,", key.size()) == key.size();
-  });
   constexpr std::size_t longest = 80;
-  return given == spec.overrides.rend() ? shortened_path(spec.source, longest) : "--set " + shortened(*given, longest);
+  for (auto text = spec.overrides.rbegin(); text != spec.overrides.rend(); ++text) {
+    const std::string key = text->substr(0, text->find_last_not_of(" \t", text->find('=') - 1) + 1);
+    const std::size_t inside = key.find('.', key.find('.') + 1);  // a table, which is complained about as a whole
+    if (begins_with_key(complaint, key.substr(0, inside))) return "--set " + shortened(*text, longest);
+  }
+  for (const auto& [key, place] : spec.places)
+    if (begins_with_key(complaint, key)) return place;
+  return shortened_path(spec.source, longest);
 }
 
 }  // namespace
@@ -70,13 +75,20 @@ const ProblemEntry& problem_entry(const RunSpec& spec) { return spec.entry ? *sp
 
 FormulaConstants formula_constants(const RunSpec& spec) {
   FormulaConstants constants;
-  const ParameterValues& values = spec.parameters;
+  std::vector<double> lengths, intervals;  // along the axes, where there are any
   for (const Parameter& p : problem_entry(spec).parameters) {
-    if (p.kind == ParameterKind::real)
-      constants[p.name] = p.per_axis ? values.reals(p.name).front() : values.real(p.name);
-    if (p.kind == ParameterKind::integer)
-      constants[p.name] = static_cast<double>(p.per_axis ? values.integers(p.name).front() : values.integer(p.name));
+    if (p.kind != ParameterKind::real && p.kind != ParameterKind::integer) continue;
+    const std::vector<double> numbers = spec.parameters.numbers(p);
+    constants[p.name] = numbers.front();
+    if (p.name == "length") lengths = numbers;
+    if (p.name == "points") intervals = numbers;
   }
+  if (lengths.empty() || intervals.empty()) return constants;
+  const auto of_axis = [](const std::vector<double>& list, std::size_t a) {
+    return list[std::min(a, list.size() - 1)];
+  };
+  for (std::size_t a = 0; a < std::max(lengths.size(), intervals.size()); ++a)
+    constants[spacing_names[a]] = of_axis(lengths, a) / of_axis(intervals, a);
   return constants;
 }
 

@@ -42,8 +42,9 @@ struct CheckpointSpec {
 };
 
 struct RunSpec {
-  std::string source;                  // how errors call the case: its file name
-  std::vector<std::string> overrides;  // and what --set gave beside it, "section.key=value"
+  std::string source;                         // how errors call the case: its file name
+  std::vector<std::string> overrides;         // and what --set gave beside it, "section.key=value"
+  std::map<std::string, std::string> places;  // of its keys: "problem.gamma" → "case.toml:3:9"
 
   std::string problem;
   std::optional<CustomProblem> custom;                 // of the problem "custom"
@@ -83,7 +84,8 @@ struct RunSpec {
 // Of the list, or of the custom problem.
 const ProblemEntry& problem_entry(const RunSpec& spec);
 
-// The parameters that formulas may name: real and whole ones; of a parameter per axis, that of the first.
+// What formulas may name beside the place and the time: parameters that are real or whole (of one per axis, that of the
+// first), and on a grid dx, dy, dz.
 FormulaConstants formula_constants(const RunSpec& spec);
 
 // Throws Error where the parameters do not fit together, or the initial data do not fit the state.

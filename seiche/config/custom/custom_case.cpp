@@ -59,7 +59,9 @@ FormulaTable read_table(const std::string& key, const CaseValue& value, const st
       for (std::size_t i = 0; i < value.entries.size(); ++i) {
         const CaseValue& row = value.entries[i].second;
         if (row.kind != CaseValue::Kind::list)
-          throw Error("{} = {} must be a list of {} rows, each a list of {} entries", key, value.shown(), n, n);
+          throw Error(
+              "{} is a list of numbers, and must be one of {} rows with {} entries each, or name the diagonal: {{ {} = … }}",
+              key, n, n, fields.back());
         table.emplace_back();
         for (std::size_t j = 0; j < row.entries.size(); ++j)
           table.back().push_back(
@@ -166,7 +168,7 @@ void try_formulas(const CustomProblem& custom, const ParameterValues& values) {
   if (small.grid) {
     constexpr Index points = 8;
     GridOptions& grid = small.grid.emplace(grid_options(values));
-    grid.points.assign(std::max({grid.points.size(), grid.length.size(), grid.boundary.size()}), points);
+    grid.points.assign(std::max(grid.points.size(), grid.length.size()), points);
     grid.two_thirds = false;
   }
   custom_problem(small);

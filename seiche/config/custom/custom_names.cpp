@@ -34,7 +34,10 @@ std::vector<std::string> field_names(const CustomProblem& custom) {
   }
   const auto take = [&](const char* key, const char* kind, const std::string& name) {
     if (!is_name(name))
-      throw Error("problem.{}: '{}' is no name: letters, digits and _, a letter first", key, shortened(name));
+      throw Error("problem.{}: '{}' is no name: letters, digits and _, a letter first{}", key, shortened(name),
+                  name.find(',') != std::string::npos ? "; several names are a list, as in [\"u\", \"v\"]" : "");
+    if (std::string_view(kind) == "parameter" && std::find(names.begin(), names.end(), name) != names.end())
+      throw Error("problem.{}: {} is a field: give the parameter another name", key, shortened(name));
     if (std::find(taken.begin(), taken.end(), name) != taken.end())
       throw Error("problem.{}: the name {} stands for something else in formulas", key, shortened(name));
     if (std::find(derived.begin(), derived.end(), name) != derived.end())

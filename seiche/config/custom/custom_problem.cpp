@@ -6,6 +6,7 @@
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
+#include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/law/operator_findings.hpp>
 #include <seiche/potential/sum.hpp>
@@ -41,7 +42,7 @@ class Builder {
     } else {
       p_.grid = points_without_place(1);
     }
-    constants_.insert(custom.parameters.begin(), custom.parameters.end());
+    for (const auto& [name, value] : custom.parameters) constants_[name] = value;
   }
 
   Problem build() {
@@ -67,9 +68,9 @@ class Builder {
   Discretisation discretisation() const { return custom_.grid ? custom_.grid->discretisation : Discretisation::fd2; }
 
   FormulaConstants grid_constants() const {
-    FormulaConstants constants;
-    constexpr std::array names = {"dx", "dy", "dz"};
-    for (Index a = 0; a < axes_; ++a) constants[names[static_cast<std::size_t>(a)]] = p_.grid.axis(a).dx();
+    const GridAxis& first = p_.grid.axis(0);
+    FormulaConstants constants = {{"length", first.length}, {"points", static_cast<double>(first.intervals)}};
+    for (Index a = 0; a < axes_; ++a) constants[spacing_names[static_cast<std::size_t>(a)]] = p_.grid.axis(a).dx();
     return constants;
   }
 

@@ -38,7 +38,12 @@ Vector initial_from_formulas(const std::map<std::string, std::string>& formulas,
   for (const std::string& field : problem.fields) {
     const auto text = formulas.find(field);
     if (text == formulas.end()) throw Error("problem.initial has no formula for the field {}", field);
-    const FormulaPointer formula = compile_formula(text->second, variables, constants);
+    FormulaPointer formula;
+    try {
+      formula = compile_formula(text->second, variables, constants);
+    } catch (const Error& error) {
+      throw Error("problem.initial.{}: {}", field, error.what());
+    }
     for (Index i = 0; i < problem.grid.unknowns(); ++i) {
       for (Index a = 0; a < dimension; ++a) arguments[static_cast<std::size_t>(a)] = problem.grid.coordinate(i, a);
       arguments[static_cast<std::size_t>(dimension)] = static_cast<double>(i + 1);

@@ -1,6 +1,6 @@
 #include <seiche/core/text/name_advice.hpp>
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +17,8 @@ bool is_one_of(const std::array<std::string_view, N>& names, std::string_view na
 
 constexpr std::array<std::string_view, 3> places = {"x", "y", "z"};
 constexpr std::array<std::string_view, 4> wave_numbers = {"k", "k_x", "k_y", "k_z"};
+constexpr std::array<std::string_view, 10> derivations = {"diff", "Diff", "Derivative", "grad",    "gradient",
+                                                          "div",  "curl", "del",        "laplace", "nabla"};
 constexpr std::array<std::string_view, 4> operators = {"d_x", "d_y", "d_z", "laplacian"};
 
 class Advisor {
@@ -27,29 +29,50 @@ class Advisor {
     for (const std::string& field : c_.fields) {
       if (name == field) return of_field(field);
       if (is_derivative_of(field, name)) return of_derivative(name);
+      if (is_time_derivative_of(field, name)) return of_velocity(name);
     }
+    if (is_one_of(derivations, name)) return of_derivative(c_.fields.empty() ? "u_x" : c_.fields.front() + "_x");
     if (name == "t") return of_time();
     if (is_one_of(places, name)) return of_place(name);
     if (is_one_of(wave_numbers, name)) return of_wave_number(name) + or_parameter(name);
     if (is_one_of(operators, name)) return of_operator(name);
-    if (name == "j" && c_.kind != Kind::initial) return "j, the number of a point, stands in initial only";
+    if (name == "j" && c_.kind != Kind::initial)
+      return fmt::format("j, the number of a point, stands in initial only{}",
+                         c_.axes > 0 ? "; along a line it is x/dx, and x/dx + 1/2 where boundary = \"neumann\"" : "");
     return "";
   }
 
   std::string of_unknown(std::string_view name) const {
-    return c_.takes_parameters
-               ? fmt::format("it is no parameter; for a number of your own write problem.parameters = {{ {} = … }}",
-                             name)
-               : "";
+    if (!c_.takes_parameters) return "";
+    const std::string what = c_.kind == Kind::energy
+                                 ? fmt::format("it is neither a field ({}) nor a parameter", fmt::join(c_.fields, ", "))
+                                 : "it is no parameter";
+    return fmt::format("{}; for a number of your own write problem.parameters = {{ {} = … }}", what, name);
   }
 
  private:
-  // u_x, u_xx, du
+  // u_x, u_xx, ux, uxx, du
   static bool is_derivative_of(std::string_view field, std::string_view name) {
-    if (name.size() == field.size() + 1) return name.front() == 'd' && name.substr(1) == field;
-    if (!name.starts_with(field) || name.size() <= field.size() + 1 || name[field.size()] != '_') return false;
-    const std::string_view axes = name.substr(field.size() + 1);
-    return std::all_of(axes.begin(), axes.end(), [](char c) { return c >= 'x' && c <= 'z'; });
+    if (name.front() == 'd' && name.substr(1) == field) return true;
+    const std::string_view axes = behind(field, name);
+    return !axes.empty() && std::all_of(axes.begin(), axes.end(), [](char c) { return c >= 'x' && c <= 'z'; });
+  }
+  // u_t, u_tt, ut
+  static bool is_time_derivative_of(std::string_view field, std::string_view name) {
+    const std::string_view letters = behind(field, name);
+    return letters == "t" || letters == "tt";
+  }
+  // xx of u_xx and of uxx
+  static std::string_view behind(std::string_view field, std::string_view name) {
+    if (!name.starts_with(field)) return "";
+    name.remove_prefix(field.size());
+    if (name.starts_with('_')) name.remove_prefix(1);
+    return name;
+  }
+
+  std::string of_velocity(std::string_view name) const {
+    return fmt::format("{} is a velocity, which is a field of its own, and the fields are {}", name,
+                       fmt::join(c_.fields, ", "));
   }
 
   std::string of_field(std::string_view field) const {
@@ -81,8 +104,10 @@ class Advisor {
     if (c_.axes == 0) return needs_grid(name);
     switch (c_.kind) {
       case Kind::energy:
-        return fmt::format("u_x and u_xx, u_y, … are there for the axes of the grid, which has {}, and du on a line",
-                           c_.axes);
+        return fmt::format(
+            "derivatives of a field u are written u_x and u_xx, u_y, … for the axes of the grid, which has {}, and du "
+            "is the difference to the next point on a line",
+            c_.axes);
       case Kind::constant_entry:
       case Kind::damping_entry: return "derivatives are written as operators here: d_x, d_x^2, laplacian";
       default: return "derivatives of fields stand in H only";

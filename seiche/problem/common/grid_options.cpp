@@ -37,12 +37,14 @@ void require_memory(const Grid& grid) {
 
 Grid make_grid(const GridOptions& options) {
   constexpr std::size_t most_axes = 3;
-  const std::size_t axes = std::max({options.points.size(), options.length.size(), options.boundary.size()});
+  const std::size_t axes = std::max(options.points.size(), options.length.size());
   const auto fits = [axes](std::size_t size) { return size == 1 || size == axes; };
   if (axes > most_axes || !fits(options.points.size()) || !fits(options.length.size()) ||
       !fits(options.boundary.size())) {
-    throw Error("points has {} entries, length {} and boundary {}: each needs one, or one for each of at most {} axes",
-                options.points.size(), options.length.size(), options.boundary.size(), most_axes);
+    throw Error(
+        "points has {} entries, length {} and boundary {}: points and length say how many axes there are, at most {}, and each "
+        "list needs one entry, or one for each axis",
+        options.points.size(), options.length.size(), options.boundary.size(), most_axes);
   }
   Grid grid;
   grid.axes.clear();

@@ -17,7 +17,7 @@ namespace seiche {
 inline constexpr Index most_intervals = Index{1} << 26;
 
 struct GridOptions {
-  std::vector<Index> points = {20};  // its longest list, and those below, give the number of axes
+  std::vector<Index> points = {20};  // the longer of this list and the next gives the number of axes
   std::vector<double> length = {1.0};
   std::vector<Boundary> boundary = {Boundary::periodic};
   Discretisation discretisation = Discretisation::fd2;

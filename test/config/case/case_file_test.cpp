@@ -49,6 +49,52 @@ TEST(CaseFile, MissingKeysTakeTheirDefaults) {
   }
 }
 
+TEST(CaseFile, FormulasNameTheSpacingOfTheGrid) {
+  for (const ProblemEntry& entry : problems()) {
+    const RunSpec spec = parse_case("[problem]\nname = \"" + entry.name + "\"\n", "x.toml");
+    const FormulaConstants constants = formula_constants(spec);
+    if (!constants.contains("length")) continue;
+    const Grid grid = make_problem(spec).grid;
+    EXPECT_EQ(constants.at("dx"), grid.axis(0).dx()) << entry.name;
+    EXPECT_EQ(constants.at("points"), grid.axis(0).intervals) << entry.name;
+    EXPECT_EQ(constants.at("length"), grid.axis(0).length) << entry.name;
+  }
+}
+
+TEST(CaseFile, WhatIsFoundWhileTheProblemIsMadeIsSaidAtItsKey) {
+  const auto made = [](const std::string& lines) {
+    return error_of(
+        [&] { make_problem(parse_case("[problem]\nname = \"klein_gordon\"\npoints = 8\n" + lines, "x.toml")); });
+  };
+  EXPECT_THAT(made("gamma = \"1/(x-0.25*length)\""),
+              StartsWith("x.toml:4:9: problem.gamma = inf must be a finite number"));
+  EXPECT_THAT(made("initial = { u = \"y\", v = 0 }"),
+              AllOf(StartsWith("x.toml:4:11: problem.initial.u: "), HasSubstr("the grid has 1 axis")));
+  EXPECT_THAT(made("initial = { u = \"1/(x-0.25*length)\", v = 0 }"),
+              StartsWith("x.toml:4:11: problem.initial: u = 1/(x-0.25*length) is inf at x = "));
+  EXPECT_THAT(made("force = { v = \"y\" }"), StartsWith("x.toml:4:9: problem.force.v"));
+}
+
+TEST(CaseFile, TheNumberOfAxesIsThatOfPointsOrLength) {
+  const auto made = [](const std::string& lines) {
+    return error_of([&] { make_problem(parse_case("[problem]\nname = \"klein_gordon\"\n" + lines, "x.toml")); });
+  };
+  EXPECT_THAT(made("points = 8\nboundary = [\"periodic\", \"periodic\"]"),
+              HasSubstr(
+                  "points has 1 entries, length 1 and boundary 2: points and length say how many axes there are"));
+  EXPECT_EQ(made("points = [8, 8]\nboundary = [\"periodic\", \"dirichlet\"]"), "");
+  EXPECT_EQ(made("length = [2.0, 1.0]\npoints = 8\nboundary = \"dirichlet\""), "");
+}
+
+TEST(CaseFile, OtherWordsForTheEndsAreUnderstood) {
+  const auto said = [](const std::string& word) { return complaint_of_override("problem.boundary=" + word); };
+  EXPECT_THAT(said("absorbing"), HasSubstr("waves are absorbed by damping that grows towards the ends"));
+  EXPECT_THAT(said("fixed"), HasSubstr("did you mean 'dirichlet'?"));
+  EXPECT_THAT(said("free"), HasSubstr("did you mean 'neumann'?"));
+  EXPECT_THAT(said("ring"), HasSubstr("did you mean 'periodic'?"));
+  EXPECT_THAT(said("periodc"), AllOf(HasSubstr("did you mean 'periodic'?"), HasSubstr("Allowed: periodic, dirichlet")));
+}
+
 TEST(CaseFile, EveryKeyIsRead) {
   const RunSpec spec = parse_case(R"toml([problem]
 name = "klein_gordon"

@@ -67,7 +67,7 @@ TEST(CaseFile, FormulasOfTheInitialDataAreChecked) {
   EXPECT_THAT(complaint(minimal + "initial = { u = \"0\", v = true }\n"), HasSubstr("must be a formula in quotes"));
   const RunSpec pole = parse_case(minimal + "initial = { u = \"1/(x - 1)\", v = \"0\" }\n", "x.toml");
   EXPECT_THAT(error_of([&] { make_problem(pole); }),
-              AllOf(StartsWith("x.toml: "), HasSubstr("u = 1/(x - 1) is inf at x = 1 (j = 10)")));
+              AllOf(StartsWith("x.toml:3:11: problem.initial: "), HasSubstr("u = 1/(x - 1) is inf at x = 1 (j = 10)")));
 }
 
 TEST_F(CaseFolder, AFileGivesTheInitialData) {

@@ -75,6 +75,16 @@ TEST(EnsembleCase, MembersThatWouldNotFitIntoMemoryAreRefusedBeforeTheyAreMade) 
             3 * ensemble_bytes(ensemble_case("members = 100\nperturb_initial = 0.1\n")));
 }
 
+TEST(EnsembleCase, ARateThatNamesAParameterVariesWithIt) {
+  const std::string text =
+      "[problem]\nname = \"klein_gordon\"\npoints = 8\ngamma = \"alpha/10*(1 + sin(t))\"\n"
+      "[ensemble]\nmembers = 3\nalpha = { from = 1.0, to = 3.0 }\n";
+  const Members members = make_members(parse_case(text, "a.toml"));
+  ASSERT_EQ(members.list.size(), 3U);
+  for (std::size_t m = 0; m < 3; ++m)
+    EXPECT_DOUBLE_EQ(members.list[m].problem->damping.rate->value(0), 0.1 * static_cast<double>(m + 1));
+}
+
 TEST(EnsembleCase, NormalSamplesHaveTheirMeanAndDeviation) {
   const Members members = make_members(ensemble_case("members = 2000\nomega_squared = { normal = [3, 0.5] }\n"));
   std::vector<double> values;

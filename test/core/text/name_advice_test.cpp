@@ -71,8 +71,8 @@ TEST(FrictionNames, NamesWithTwoMeaningsAreRefused) {
 
 TEST(NameAdvice, NoLetterIsTakenForAnother) {
   const std::string unknown = said(oscillator, {"problem.H=p^2/2 + c*q^4"});
-  EXPECT_THAT(unknown, AllOf(HasSubstr("unknown name 'c': it is no parameter; for a number of your own write "
-                                       "problem.parameters = { c = … }"),
+  EXPECT_THAT(unknown, AllOf(HasSubstr("unknown name 'c': it is neither a field (q, p) nor a parameter; for a number "
+                                       "of your own write problem.parameters = { c = … }"),
                              HasSubstr("Allowed: q, p, pi"), Not(HasSubstr("did you mean"))));
   EXPECT_THAT(said(oscillator, {"problem.H=p^2/2 + Q^4"}), HasSubstr("did you mean 'q'?"));
   EXPECT_THAT(said(oscillator + "parameters = { kappa = 1 }", {"problem.H=p^2/2 + kapa*q^4"}),
@@ -102,6 +102,30 @@ TEST(NameAdvice, WordsOfTheLanguageSayWhereTheyStand) {
   EXPECT_THAT(said(ring, {"problem.H=v^2/2 + y*u^4"}), HasSubstr("the grid has 1 axis"));
   EXPECT_THAT(said(ring, {"problem.H=v^2/2 + u*laplacian"}), HasSubstr("in an energy write u_x or u_xx"));
   EXPECT_THAT(said(ring, {"problem.D={ v = \"0.1*u_x\" }"}), HasSubstr("d_x, d_x^2, laplacian"));
+}
+
+TEST(NameAdvice, DerivativesAreSpelledOut) {
+  for (const char* other : {"ux", "uxx", "diff(u,x)", "grad(u)", "laplace(u)"})
+    EXPECT_THAT(said(ring, {"problem.H=v^2/2 + " + std::string(other)}),
+                HasSubstr("derivatives of a field u are written u_x and u_xx"))
+        << other;
+  for (const std::string velocity : {"ut", "u_t", "u_tt"})
+    EXPECT_THAT(said(ring, {"problem.H=" + velocity + "^2/2 + u^4/4"}),
+                HasSubstr(velocity + " is a velocity, which is a field of its own, and the fields are u, v"));
+  EXPECT_THAT(said(ring, {"problem.H=v^2/2 + u'^2"}), HasSubstr("the derivative of u along x is u_x"));
+  EXPECT_THAT(said(ring, {"problem.D={ v = \"grad(u)\" }"}), HasSubstr("d_x, d_x^2, laplacian"));
+}
+
+TEST(NameAdvice, LengthPointsAndSpacingAreKnownInEveryFormula) {
+  const std::string all = "x/length + dx/length + 1/points";
+  EXPECT_EQ(said("length = 2.0\npoints = 8\nH = \"v^2/2 + u^4/4*(" + all + ")\"\n" + "D = { v = \"" + all +
+                 "\" }\nforce = { v = \"" + all + "\" }\n" + "friction = { kind = \"formula\", r = \"v*(" + all +
+                 ")\" }\n" + "initial = { u = \"" + all + "\", v = 0 }\n"),
+            "");
+  EXPECT_EQ(error_of([&] {
+              make_problem(parse_case("[problem]\nname = \"klein_gordon\"\ngamma = \"kappa*(" + all + ")\"", "x.toml"));
+            }),
+            "");
 }
 
 TEST(NameAdvice, NeighboursAreReachedByTheDifference) {
