@@ -50,6 +50,16 @@ void print_out_of_memory() noexcept {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
+CLI::Validator whole_number(int least, int most) {
+  return {[=](const std::string& text) {
+            int value = 0;
+            const bool is_one = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return is_one ? std::string()
+                          : fmt::format("'{}' is no whole number from {} to {}", shortened(text), least, most);
+          },
+          ""};
+}
+
 void prepare_process() {
   // Memory may end where nothing may be thrown, as in destructors, or while another sentence is put together.
   static const std::terminate_handler usual = std::get_terminate();

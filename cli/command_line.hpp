@@ -33,6 +33,9 @@ void print_failure(std::string_view text);  // why nothing, or not all, was done
 void print_notes(const std::vector<std::string>& notes);  // each on a line of its own
 void print_lines(std::string_view text);                  // to stderr as it is; never throws
 
+// A check of an option.
+CLI::Validator whole_number(int least, int most);
+
 // To stderr, without memory.
 void print_out_of_memory() noexcept;
 

@@ -152,7 +152,7 @@ void add_converge(CLI::App& app, Action& action) {
   command->add_option("--reference", arguments->reference, reference_help);
   command->add_option("--threads", arguments->threads, "Threads of the error runs; timed runs are alone")
       ->type_name("N")
-      ->check(CLI::Range(1, most_threads));
+      ->check(whole_number(1, most_threads));
   command->add_flag("--json", arguments->json, "One JSON document on stdout");
   command->callback([arguments, &action] { action = [arguments] { return converge_case(*arguments); }; });
 }

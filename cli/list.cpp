@@ -59,6 +59,7 @@ ExitCode print_list(const std::string& name, bool json) {
     print_data(json ? list.json() + "\n" : list.text());
     return success;
   }
+  if (name.empty()) throw Error("say what to list: {}", fmt::join(names, ", "));
   throw unknown_name("list", name, names);
 }
 
@@ -71,7 +72,7 @@ void add_list(CLI::App& app, Action& action) {
   };
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("list", "List methods, problems or backends");
-  command->add_option("WHAT", arguments->name, "methods, problems or backends")->required();
+  command->add_option("WHAT", arguments->name, "methods, problems or backends");
   command->add_flag("--json", arguments->json, "One JSON array on stdout");
   command->callback(
       [arguments, &action] { action = [arguments] { return print_list(arguments->name, arguments->json); }; });

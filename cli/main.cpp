@@ -5,12 +5,14 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <seiche/config/case/case_keys.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/shortened.hpp>
 
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <new>
 #include <system_error>
 
@@ -31,13 +33,35 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-// CLI11 only says that something was unexpected; the nearest name is ours to find.
-Error unexpected(const CLI::App& app) {
+// CLI11 only says that something was unexpected; the nearest name, and what may have been meant, is ours to find.
+Error unexpected(const CLI::App& app, const std::vector<std::string>& arguments) {
   const std::vector<CLI::App*> called = app.get_subcommands();
   const CLI::App& command = called.empty() ? app : *called.front();
   const std::string extra = app.remaining(true).front();
-  if (!extra.starts_with("-")) return Error("unexpected argument '{}'", shortened(extra));
-  return unknown_name("option", extra.substr(0, extra.find('=')), option_names(command));
+  if (extra.starts_with("-")) {
+    const std::string name = extra.substr(0, extra.find('='));
+    const std::string key = full_key(name.substr(std::min(name.find_first_not_of('-'), name.size())));
+    if (!key.empty() && command.get_option_no_throw("--set") != nullptr)
+      return Error("unknown option '{}'; a key of the case is set by --set {}=…", shortened(name), key);
+    return unknown_name("option", name, option_names(command));
+  }
+  const auto at = std::find(arguments.begin(), arguments.end(), extra);
+  const auto option = std::find_if(std::make_reverse_iterator(at), arguments.rend(),
+                                   [](const std::string& argument) { return argument.starts_with("--"); });
+  if (option != arguments.rend() && *option == "--set")
+    return Error("unexpected argument '{}'; key and value are one argument without blanks: --set method.h=1/64",
+                 shortened(extra));
+  if (option != arguments.rend() && (*option == "--methods" || *option == "--h"))
+    return Error("unexpected argument '{}'; the values of {} are joined by commas", shortened(extra), *option);
+  return Error("unexpected argument '{}'", shortened(extra));
+}
+
+// seiche help run is seiche run --help.
+std::vector<std::string> without_help_command(std::vector<std::string> arguments) {
+  if (arguments.empty() || arguments[0] != "help") return arguments;
+  arguments.erase(arguments.begin());
+  arguments.emplace_back("--help");
+  return arguments;
 }
 
 // Is the name itself at fault that the user gave, and not the disk?
@@ -48,9 +72,10 @@ bool leads_nowhere(const std::error_code& code) {
   return false;
 }
 
-ExitCode run_program(const std::vector<std::string>& arguments) {
+ExitCode run_program(const std::vector<std::string>& given) {
+  const std::vector<std::string> arguments = without_help_command(given);
   CLI::App app("Seiche: energy-stable integrators for damped Hamiltonian systems", "seiche");
-  app.set_version_flag("--version", version_text, "Versions of Seiche and its libraries, and the instruction set");
+  app.set_version_flag("-V,--version", version_text, "Versions of Seiche and its libraries, and the instruction set");
   app.require_subcommand(1);
   app.get_formatter()->column_width(36);
   Action action;
@@ -66,6 +91,10 @@ ExitCode run_program(const std::vector<std::string>& arguments) {
   add_list(app, action);
   add_new(app, action);
 
+  if (arguments.empty()) {
+    print_lines(app.help());
+    throw Error("a command is missing, as in seiche run case.toml");
+  }
   // Before parsing, since CLI11 would complain about what is missing instead of what is misspelt.
   const std::vector<std::string> names = subcommand_names(app);
   if (!arguments.empty() && !arguments[0].starts_with("-") &&
@@ -80,7 +109,7 @@ ExitCode run_program(const std::vector<std::string>& arguments) {
     app.exit(asked);
     return success;
   } catch (const CLI::ExtrasError&) {
-    throw unexpected(app);
+    throw unexpected(app, arguments);
   } catch (const CLI::ParseError& error) {
     throw Error("{} (seiche --help lists commands and options)", shortened(error.what(), 300));
   }

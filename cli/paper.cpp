@@ -127,7 +127,7 @@ void add_paper(CLI::App& app, Action& action) {
   command->add_option("--reference", arguments->reference, reference_help);
   command->add_option("--threads", arguments->threads, "Threads of the error runs; timed runs are alone")
       ->type_name("N")
-      ->check(CLI::Range(1, most_threads));
+      ->check(whole_number(1, most_threads));
   command->add_flag("--quick", arguments->quick, "Shorter runs, the same figures and claims");
   command->add_flag("--json", arguments->json, "One JSON document on stdout");
   command->add_flag("--quiet", arguments->quiet, "No progress");

@@ -50,8 +50,8 @@ std::vector<std::string> parsed_fields(const std::string& text, const SolutionRe
     fields.push_back(word);
   }
   if (!fields.empty() && solution.axes().size() != 2)
-    throw Error("--film {}: films are of solutions in the plane, and this one has {} axes", text,
-                solution.axes().size());
+    throw Error("--film {}: films are of solutions in the plane, and this one has {} ax{}", text,
+                solution.axes().size(), solution.axes().size() == 1 ? "is" : "es");
   return fields;
 }
 

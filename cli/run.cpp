@@ -29,6 +29,7 @@ struct RunArguments {
   bool restart = false;
   bool json = false;
   bool quiet = false;
+  bool verbose = false;
 };
 
 struct NewRunArguments : RunArguments {
@@ -54,11 +55,12 @@ RunCaseOptions run_options(const RunArguments& arguments) {
           .restart = arguments.restart,
           .max_hours = arguments.max_hours,
           .save = &save_on_signal(),
-          .begins =
-              [quiet = arguments.quiet](const std::vector<std::string>& notes) {
-                const std::atomic<bool>& stop = stop_on_signal();
-                if (!quiet) print_notes(notes);
-                return &stop;
+          .begins = [](const std::vector<std::string>&) { return &stop_on_signal(); },
+          .introduce =
+              [quiet = arguments.quiet](const std::string& headline, const std::vector<std::string>& notes) {
+                if (quiet) return;
+                print_lines(headline + "\n");
+                print_notes(notes);
               },
           .ends = [] { return &hold_signals(); },
           .warn = [](const std::string& note) { print_note(note); },
@@ -70,7 +72,8 @@ void print(const RunArguments& arguments, const std::string& directory, const Ca
   if (arguments.json) print_data(result.summary);
   if (!arguments.quiet) {
     print_lines(report.full());  // the notes stand above it already
-    if (!result.certificate.theorem.empty())
+    if (arguments.verbose) print_lines(report.work());
+    if (arguments.verbose && !result.certificate.theorem.empty())
       print_lines(fmt::format("{:<10} {}\n", "theorem", result.certificate.theorem));
     print_lines(fmt::format("{:<10} {}\n", "files", directory));
     if (result.xdmf_every > 1)
@@ -158,14 +161,19 @@ void add_options(CLI::App& command, RunArguments& arguments) {
       .add_option("--threads", arguments.threads,
                   "Threads, over a large grid or the members of an ensemble; results do not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(1, most_threads));
+      ->check(whole_number(1, most_threads));
   command
       .add_option("--max-hours", arguments.max_hours,
                   "Write a checkpoint and stop after so much time, as a queue allows")
       ->type_name("H")
       ->check(hours);
   command.add_flag("--json", arguments.json, "Print summary.json on stdout");
-  command.add_flag("--quiet", arguments.quiet, "No progress bar, and a word only when something went wrong");
+  CLI::Option* quiet =
+      command.add_flag("--quiet", arguments.quiet, "No progress bar, and a word only when something went wrong");
+  command
+      .add_flag("--verbose", arguments.verbose,
+                "Also how often V and its gradient were evaluated, and the theorem behind the law")
+      ->excludes(quiet);
 }
 
 }  // namespace
@@ -176,7 +184,7 @@ void add_run(CLI::App& app, Action& action) {
       app.add_subcommand("run", "Run one case; its report goes to stderr, with --json its summary to stdout");
   add_case(*command, arguments->case_argument);
   CLI::Option* out =
-      command->add_option("--out", arguments->directory, "Where the files go, instead of output.directory")
+      command->add_option("-o,--out", arguments->directory, "Where the files go, instead of output.directory")
           ->type_name("DIR");
   add_options(*command, *arguments);
   command->add_flag("--restart", arguments->restart,

@@ -68,7 +68,7 @@ void add_spectrum(CLI::App& app, Action& action) {
       command->add_option("--out", arguments->directory, "Where spectrum.csv and the figures go")->type_name("DIR");
   command->add_option("--threads", arguments->threads, "Threads, over a large grid; results do not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(1, most_threads));
+      ->check(whole_number(1, most_threads));
   command->add_flag("--json", arguments->json, "Print one JSON document on stdout");
   command->callback([arguments, out, &action] {
     arguments->directory_given = out->count() > 0;

@@ -130,12 +130,14 @@ std::string RunReport::full() const {
   const bool stopped = status == Status::failed && law != LawVerdict::not_tested;
   const std::string until = stopped ? fmt::format(" up to t = {:.9g}", t) : "";
   const std::string why = law == LawVerdict::not_promised ? "" : fmt::format(" ({})", law_reason);  // else in `message`
-  text += fmt::format("{:<10} {} for {}{}{}\n", "energy law", to_string(law), of, until, why);
-  text += fmt::format(
+  return text + fmt::format("{:<10} {} for {}{}{}\n", "energy law", to_string(law), of, until, why);
+}
+
+std::string RunReport::work() const {
+  return fmt::format(
       "{:<10} {} gradients, {} potentials, {} scalar iterations, fallbacks: {}, replaced steps: {}, unresolved: {}\n",
       "work", potential_counts.gradients, potential_counts.values, scalar_iterations, fallbacks, replaced.count,
       unresolved);
-  return text;
 }
 
 }  // namespace seiche

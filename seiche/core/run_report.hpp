@@ -91,6 +91,7 @@ struct RunReport {
   std::vector<std::string> remarks() const;  // on steps that were replaced or halved, and on a drift
   std::string brief() const;                 // one line
   std::string full() const;                  // a paragraph for a terminal
+  std::string work() const;                  // how often V was evaluated, and what solvers did: a line below that
 };
 
 std::string counted_steps(std::int64_t count);    // "1 step", "2 steps"

@@ -3,6 +3,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/driver/case_run.hpp>
+#include <seiche/driver/headline.hpp>
 #include <seiche/driver/last_words.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/law/law.hpp>
@@ -183,6 +184,7 @@ void CaseRun::begin(const Problem& problem) {
   hashes_ = hashes_of(spec_, case_text_);
   stop_ = begin_run(options_, notes_);
   folder_ = &own_folder_.emplace(spec_.output_directory, RunKind::run, spec_, options_.restart);
+  if (options_.introduce) options_.introduce(headline(spec_, run_.simulation()), notes_);
   if (spec_.measure_plans) write_file(folder_->folder(), wisdom_name, planning_wisdom());
 }
 
@@ -199,6 +201,7 @@ void CaseRun::go_on() {
       said.push_back(fmt::format("the checkpoint was not written by {}: last bits may differ", version));
   notes_.insert(notes_.end(), said.begin() + 1, said.end());
   stop_ = begin_run(options_, said);
+  if (options_.introduce) options_.introduce(headline(spec_, run_.simulation()), said);
 }
 
 // A case.toml that others have written is kept, and does not count.

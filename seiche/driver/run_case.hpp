@@ -26,6 +26,8 @@ struct RunCaseOptions {
   // Before the first step, when nothing is refused any more: what there is to say. Returns a flag that ends the run
   // after the step in which it is set, or null.
   std::function<const std::atomic<bool>*(const std::vector<std::string>& notes)> begins = {};
+  // When the folder is there: what is about to be solved, and again what there is to say.
+  std::function<void(const std::string& headline, const std::vector<std::string>& notes)> introduce = {};
   // When the time loop has ended and the files are written that cannot be made later. Returns a flag that asks to leave
   // out what can be had later, or null.
   std::function<const std::atomic<bool>*()> ends = {};

@@ -3,6 +3,7 @@
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/driver/case_folder.hpp>
 #include <seiche/driver/ensemble_files.hpp>
+#include <seiche/driver/headline.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/output/file/reserve_file.hpp>
@@ -123,6 +124,7 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
   const std::atomic<bool>& stop = *begin_run(options, notes);
   const CaseFolder case_folder(directory, RunKind::ensemble, spec, options.restart);
   const Folder& folder = case_folder.folder();
+  if (options.introduce) options.introduce(headline(spec, *simulation), notes);
   ReserveFile reserve(folder, 2 * ReserveFile::of_a_summary);
   StatisticsFile energies(folder, has_modified);
   const EnsembleResult result =

@@ -98,7 +98,7 @@ TEST_F(HostileInput, MoreThanAThousandThreadsAreRefusedAndManyToACoreAreNoted) {
     EXPECT_THAT(refused_in_a_line(command + " --threads 65536"), HasSubstr("1024")) << command;
   write("ensemble.toml", text("case.toml") + "[ensemble]\nmembers = 9\nperturb_initial = 0.1\n");
   EXPECT_THAT(refused_in_a_line("run ensemble.toml --out out --threads 1025"),
-              HasSubstr("1025 not in range 1 to 1024"));
+              HasSubstr("'1025' is no whole number from 1 to 1024"));
   const std::string few = seiche("run case.toml --out few --threads 2").err;
   EXPECT_THAT(few, Not(HasSubstr("take turns")));
   const Result many = seiche("run case.toml --out many --threads 1024");

@@ -59,6 +59,52 @@ TEST_F(Cli, ForgottenQuotesAreShownInTheLineWithAHint) {
   }
 }
 
+TEST_F(Cli, TextsOfOtherLanguagesAreToldWhatTomlIs) {
+  const auto said = [&](const std::string& line) {
+    write_case(line);
+    return refused("run case.toml --out out");
+  };
+  EXPECT_THAT(said("alpha: 1.5"), HasSubstr("joined by = and not by a colon: alpha = 1.5, in `alpha: 1.5`"));
+  EXPECT_THAT(said("alpha = 1,5"), HasSubstr("decimals are written with a point: 1.5"));
+  EXPECT_THAT(said("initial = \"zero"), HasSubstr("the text is not closed: a \" is missing at its end"));
+  EXPECT_THAT(said("initial = “zero”"), HasSubstr("the quotes “ are not those of TOML: write straight ones"));
+  EXPECT_THAT(said("dealias = True"), HasSubstr("true and false are in lower case, and names"));
+  EXPECT_THAT(said("[problem]"), HasSubstr("a section stands once, with all of its keys"));
+  write("case.toml", "{\n  \"problem\": {\"name\": \"klein_gordon\"}\n}\n");
+  EXPECT_THAT(refused("run case.toml --out out"),
+              HasSubstr("looks like JSON: write [problem], and below it key = value"));
+  write("case.toml", std::string("\x7f"
+                                 "ELF\0\0",
+                                 6));
+  EXPECT_THAT(refused("run case.toml --out out"), HasSubstr("case.toml is no case file: it holds binary data"));
+}
+
+TEST_F(Cli, WhatWasMeantByAnArgumentIsSaid) {
+  write_case();
+  EXPECT_THAT(refused("run case.toml --out out --h 0.1"),
+              HasSubstr("unknown option '--h'; a key of the case is set by --set method.h=…"));
+  EXPECT_THAT(refused("run case.toml --out out --rtol=1e-6"), HasSubstr("--set method.tolerance=…"));
+  EXPECT_THAT(refused("run case.toml --out out --set method.h = 1/64"), HasSubstr("one argument without blanks"));
+  EXPECT_THAT(refused("run case.toml --out out --threads all"), HasSubstr("'all' is no whole number from 1 to 1024"));
+  EXPECT_THAT(refused("converge case.toml --methods avf seisav"),
+              HasSubstr("the values of --methods are joined by commas"));
+  EXPECT_THAT(refused("list"), HasSubstr("say what to list: methods, problems, backends"));
+  EXPECT_THAT(refused(""), AllOf(HasSubstr("run "), HasSubstr("seiche: a command is missing")));
+  std::filesystem::create_directory(directory / "empty");
+  for (const char* command : {"audit", "plot"})
+    EXPECT_THAT(refused(std::string(command) + " empty"),
+                HasSubstr("is no directory of a finished run: it has no case.toml"));
+}
+
+TEST_F(Cli, HelpAndVersionAnswerToTheirOtherNames) {
+  EXPECT_EQ(seiche("help").out, seiche("--help").out);
+  EXPECT_EQ(seiche("help run").out, seiche("run --help").out);
+  EXPECT_EQ(seiche("-V").out, seiche("--version").out);
+  write_case();
+  EXPECT_EQ(seiche("run case.toml --quiet -o elsewhere").exit, 0);
+  EXPECT_TRUE(std::filesystem::exists(directory / "elsewhere/summary.json"));
+}
+
 TEST_F(Cli, AStepSizeThatWouldFillTheDiskIsRefused) {
   write_case();
   EXPECT_THAT(refused("run case.toml --out out --set method.h=1e-12"), HasSubstr("energy_every"));
@@ -137,7 +183,8 @@ TEST_F(Cli, WhatSetGaveIsBlamedOnSetAndNothingIsSaidTwice) {
   EXPECT_THAT(refused("run case.toml --out out --set 'problem.gamma=sqrt(x-1)'"),
               AllOf(HasSubstr("seiche: --set problem.gamma="), Not(HasSubstr("-nan"))));
   write_case("gamma = \"sqrt(x-1)\"");
-  EXPECT_THAT(refused("run case.toml --out out --set problem.alpha=1"), HasSubstr("seiche: case.toml: problem.gamma"));
+  EXPECT_THAT(refused("run case.toml --out out --set problem.alpha=1"),
+              HasSubstr("seiche: case.toml:4:9: problem.gamma"));
   write_case();
   const std::string err = seiche("run case.toml --out out --set method.name=auto method.tolerance=1e-4").err;
   EXPECT_THAT(err, HasSubstr("method = \"auto\": "));

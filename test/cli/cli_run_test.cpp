@@ -63,6 +63,26 @@ TEST_F(Cli, ARunLeavesItsFiles) {
   }
 }
 
+TEST_F(Cli, ARunFirstSaysWhatItSolves) {
+  write_case();
+  const Result result = seiche("run case.toml --out out");
+  EXPECT_THAT(result.err,
+              testing::StartsWith("klein_gordon: u, v on 8 points (periodic), 16 unknowns; seisav, h = 0.015625, "
+                                  "backend dense, to t = 1\n"));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("theorem")));
+  const Result plane = seiche(
+      "run case.toml --out plane --verbose --set 'problem.points=[8, 6]' "
+      "'problem.boundary=[\"periodic\", \"dirichlet\"]' method.tolerance=1e-4 time.end=0.25");
+  EXPECT_THAT(plane.err, testing::AllOf(HasSubstr(": u, v on 8 × 5 points (periodic, dirichlet), 80 unknowns; seisav, "
+                                                  "tolerance 0.0001, backend modal, to t = 0.25\n"),
+                                        HasSubstr("\nwork  "), HasSubstr("\ntheorem ")));
+  write("few.toml",
+        "[problem]\nname = \"oscillator\"\n[time]\nend = 1.0\n[ensemble]\nmembers = 3\nperturb_initial = 0.1\n");
+  EXPECT_THAT(seiche("run few.toml --out few").err,
+              testing::StartsWith("oscillator: 3 members, each q, p, 2 unknowns; "));
+  EXPECT_EQ(seiche("run case.toml --out quiet --quiet").err, "");
+}
+
 TEST_F(Cli, TheCaseItLeavesRunsToTheSameBits) {
   write_case("gamma = \"0.1 + 0.05*sin(t)\"");
   ASSERT_EQ(seiche("run case.toml --out first --quiet").exit, 0);
@@ -152,7 +172,8 @@ TEST_F(Cli, EachNoteHasALineOfItsOwnAndAStepSizeOfTheProgramIsAmongThem) {
        {"seiche: h = 1/64 (default)\n", "\nseiche: no formula names the parameter k\n", "\nseiche: H = ½zᵀMz + V with ",
         "\nseiche: the energy does not name p: S gives q no velocity"})
     EXPECT_THAT("\n" + said, HasSubstr(line));
-  EXPECT_TRUE(said.starts_with("seiche: h = 1/64 (default)\n")) << said;
+  EXPECT_THAT(said, testing::StartsWith("custom: q, p, 2 unknowns; seisav, h = 0.015625, backend dense, to t = 1\n"
+                                        "seiche: h = 1/64 (default)\n"));
   EXPECT_THAT(json::parse(text("out/summary.json"))["message"].get<std::string>(), HasSubstr("; h = 1/64 (default); "));
   for (const char* given : {"method.h=1/64", "method.tolerance=1e-4"})
     EXPECT_THAT(seiche(std::string("run case.toml --out out --set method.name=egc4 ") + given).err,

@@ -92,6 +92,13 @@ std::vector<std::string> case_keys(const std::string& section, const ProblemEntr
   return keys;
 }
 
+std::string full_key(const std::string& word) {
+  for (const std::string& section : case_sections())
+    if (word != "name" && has(case_keys(section, nullptr), word)) return section + "." + word;
+  const MeantKey meant = meant_here(word, nullptr);
+  return meant.key.empty() ? "" : meant.section + "." + meant.key;
+}
+
 std::string key_outside_sections(const std::string& key, const ProblemEntry* problem) {
   const std::vector<std::string> sections = case_sections();
   if (has(sections, key)) return fmt::format("{0} must be a section, [{0}]", key);

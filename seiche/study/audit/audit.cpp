@@ -408,6 +408,8 @@ Audit audit(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
   require_plain_files(directory);
   require_recovered(directory);
+  if (look_at(directory / "case.toml").kind == InputKind::missing)
+    throw Error("{} is no directory of a finished run: it has no case.toml", directory.string());
   if (std::filesystem::exists(directory / "solution.h5")) require_readable(directory / "solution.h5");
   std::string lost;
   RunSpec spec = case_of_run(directory, lost);
