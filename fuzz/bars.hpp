@@ -3,10 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <string_view>
 
 namespace seiche::fuzz {
 
-// Ends the process with abort, saying which bar was missed, so that the input is kept.
-void within_bars(const std::function<void()>& execution);
+// Ends the process with abort, saying which bar was missed, so that the input is kept. A refusal may quote `input`, and
+// so hold words that are otherwise those of a library.
+void within_bars(const std::function<void()>& execution, std::string_view input = {});
 
 }  // namespace seiche::fuzz

@@ -36,6 +36,7 @@ void read(const std::string& text) {
 }  // namespace seiche::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  seiche::fuzz::within_bars([&] { seiche::fuzz::read({reinterpret_cast<const char*>(data), size}); });
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  seiche::fuzz::within_bars([&] { seiche::fuzz::read(text); }, text);
   return 0;
 }

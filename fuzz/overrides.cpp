@@ -42,6 +42,7 @@ void read(std::string_view input) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  seiche::fuzz::within_bars([&] { read({reinterpret_cast<const char*>(data), size}); });
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  seiche::fuzz::within_bars([&] { read(text); }, text);
   return 0;
 }
