@@ -97,8 +97,7 @@ ExitCode run_program(const std::vector<std::string>& given) {
   }
   // Before parsing, since CLI11 would complain about what is missing instead of what is misspelt.
   const std::vector<std::string> names = subcommand_names(app);
-  if (!arguments.empty() && !arguments[0].starts_with("-") &&
-      std::find(names.begin(), names.end(), arguments[0]) == names.end()) {
+  if (!arguments[0].starts_with("-") && std::find(names.begin(), names.end(), arguments[0]) == names.end()) {
     throw unknown_name("command", arguments[0], names);
   }
   std::vector<std::string> reversed = with_set_repeated(arguments);

@@ -15,6 +15,12 @@ std::string_view line_of(std::string_view text, std::size_t number) {
   return text.substr(0, text.find_first_of("\r\n"));
 }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = std::min(text.find_first_not_of(" \t"), text.size());
+  text.remove_prefix(first);
+  return text.substr(0, text.find_last_not_of(" \t") + 1);
+}
+
 // The value there, behind "key = ", or in a list or table behind that.
 std::string_view value_around(std::string_view line, std::size_t column) {
   const std::size_t at = std::min(line.size(), column > 0 ? column - 1 : 0);
@@ -23,9 +29,7 @@ std::string_view value_around(std::string_view line, std::size_t column) {
   const std::size_t begin = before + 1;
   const bool is_inside = line.substr(0, begin).find_first_of("[{") != std::string_view::npos;
   const std::size_t end = std::min(line.find_first_of(is_inside ? "#,]}" : "#", std::max(begin, at)), line.size());
-  const std::string_view value = line.substr(begin, end - begin);
-  const std::size_t first = std::min(value.find_first_not_of(" \t"), value.size());
-  return value.substr(first, value.find_last_not_of(" \t") - first + 1);
+  return trimmed(line.substr(begin, end - begin));
 }
 
 bool is_toml_value(std::string_view text) {
@@ -43,12 +47,6 @@ bool is_bare_text(std::string_view value) {
   const bool is_text =
       std::any_of(value.begin(), value.end(), is_letter) || value.find_first_of("/*^(") != std::string_view::npos;
   return is_text && value.find_first_not_of("0123456789.eE+-_") != std::string_view::npos && !is_toml_value(value);
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = std::min(text.find_first_not_of(" \t"), text.size());
-  text.remove_prefix(first);
-  return text.substr(0, text.find_last_not_of(" \t") + 1);
 }
 
 bool is_number(std::string_view text) {
