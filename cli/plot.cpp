@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <seiche/config/case/run_spec.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/axis_names.hpp>
 #include <seiche/figure/plot/rendering.hpp>
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/run_report.hpp>
@@ -50,8 +51,8 @@ std::vector<std::string> parsed_fields(const std::string& text, const SolutionRe
     fields.push_back(word);
   }
   if (!fields.empty() && solution.axes().size() != 2)
-    throw Error("--film {}: films are of solutions in the plane, and this one has {} ax{}", text,
-                solution.axes().size(), solution.axes().size() == 1 ? "is" : "es");
+    throw Error("--film {}: films are of solutions in the plane, and this one has {}", text,
+                counted_axes(solution.axes().size()));
   return fields;
 }
 

@@ -55,7 +55,7 @@ RunCaseOptions run_options(const RunArguments& arguments) {
           .restart = arguments.restart,
           .max_hours = arguments.max_hours,
           .save = &save_on_signal(),
-          .begins = [](const std::vector<std::string>&) { return &stop_on_signal(); },
+          .begins = [] { return &stop_on_signal(); },
           .introduce =
               [quiet = arguments.quiet](const std::string& headline, const std::vector<std::string>& notes) {
                 if (quiet) return;

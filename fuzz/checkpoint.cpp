@@ -43,7 +43,7 @@ class Stop : public Observer {
 
 RunCaseOptions ended_by(Stop& stop) {
   RunCaseOptions options;
-  options.begins = [&stop](const std::vector<std::string>&) { return &stop.asked; };
+  options.begins = [&stop] { return &stop.asked; };
   options.observers = {&stop};
   return options;
 }

@@ -45,10 +45,8 @@ CaseRun run_to(const std::string& folder, RunSpec spec, RunCaseOptions options) 
 CaseRun interruptible_run(RunCaseOptions options, const std::function<CaseRun(const RunCaseOptions&)>& run) {
   std::atomic<bool> stop = false, has_ended = false, leave = false;
   std::vector<std::string> notes;
-  options.begins = [&](const std::vector<std::string>& said) {
-    notes = said;
-    return &stop;
-  };
+  options.begins = [&] { return &stop; };
+  options.introduce = [&](const std::string&, const std::vector<std::string>& said) { notes = said; };
   options.ends = [&] {
     has_ended = true;
     return &leave;

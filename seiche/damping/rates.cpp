@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/damping/adaptive_integral.hpp>
@@ -184,8 +185,8 @@ class FormulaSpaceRate final : public SpaceRate {
 
   FieldRatePointer on(const Grid& grid) const override {
     if (grid.dimension() < axes_)
-      throw Error("the rate {} names {}, but the grid has {} ax{}", shortened(text()), axes_ == 2 ? "y" : "z",
-                  grid.dimension(), grid.dimension() == 1 ? "is" : "es");
+      throw Error("the rate {} names {}, but the grid has {}", shortened(text()), axes_ == 2 ? "y" : "z",
+                  counted_axes(grid.dimension()));
     auto rate = std::make_shared<FormulaFieldRate>(formula_, grid);
     if (!constant_in_time_) return rate;
     std::vector<double> gamma(static_cast<std::size_t>(grid.unknowns()));

@@ -55,9 +55,9 @@ void require_no_checkpoint(const std::filesystem::path& path) {
         path.string());
 }
 
-const std::atomic<bool>* begin_run(const RunCaseOptions& options, const std::vector<std::string>& notes) {
+const std::atomic<bool>* begin_run(const RunCaseOptions& options) {
   static const std::atomic<bool> never = false;
-  const std::atomic<bool>* stop = options.begins ? options.begins(notes) : nullptr;
+  const std::atomic<bool>* stop = options.begins ? options.begins() : nullptr;
   return stop != nullptr ? stop : &never;
 }
 

@@ -33,8 +33,8 @@ class CaseFolder {
 // Throws Error, which names both ways on, where a run in the folder could go on from a checkpoint.
 void require_no_checkpoint(const std::filesystem::path& path);
 
-// Calls options.begins with the notes; returns its flag, or one that is never set.
-const std::atomic<bool>* begin_run(const RunCaseOptions& options, const std::vector<std::string>& notes);
+// Calls options.begins; returns its flag, or one that is never set.
+const std::atomic<bool>* begin_run(const RunCaseOptions& options);
 // Of the text of case.toml, and of the files that the case names.
 FileHashes hashes_of(const RunSpec& spec, const std::string& case_text);
 std::map<std::string, std::string> all_versions(const RunCaseOptions& options);

@@ -182,7 +182,7 @@ void CaseRun::begin(const Problem& problem) {
   notes_ = case_notes(spec_, problem);
   case_text_ = write_case(spec_);
   hashes_ = hashes_of(spec_, case_text_);
-  stop_ = begin_run(options_, notes_);
+  stop_ = begin_run(options_);
   folder_ = &own_folder_.emplace(spec_.output_directory, RunKind::run, spec_, options_.restart);
   if (options_.introduce) options_.introduce(headline(spec_, run_.simulation()), notes_);
   if (spec_.measure_plans) write_file(folder_->folder(), wisdom_name, planning_wisdom());
@@ -200,7 +200,7 @@ void CaseRun::go_on() {
     if (std::find(saved.versions.begin(), saved.versions.end(), version) == saved.versions.end())
       said.push_back(fmt::format("the checkpoint was not written by {}: last bits may differ", version));
   notes_.insert(notes_.end(), said.begin() + 1, said.end());
-  stop_ = begin_run(options_, said);
+  stop_ = begin_run(options_);
   if (options_.introduce) options_.introduce(headline(spec_, run_.simulation()), said);
 }
 

@@ -23,10 +23,10 @@ struct RunCaseOptions {
   double max_hours = 0;               // after which a run is saved and ends as if it had been interrupted; 0: never
   std::atomic<bool>* save = nullptr;  // where it is set, a run writes a checkpoint, clears it, and goes on
   std::function<void(double t_end)> ends_at = {};  // of a run that goes on, before `begins`: where it will end
-  // Before the first step, when nothing is refused any more: what there is to say. Returns a flag that ends the run
-  // after the step in which it is set, or null.
-  std::function<const std::atomic<bool>*(const std::vector<std::string>& notes)> begins = {};
-  // When the folder is there: what is about to be solved, and again what there is to say.
+  // Before the first step, when nothing is refused any more. Returns a flag that ends the run after the step in which
+  // it is set, or null.
+  std::function<const std::atomic<bool>*()> begins = {};
+  // When the folder is there: what is about to be solved, and what there is to say.
   std::function<void(const std::string& headline, const std::vector<std::string>& notes)> introduce = {};
   // When the time loop has ended and the files are written that cannot be made later. Returns a flag that asks to leave
   // out what can be had later, or null.

@@ -121,7 +121,7 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
   std::vector<std::string> notes = notes_on(members, *simulation, spec);
   if (std::string note = note_on_threads(options.threads); !note.empty()) notes.push_back(std::move(note));
   const FileHashes hashes = hashes_of(spec, write_case(spec));
-  const std::atomic<bool>& stop = *begin_run(options, notes);
+  const std::atomic<bool>& stop = *begin_run(options);
   const CaseFolder case_folder(directory, RunKind::ensemble, spec, options.restart);
   const Folder& folder = case_folder.folder();
   if (options.introduce) options.introduce(headline(spec, *simulation), notes);

@@ -4,7 +4,7 @@
 #include <seiche/ensemble/panel_block.hpp>
 #include <seiche/ensemble/parallel_for.hpp>
 #include <seiche/run/energy_book.hpp>
-#include <seiche/run/state_round_off.hpp>
+#include <seiche/run/settle_report.hpp>
 #include <seiche/run/time_grid.hpp>
 
 #include <algorithm>
@@ -239,26 +239,17 @@ class Run {
     report.judge_replaced();
     const Simulation* simulation = block_of(member).simulation(member % panel_members);
     result.final = block_of(member).physical(member % panel_members);
-    if (report.drift && is_round_off_of_state(*report.drift, simulation->system(), result.final, report.steps))
-      report.drift.reset();
-    hear_objection(simulation, at.fed, report);
+    if (simulation != nullptr) {
+      settle_report(
+          report, simulation->system(), [&] { return result.final; },
+          [&] { return at.fed.empty() && options_.objection ? options_.objection(simulation->problem()) : at.fed; });
+    }
     if (report.drift) report.message += "; " + report.remark_on_drift();
     if (result.final.size() == 0) {
       report.law = LawVerdict::not_promised;
       report.law_reason = "the member never started";
     }
     return result;
-  }
-
-  void hear_objection(const Simulation* simulation, const std::string& fed, RunReport& report) const {
-    if (!options_.objection || simulation == nullptr) return;
-    if (report.law == LawVerdict::not_promised && !report.drift) return;
-    const std::string reason = fed.empty() ? options_.objection(simulation->problem()) : fed;
-    if (reason.empty()) return;
-    report.drift.reset();  // H may well have risen
-    if (report.law == LawVerdict::not_promised) return;
-    report.law = LawVerdict::not_promised;
-    report.law_reason = reason;
   }
 
   std::span<const EnsembleMember> members_;

@@ -1,4 +1,5 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/characters.hpp>
 #include <seiche/figure/html.hpp>
 
 #include <fmt/format.h>
@@ -22,7 +23,6 @@ std::string power_of_ten(const std::string& scientific) {
   return fmt::format("{}10<sup>{}{}</sup>", factor, exponent < 0 ? "−" : "", std::abs(exponent));
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_part_of_a_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; }
 
 // Length of the number in scientific notation that begins at `begin`; 0 where none begins, or if it is part of a word.

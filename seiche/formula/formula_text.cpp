@@ -1,3 +1,4 @@
+#include <seiche/core/text/characters.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_text.hpp>
 #include <seiche/formula/other_languages.hpp>
@@ -11,9 +12,6 @@ namespace {
 
 using TokenKind = FormulaToken::Kind;
 
-// Without <cctype>, whose answers depend on the locale.
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }  // in UTF-8
 
@@ -92,8 +90,8 @@ std::vector<FormulaToken> tokenise_formula(std::string_view text, const std::vec
     } else if (is_digit(c) || (c == '.' && at + 1 < text.size() && is_digit(text[at + 1]))) {
       at = end_of_number(text, at);
       tokens.push_back(number_token(text, begin, at));
-    } else if (is_letter(c)) {
-      while (at < text.size() && (is_letter(text[at]) || is_digit(text[at]))) ++at;
+    } else if (begins_name(c)) {
+      while (at < text.size() && (begins_name(text[at]) || is_digit(text[at]))) ++at;
       tokens.push_back({.kind = TokenKind::name, .text = text.substr(begin, at - begin), .position = begin});
     } else if (text.substr(at, 2) == "**") {
       throw formula_error(text, at, "a power is written with ^, not **");

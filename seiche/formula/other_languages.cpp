@@ -1,3 +1,4 @@
+#include <seiche/core/text/characters.hpp>
 #include <seiche/formula/other_languages.hpp>
 
 #include <fmt/format.h>
@@ -114,8 +115,6 @@ constexpr std::array<Entry, 24> greek_letters = {{
     {"µ", "mu"},    {"ν", "nu"},   {"ξ", "xi"},    {"ρ", "rho"},   {"σ", "sigma"},   {"τ", "tau"},
     {"φ", "phi"},   {"ϕ", "phi"},  {"χ", "chi"},   {"ψ", "psi"},   {"ω", "omega"},   {"Ω", "Omega"},
 }};
-
-bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 std::string_view name_at(std::string_view text, std::size_t at) {
   std::size_t end = at;

@@ -1,7 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/vector.hpp>
 #include <seiche/run/recording.hpp>
-#include <seiche/run/state_round_off.hpp>
+#include <seiche/run/settle_report.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -174,9 +174,8 @@ RunReport Recording::finish(const std::function<std::string()>& objection, const
   report_.steps = steps();
   report_.t = state_.t;
   book_.write_to(report_);
-  if (report_.drift && is_round_off_of_state(*report_.drift, system_, system_.space->physical(state_.z), report_.steps))
-    report_.drift.reset();
-  hear_objection(objection);
+  settle_report(
+      report_, system_, [&] { return system_.space->physical(state_.z); }, [&] { return met_by(objection); });
   report_.potential_counts = counts();
   complete_message(remark);
   report_.wall_seconds = seconds();
@@ -201,11 +200,15 @@ bool Recording::pauses(bool stops, Checkpoints* checkpoints, FunctionRef<void(Ar
   return wish == Checkpoints::Wish::save_and_stop;
 }
 
+std::string Recording::met_by(const std::function<std::string()>& objection) const {
+  const std::string reason = objection ? objection() : "";
+  return reason.empty() ? earlier_objection_ : reason;
+}
+
 void Recording::archive(Archive& a, const std::function<std::string()>& objection) {
   Potential::Counts counts_so_far = counts();
   double seconds_so_far = seconds();
-  std::string met = objection ? objection() : "";
-  if (met.empty()) met = earlier_objection_;
+  std::string met = met_by(objection);
   a(state_, first_n_, book_);
   a.numbers(ledger_);
   a(report_.scalar_iterations, report_.fallbacks, report_.unresolved, report_.replaced, report_.widened, report_.halved,
@@ -218,17 +221,6 @@ void Recording::archive(Archive& a, const std::function<std::string()>& objectio
   seconds_earlier_ = seconds_so_far;
   count_from_here();
   begin_ = std::chrono::steady_clock::now();
-}
-
-void Recording::hear_objection(const std::function<std::string()>& objection) {
-  if (!objection || (report_.law == LawVerdict::not_promised && !report_.drift)) return;
-  std::string reason = objection();
-  if (reason.empty()) reason = earlier_objection_;
-  if (reason.empty()) return;
-  report_.drift.reset();  // H may well have risen
-  if (report_.law == LawVerdict::not_promised) return;
-  report_.law = LawVerdict::not_promised;
-  report_.law_reason = reason;
 }
 
 void Recording::complete_message(const std::string& remark) {

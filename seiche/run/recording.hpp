@@ -65,7 +65,7 @@ class Recording {
   void keep_good();  // the state and what has been entered up to it
   void go_back();    // to the state of the last record, and the ledger up to there
   void record_rest();
-  void hear_objection(const std::function<std::string()>& objection);
+  std::string met_by(const std::function<std::string()>& objection) const;  // or before a resume
   void complete_message(const std::string& remark);
   void finish_observers();
   Potential::Counts counts() const;

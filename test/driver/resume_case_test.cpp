@@ -91,10 +91,8 @@ class ResumeCase : public InTemporaryDirectory {
   CaseResult run_stopped(std::int64_t n, const Run& with) {
     StopsAfter stops(n < 0 ? std::int64_t{1} << 62 : n);
     RunCaseOptions options;
-    options.begins = [&](const std::vector<std::string>& said) {
-      notes = said;
-      return &stops.stop;
-    };
+    options.begins = [&] { return &stops.stop; };
+    options.introduce = [&](const std::string&, const std::vector<std::string>& said) { notes = said; };
     options.observers = {&stops};
     return with(options);
   }
@@ -311,7 +309,7 @@ TEST_F(ResumeCase, SaysWhyNoCheckpointIsWrittenAndWhichOneServes) {
   StopsAfter stops(20);
   std::vector<std::string> warned;
   RunCaseOptions options;
-  options.begins = [&](const std::vector<std::string>&) { return &stops.stop; };
+  options.begins = [&] { return &stops.stop; };
   options.warn = [&](const std::string& note) { warned.push_back(note); };
   options.observers = {&stops};
   fs::create_directories(directory / "out/checkpoint.seiche.partial");

@@ -1,6 +1,7 @@
 #include <seiche/config/case/case_table.hpp>
 #include <seiche/config/data/syntax_complaint.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/characters.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/core/text/toml_depth.hpp>
@@ -166,7 +167,7 @@ void put_into(CaseValue& into, const std::string& so_far, std::string_view path,
 
 void apply_override(CaseTable& table, const std::string& given, std::size_t number) {
   const std::size_t equals = given.find('=');
-  const std::string path = trimmed(std::string_view(given).substr(0, equals));
+  const std::string path(trimmed(std::string_view(given).substr(0, equals)));
   const std::size_t dot = path.find('.');
   if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == path.size())
     throw Error("write it as section.key=value, for example --set method.h=1/64")
@@ -182,7 +183,7 @@ void apply_override(CaseTable& table, const std::string& given, std::size_t numb
   const std::size_t inner_dot = path.find('.', dot + 1);  // of a key inside a table: problem.D.v
   CaseEntry entry{.key = path.substr(dot + 1, inner_dot == std::string::npos ? inner_dot : inner_dot - dot - 1),
                   .place = source.name,
-                  .value = override_value(trimmed(std::string_view(given).substr(equals + 1)), source)};
+                  .value = override_value(std::string(trimmed(std::string_view(given).substr(equals + 1))), source)};
   auto section =
       std::find_if(table.sections.begin(), table.sections.end(), [&](const CaseSection& s) { return s.name == name; });
   if (section == table.sections.end()) {

@@ -1,5 +1,6 @@
 #include <seiche/config/case/case_value.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/characters.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
@@ -8,8 +9,6 @@
 
 namespace seiche {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::size_t digits_at(std::string_view text, std::size_t at) {
   std::size_t count = 0;
@@ -29,7 +28,7 @@ double read_number(std::string_view key, const CaseValue& value) {
   if (value.kind != CaseValue::Kind::text)
     throw Error("{} = {} must be a number, or a fraction in quotes such as \"1/256\"", key, value.shown());
 
-  const std::string text = trimmed(value.text);
+  const std::string text(trimmed(value.text));
   std::string bare = text.substr(text.find_first_not_of("+-") == std::string::npos ? 0 : text.find_first_not_of("+-"));
   std::transform(bare.begin(), bare.end(), bare.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
   if (bare == "nan" || bare == "inf" || bare == "infinity")
@@ -62,12 +61,6 @@ std::string read_name(std::string_view key, const CaseValue& value, const std::v
   std::string name = read_text(key, value);
   if (std::find(names.begin(), names.end(), name) == names.end()) throw unknown_name(key, name, names);
   return name;
-}
-
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  return begin == std::string_view::npos ? ""
-                                         : std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
 }
 
 bool is_toml_number(std::string_view text) {

@@ -31,7 +31,6 @@ long read_whole(std::string_view key, const CaseValue& value, long minimum);
 std::string read_text(std::string_view key, const CaseValue& value);
 std::string read_name(std::string_view key, const CaseValue& value, const std::vector<std::string>& names);
 
-std::string trimmed(std::string_view text);      // without blanks at its ends
 bool is_toml_number(std::string_view text);      // true if it may stand in a case file without quotes
 std::string toml_string(std::string_view text);  // in quotes, escaped
 

@@ -68,9 +68,8 @@ FrictionFormula friction_formula(const std::string& text, const Grid& grid, cons
   for (std::size_t a = static_cast<std::size_t>(grid.dimension()); a < axis_names.size(); ++a)
     if (names_one_of(text, {axis_names[a]}, constants))
       throw Error("problem.friction: {} names {}, but {}", text, axis_names[a],
-                  grid.only_numbers
-                      ? std::string("there are no such places")
-                      : fmt::format("the grid has {} ax{}", grid.dimension(), grid.dimension() == 1 ? "is" : "es"));
+                  grid.only_numbers ? std::string("there are no such places")
+                                    : "the grid has " + counted_axes(grid.dimension()));
   return {.formula = compile_formula(text, friction_variables(), constants),
           .uses_u = names_one_of(text, {"u"}, constants),
           .uses_t = names_one_of(text, {"t"}, constants),

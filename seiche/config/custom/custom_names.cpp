@@ -1,5 +1,6 @@
 #include <seiche/config/custom/custom_names.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/characters.hpp>
 #include <seiche/core/text/shortened.hpp>
 
 #include <algorithm>
@@ -8,10 +9,8 @@ namespace seiche {
 namespace {
 
 bool is_name(const std::string& name) {
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  return !name.empty() && letter(name.front()) &&
-         std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || digit(c) || c == '_'; });
+  return !name.empty() && is_letter(name.front()) &&
+         std::all_of(name.begin(), name.end(), [](char c) { return begins_name(c) || is_digit(c); });
 }
 
 }  // namespace

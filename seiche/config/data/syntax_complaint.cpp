@@ -1,4 +1,5 @@
 #include <seiche/config/data/syntax_complaint.hpp>
+#include <seiche/core/text/characters.hpp>
 #include <seiche/core/text/shortened.hpp>
 
 #include <fmt/format.h>
@@ -13,12 +14,6 @@ std::string_view line_of(std::string_view text, std::size_t number) {
   for (std::size_t line = 1; line < number && !text.empty(); ++line)
     text.remove_prefix(std::min(text.size(), text.find('\n') + 1));
   return text.substr(0, text.find_first_of("\r\n"));
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = std::min(text.find_first_not_of(" \t"), text.size());
-  text.remove_prefix(first);
-  return text.substr(0, text.find_last_not_of(" \t") + 1);
 }
 
 // The value there, behind "key = ", or in a list or table behind that.
@@ -42,7 +37,6 @@ bool is_toml_value(std::string_view text) {
 
 // A name, a fraction or a formula, without the quotes that it needs.
 bool is_bare_text(std::string_view value) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   if (value.empty() || value.find_first_of("\"'={}[]") != std::string_view::npos) return false;
   const bool is_text =
       std::any_of(value.begin(), value.end(), is_letter) || value.find_first_of("/*^(") != std::string_view::npos;

@@ -1,3 +1,4 @@
+#include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/name_advice.hpp>
 
 #include <fmt/ranges.h>
@@ -126,7 +127,7 @@ class Advisor {
   std::string of_place(std::string_view name) const {
     if (c_.axes == 0) return needs_grid(name);
     if (c_.kind == Kind::constant_entry) return "entries of S and M are the same everywhere: numbers and derivatives";
-    return fmt::format("the grid has {} ax{}", c_.axes, c_.axes == 1 ? "is" : "es");
+    return "the grid has " + counted_axes(c_.axes);
   }
 
   std::string of_wave_number(std::string_view name) const {
@@ -144,7 +145,7 @@ class Advisor {
     if (c_.axes == 0) return needs_grid(name);
     if (c_.kind == Kind::energy) return fmt::format("{} stands in S, M and D; in an energy write u_x or u_xx", name);
     if (c_.kind == Kind::constant_entry || c_.kind == Kind::damping_entry)
-      return fmt::format("the grid has {} ax{}", c_.axes, c_.axes == 1 ? "is" : "es");
+      return "the grid has " + counted_axes(c_.axes);
     return fmt::format("{} stands in S, M and D only", name);
   }
 

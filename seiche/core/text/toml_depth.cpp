@@ -1,3 +1,4 @@
+#include <seiche/core/text/characters.hpp>
 #include <seiche/core/text/toml_depth.hpp>
 
 #include <fmt/format.h>
@@ -54,8 +55,7 @@ class Scanner {
   }
 
   static bool may_stand_in_key(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-. \t").find(c) != std::string_view::npos;
+    return is_letter(c) || is_digit(c) || std::string_view("_-. \t").find(c) != std::string_view::npos;
   }
 
   bool begins_line() const {
