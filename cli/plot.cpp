@@ -5,7 +5,8 @@
 #include <seiche/config/case/run_spec.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/axis_names.hpp>
-#include <seiche/figure/plot/rendering.hpp>
+#include <seiche/core/text/shortened.hpp>
+#include <seiche/figure/drawing.hpp>
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/folder_lock.hpp>
@@ -15,9 +16,14 @@
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/output/xdmf.hpp>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <locale>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace seiche::cli {
 namespace {
@@ -27,6 +33,10 @@ struct PlotArguments {
   std::string formats = "png,pdf,svg";
   std::string film_fields;
   bool no_film = false;
+  std::string range, palette;
+  std::optional<double> centre;
+  double size = 0;
+  bool journal = false;
   bool xdmf = false;
 };
 
@@ -56,6 +66,34 @@ std::vector<std::string> parsed_fields(const std::string& text, const SolutionRe
   return fields;
 }
 
+// "0.8,1.2"
+std::optional<std::pair<double, double>> parsed_range(const std::string& text) {
+  if (text.empty()) return {};
+  double low = 0, high = 0;
+  char comma = 0;
+  std::istringstream words(text);
+  words.imbue(std::locale::classic());
+  words >> low >> comma >> high;
+  if (words.fail() || comma != ',' || words.peek() != EOF || !(low < high))
+    throw Error("--range {} must be two numbers with a comma, the lower one first: --range 0.8,1.2", shortened(text));
+  return std::pair(low, high);
+}
+
+PictureOptions picture_options(const PlotArguments& arguments) {
+  constexpr double cm_per_inch = 2.54, least = 4, most = 60, column = 8.6;
+  if (arguments.size != 0 && !(arguments.size >= least && arguments.size <= most))
+    throw Error("--size {:g} must be a width in centimetres from {:g} to {:g}", arguments.size, least, most);
+  const double width = arguments.size == 0 && arguments.journal ? column : arguments.size;
+  return {.formats = parsed_formats(arguments.formats),
+          .film = !arguments.no_film,
+          .range = parsed_range(arguments.range),
+          .centre = arguments.centre,
+          .palette = arguments.palette,
+          .width = width / cm_per_inch,
+          .journal = arguments.journal,
+          .progress = ::isatty(STDERR_FILENO) != 0};
+}
+
 // Asked where something went wrong, since all of it is read.
 bool is_damaged(const std::filesystem::path& file) {
   try {
@@ -81,7 +119,7 @@ ExitCode write_all_times(const std::filesystem::path& directory) {
 ExitCode plot(const PlotArguments& arguments) {
   hdf5_without_cleanup_at_exit();  // which of a damaged file says that it does not end
   if (arguments.xdmf) return write_all_times(arguments.directory);
-  PictureOptions options{.formats = parsed_formats(arguments.formats), .film = !arguments.no_film};
+  PictureOptions options = picture_options(arguments);
   require_recovered(arguments.directory);
   const RunFiles run = read_run(arguments.directory);
   const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
@@ -98,12 +136,12 @@ ExitCode plot(const PlotArguments& arguments) {
     print_lines(
         fmt::format("{:<10} {} in {}\n", "pictures", pictures.list.size(), (run.directory / "figures").string()));
     for (const Film& film : pictures.films) {
-      print_lines(fmt::format("{:<10} {}\n", "film",
-                              film.file.empty() ? fmt::format("{} frames; {}", film.frames, film.note)
-                                                : (run.directory / film.file).string()));
-      if (!film.dark_file.empty())
-        print_lines(fmt::format("{:<10} {}\n", "", (run.directory / film.dark_file).string()));
+      print_lines(fmt::format("{:<10} {}\n", "film", (run.directory / film.file).string()));
+      print_lines(fmt::format("{:<10} {}\n", "", (run.directory / film.dark_file).string()));
+      if (!film.note.empty()) print_note(fmt::format("the film is {}", film.note));
     }
+  } catch (const BadDrawingRequest&) {
+    throw;
   } catch (const Error& error) {
     if (is_damaged(run.directory / "solution.h5")) throw;
     // The run and its files are what they were, and so are pictures of an earlier call.
@@ -131,6 +169,16 @@ void add_plot(CLI::App& app, Action& action) {
                           ->type_name("FIELDS");
   command->add_flag("--no-film", arguments->no_film, "No film of a solution in the plane, which takes longest")
       ->excludes(film);
+  command->add_option("--range", arguments->range, "Lowest and highest value of the colours: --range 0.8,1.2")
+      ->type_name("LOW,HIGH");
+  command
+      ->add_option("--centre", arguments->centre, "The value of the middle colour, for colours from both sides of it")
+      ->type_name("VALUE");
+  command->add_option("--palette", arguments->palette, "Colours of maps, one of Matplotlib's: magma, RdBu_r, …")
+      ->type_name("NAME");
+  command->add_option("--size", arguments->size, "Width of every picture in centimetres (8.6)")->type_name("CM");
+  command->add_flag("--journal", arguments->journal,
+                    "For a paper: 8.6 cm wide unless --size says otherwise, no titles");
   command->add_flag("--xdmf", arguments->xdmf,
                     "No pictures, but solution.xdmf with every time for ParaView, where a long run left some out");
   command->callback([arguments, &action] { action = [arguments] { return plot(*arguments); }; });

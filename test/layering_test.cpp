@@ -67,7 +67,7 @@ const std::vector<ThirdParty> third_party = {
     {"toml++/", {"config"}},
     {"ginac/", {"formula", "config"}},
     {"cln/", {"formula", "config"}},
-    {"nlohmann/", {"simulation", "output", "study", "driver", "paper", "cli"}},
+    {"nlohmann/", {"simulation", "output", "study", "figure", "driver", "paper", "cli"}},
     {"hdf5.h", {"output"}},
     {"openssl/", {"output"}},
     {"CLI/", {"cli"}},

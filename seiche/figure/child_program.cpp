@@ -70,6 +70,8 @@ std::string ChildProgram::finish() {
                               : fmt::format("exit code {}", WEXITSTATUS(status_));
 }
 
+int ChildProgram::exit_code() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1; }
+
 void ChildProgram::wait() {
   if (process_ < 0) return;
   while (::waitpid(process_, &status_, 0) < 0 && errno == EINTR) {

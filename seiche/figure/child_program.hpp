@@ -23,7 +23,8 @@ class ChildProgram {
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
 
-  std::string finish();  // waits; what went wrong in the program's own words, or ""
+  std::string finish();   // waits; what went wrong in the program's own words, or ""
+  int exit_code() const;  // behind finish(); −1 where a signal ended it
 
  private:
   struct Close {

@@ -89,7 +89,7 @@ inline constexpr std::string_view run_report_style = R"css(
 .on-dark { display: none; }
 @media (prefers-color-scheme: dark) { .drawn { background: #15181c; }
   .on-dark { display: block; } .on-light { display: none; } }
-.drawn video { width: 100%; }
+.drawn video, .film img { width: 100%; }
 figure .files a, figure.film figcaption a { display: inline; background: none; border: 0; padding: 0; margin-left: .3rem; }
 pre { background: var(--tint); border-radius: .5rem; padding: .8rem 1rem; overflow-x: auto; max-width: 46rem; }
 pre code { background: none; padding: 0; }

@@ -1,10 +1,13 @@
 #include <seiche/core/error.hpp>
-#include <seiche/figure/bars_picture.hpp>
+#include <seiche/figure/drawing.hpp>
 #include <seiche/figure/drawing_folder.hpp>
-#include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/run_curves.hpp>
-#include <seiche/figure/run_maps.hpp>
+#include <seiche/figure/plot/curves.hpp>
+#include <seiche/figure/plot/style.hpp>
 #include <seiche/figure/run_pictures.hpp>
+#include <seiche/output/solution_reader.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string_view>
@@ -13,6 +16,10 @@ namespace seiche {
 namespace fs = std::filesystem;
 
 namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view dark_suffix = "_dark";
 
 void take_off(std::string& name, std::string_view end) {
   if (name.ends_with(end)) name.resize(name.size() - end.size());
@@ -28,21 +35,22 @@ bool begins_with_one_of(std::string_view name, const std::vector<std::string>& b
   });
 }
 
-// By their names: those of energy_curves, bars_picture, solution_maps, solution_curves and draw_film.
+// By their names, which python/seiche/drawing gives.
 bool is_picture(const fs::path& file) {
   const std::string extension = file.extension().string();
   std::string stem = file.stem().string();
-  take_off(stem, dark_theme().suffix);
-  if (extension == ".mp4" || extension == ".webm") return begins_with_one_of(stem, {"film_"});
+  take_off(stem, dark_suffix);
+  if (is_one_of({".mp4", ".webm", ".webp"}, extension) || (extension == ".png" && begins_with_one_of(stem, {"film_"})))
+    return begins_with_one_of(stem, {"film_"});
   if (extension.empty() || !is_one_of(picture_formats(), extension.substr(1))) return false;
   return is_one_of({"energy", "ledger", "bars", "fields"}, stem) ||
          begins_with_one_of(stem, {"portrait_", "profiles_", "space_time_", "slices_", "planes_"});
 }
 
-// u_0001.png and u_0001_dark.png.
+// u_0001.png and u_0001_dark.png in figures/film, where earlier versions left the frames of films.
 bool is_frame(const fs::path& file) {
   std::string stem = file.stem().string();
-  take_off(stem, dark_theme().suffix);
+  take_off(stem, dark_suffix);
   const std::size_t end = stem.find_last_not_of("0123456789");
   return file.extension() == ".png" && end != std::string::npos && end > 0 && stem[end] == '_' &&
          stem.size() == end + 5;
@@ -62,6 +70,37 @@ void remove_files(const fs::path& folder, bool (*is_ours)(const fs::path&)) {
   for (const fs::path& file : ours) fs::remove(file, ignored);
 }
 
+std::string title_of(const RunFiles& run) {
+  const std::string steps = run.spec.tolerance ? fmt::format("tolerance {}", step_text(*run.spec.tolerance))
+                                               : fmt::format("h = {}", step_text(run.spec.h));
+  return fmt::format("{}, {}, {}", run_name(run), method_label(run.method), steps);
+}
+
+Json points_of(const Curve& curve) { return {curve.t, curve.value}; }
+
+Json request_for(const RunFiles& run, const EnergyHistory& history, const std::vector<std::string>& formats,
+                 const PictureOptions& options) {
+  Json causes = Json::array();
+  for (const Curve& cause : history.causes) causes.push_back({cause_label(history, cause.name), points_of(cause)});
+  Json request = {{"run", fs::absolute(run.directory).string()},
+                  {"title", title_of(run)},
+                  {"warning", shortfall(run)},
+                  {"formats", formats},
+                  {"history",
+                   {{"H", points_of(history.H)},
+                    {"modified", history.modified ? points_of(*history.modified) : Json()},
+                    {"causes", causes}}},
+                  {"films", options.film_fields.empty() ? Json() : Json(options.film_fields)},
+                  {"journal", options.journal},
+                  {"progress", options.progress}};
+  if (!options.film) request["films"] = Json::array();
+  if (options.range) request["range"] = {options.range->first, options.range->second};
+  if (options.centre) request["centre"] = *options.centre;
+  if (!options.palette.empty()) request["palette"] = options.palette;
+  if (options.width > 0) request["width"] = options.width;
+  return request;
+}
+
 }  // namespace
 
 void remove_pictures(const fs::path& directory) {
@@ -79,37 +118,30 @@ void require_own_figures(const fs::path& directory) {
       throw Error("{} is a link, and pictures of this run go into no folder of another: remove it", folder.string());
 }
 
+const std::vector<std::string>& picture_formats() {
+  static const std::vector<std::string> formats = {"png", "pdf", "svg"};
+  return formats;
+}
+
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options) {
   require_own_figures(run.directory);
+  const SolutionReader readable(run.directory / "solution.h5");  // or Python would end by damage, or wait for ever
   RunPictures pictures;
   pictures.formats = options.formats;
   if (!is_one_of(pictures.formats, "png")) pictures.formats.insert(pictures.formats.begin(), "png");
   DrawingFolder drawing(run.directory / "figures");
-
-  const SolutionReader solution(run.directory / "solution.h5");
-  const Rendering light{.theme = &light_theme(), .formats = pictures.formats};
-  const Rendering dark{.theme = &dark_theme(), .formats = pictures.formats};
-  std::vector<std::string> scripts(2);  // one process each
-  const std::string warning = shortfall(run);
-  const auto add = [&](auto plot, const std::string& caption, const auto& script) {
-    plot.warning = warning;
-    scripts[0] += script(plot, light);
-    scripts[1] += script(plot, dark);
-    pictures.list.push_back({plot.stem, plot.title + (warning.empty() ? "" : "; " + warning), caption});
-  };
-  const auto add_curves = [&](const CurvePicture& picture) { add(picture.plot, picture.caption, plot_script); };
-  const auto add_map = [&](const MapPicture& map) { add(map.plot, map.caption, map_script); };
-  for (const CurvePicture& picture : energy_curves(run, history)) add_curves(picture);
-  if (const auto bars = bars_picture(run, solution)) add_curves(*bars);
-  for (const MapPicture& map : solution_maps(run, solution)) add_map(map);
-  for (const CurvePicture& picture : solution_curves(run, solution)) add_curves(picture);
-  run_gnuplot(scripts, drawing.path());
-  std::vector<std::string> filmed = options.film_fields;
-  const bool films = options.film && solution.axes().size() == 2;
-  if (filmed.empty()) filmed = {solution.fields().front()};
-  for (std::size_t f = 0; f < solution.fields().size(); ++f)
-    if (films && is_one_of(filmed, solution.fields()[f]))
-      pictures.films.push_back(draw_film(run, solution, static_cast<Index>(f), drawing.path()));
+  const Json drawn = Json::parse(draw(request_for(run, history, pictures.formats, options).dump(), drawing.path()));
+  for (const Json& one : drawn.at("pictures"))
+    pictures.list.push_back({one.at("stem"), one.at("title"), one.at("caption")});
+  for (const Json& one : drawn.at("films")) {
+    const auto file = [&](const char* ground) { return "figures/" + one.at("files").at(ground).get<std::string>(); };
+    pictures.films.push_back({.field = one.at("field"),
+                              .frames = one.at("frames"),
+                              .file = file("light"),
+                              .dark_file = file("dark"),
+                              .remark = one.at("remark"),
+                              .note = one.at("note")});
+  }
   remove_pictures(run.directory);  // of an earlier call, now that the new ones are there
   drawing.commit();
   return pictures;

@@ -1,10 +1,12 @@
 // The pictures of a finished run, drawn into its folder.
 #pragma once
 
-#include <seiche/figure/film.hpp>
 #include <seiche/study/energy_history.hpp>
+#include <seiche/study/run_files.hpp>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace seiche {
@@ -12,6 +14,15 @@ namespace seiche {
 struct RunPicture {
   std::string stem;  // figures/<stem>.png for a light ground, figures/<stem>_dark.png for a dark one
   std::string title, caption;
+};
+
+// Of a field in the plane: an MP4 or WebM, or an animated WebP or PNG where ffmpeg is missing.
+struct Film {
+  std::string field;
+  std::size_t frames = 0;
+  std::string file, dark_file;  // "figures/film_u.mp4", "figures/film_u_dark.mp4", from the folder of the run
+  std::string remark;           // of its scale of colours, or ""
+  std::string note;             // why it is an animated picture, or ""
 };
 
 struct RunPictures {
@@ -23,14 +34,23 @@ struct RunPictures {
 struct PictureOptions {
   std::vector<std::string> formats = {"png", "pdf", "svg"};  // png is always among them: the report shows it
   bool film = true;
-  std::vector<std::string> film_fields = {};  // empty: the first
+  std::vector<std::string> film_fields = {};            // empty: the first
+  std::optional<std::pair<double, double>> range = {};  // of the colours of maps
+  std::optional<double> centre = {};                    // the value of the middle colour, of colours from both sides
+  std::string palette = {};                             // one of Matplotlib's, "" for those of the house
+  double width = 0;                                     // inches; 0: 3.4
+  bool journal = false;                                 // without titles
+  bool progress = false;                                // on the terminal
 };
+
+const std::vector<std::string>& picture_formats();
 
 // Throws Error where DIR/figures, or the folder of frames in it, is a link, through which pictures would get elsewhere.
 void require_own_figures(const std::filesystem::path& directory);
 
-// Throws Error where require_own_figures does, where gnuplot is missing or fails, and where solution.h5 cannot be read;
-// then what an earlier call drew stays, and goes only where everything is drawn.
+// Throws Error where require_own_figures does, where Python or a package that draws is missing or fails, and where
+// solution.h5 cannot be read; then what an earlier call drew stays, and goes only where everything is drawn. Throws
+// BadDrawingRequest for a palette that there is not.
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options = {});
 
 // What draw_run left in the figures of an earlier run, so that nothing old stands beside new data; other files stay.

@@ -2,9 +2,7 @@
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/plot/curves.hpp>
 #include <seiche/figure/plot/style.hpp>
-#include <seiche/figure/plot/symbols.hpp>
 #include <seiche/figure/report_style.hpp>
-#include <seiche/figure/run_curves.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/run_folder.hpp>
@@ -140,25 +138,19 @@ std::string figure(const RunFiles& run, const RunPictures& pictures, const RunPi
 }
 
 std::string film(const Film& film) {
-  if (film.frames == 0) return "";
-  if (!film.file.empty()) {
-    const auto shown = [](const std::string& file, const char* ground) {
-      return fmt::format("<video class=\"{}\" src=\"{}\" controls loop muted preload=\"metadata\"></video>", ground,
-                         html_escaped(file));
-    };
-    const auto link = [](const std::string& file) {
-      return fmt::format("<a href=\"{0}\">{0}</a>", html_escaped(file));
-    };
-    std::string text = "<figure class=\"film\"><div class=\"drawn\">" +
-                       shown(film.file, film.dark_file.empty() ? "on-both" : "on-light");
-    if (!film.dark_file.empty()) text += shown(film.dark_file, "on-dark");
-    text += fmt::format("</div><figcaption>{}: {} frames with one scale of colours.{} {}",
-                        html_text(in_text(film.field)), film.frames, html_text(film.remark), link(film.file));
-    if (!film.dark_file.empty()) text += ", and for a dark ground " + link(film.dark_file);
-    return text + ".</figcaption></figure>\n";
-  }
-  return fmt::format("<p>The {} frames of a film of {} are in <code>figures/film</code>; {}.</p>\n", film.frames,
-                     html_text(in_text(film.field)), html_text(film.note));
+  const auto shown = [](const std::string& file, const char* ground) {
+    const char* kind = file.ends_with(".mp4") || file.ends_with(".webm")
+                           ? "<video class=\"{0}\" src=\"{1}\" controls loop muted preload=\"metadata\"></video>"
+                           : "<img class=\"{0}\" src=\"{1}\" alt=\"film\" loading=\"lazy\">";
+    return fmt::format(fmt::runtime(kind), ground, html_escaped(file));
+  };
+  const auto link = [](const std::string& file) { return fmt::format("<a href=\"{0}\">{0}</a>", html_escaped(file)); };
+  return fmt::format(
+      "<figure class=\"film\"><div class=\"drawn\">{}{}</div><figcaption>{}: {} frames with one scale of colours.{}{} {}, "
+      "and for a dark ground {}.</figcaption></figure>\n",
+      shown(film.file, "on-light"), shown(film.dark_file, "on-dark"), html_text(film.field), film.frames,
+      html_text(film.remark), film.note.empty() ? "" : html_text(" It is " + film.note + "."), link(film.file),
+      link(film.dark_file));
 }
 
 std::string pictures_section(const RunFiles& run, const RunPictures& pictures, const std::string& why_none) {

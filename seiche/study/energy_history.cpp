@@ -6,9 +6,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <utility>
 
 namespace seiche {
 namespace {
+
+bool is_constant(const std::vector<double>& values) {
+  return std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end();
+}
 
 // A curve that halves itself: of each stretch of rows its extremes are kept, and stretches double when there are too
 // many.
@@ -91,6 +98,24 @@ EnergyHistory read_energy_history(const std::filesystem::path& file) {
   if (first_cause == 3) history.modified = curves[2].curve("H_modified");
   for (std::size_t i = first_cause; i < names.size(); ++i) history.causes.push_back(curves[i].curve(names[i]));
   return history;
+}
+
+std::string cause_label(const EnergyHistory& history, const std::string& column) {
+  static const std::array<std::pair<std::string, std::string>, 8> labels = {
+      {{"work", "work of forces"},
+       {"damping_left", "damping, half step before the Hamiltonian step"},
+       {"substep", "dissipation of S"},
+       {"scalar", "scalar equation"},
+       {"auxiliary", "auxiliary variable"},
+       {"projection", "projection"},
+       {"damping_right", "damping, half step after the Hamiltonian step"},
+       {"round_off", "round-off"}}};
+  const auto second = std::find_if(history.causes.begin(), history.causes.end(),
+                                   [](const Curve& cause) { return cause.name == "damping_right"; });
+  if (column == "damping_left" && second != history.causes.end() && is_constant(second->value)) return "damping";
+  for (const auto& [name, label] : labels)
+    if (name == column) return label;
+  return column;
 }
 
 }  // namespace seiche

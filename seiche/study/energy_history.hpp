@@ -23,4 +23,8 @@ struct EnergyHistory {
 // last row. Throws Error where the file is missing or no table of energies.
 EnergyHistory read_energy_history(const std::filesystem::path& file);
 
+// A column of the ledger in words. Where a method takes its damping in one piece, as collocation does, the ledger has
+// all of it in the first of its two columns, and it is called so.
+std::string cause_label(const EnergyHistory& history, const std::string& column);
+
 }  // namespace seiche

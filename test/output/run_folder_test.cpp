@@ -1,6 +1,7 @@
 // The folder of a run: what is removed from it, what is kept, and that it never holds two runs.
 #include <test/support/background.hpp>
 #include <test/support/program.hpp>
+#include <test/support/run_folder.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,7 +59,7 @@ TEST_F(RunFolders, RunsAndPlotsRemoveWhatSeicheDrawsAndNothingElse) {
   ASSERT_EQ(seiche("run case.toml --out here --quiet").exit, 0);
   for (const std::string& name : foreign) EXPECT_EQ(text("here/" + name), "drawn") << name;
   for (const std::string& name : ours) EXPECT_FALSE(fs::exists(directory / "here" / name)) << name;
-  if (std::system("gnuplot --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot";
+  if (!test::can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
   ASSERT_EQ(seiche("plot here --format png").exit, 0);
   for (const std::string& name : foreign) EXPECT_EQ(text("here/" + name), "drawn") << name;
 }
@@ -156,13 +157,15 @@ TEST_F(RunFolders, TwoRunsDoNotWriteIntoOneFolder) {
   }
 }
 
-// What a failing gnuplot has drawn so far is half a picture.
+// What a failing program has drawn so far is half a picture.
 TEST_F(RunFolders, PicturesAreWholeOrThoseOfBefore) {
   write_case();
   ASSERT_EQ(seiche("run case.toml --out out --quiet").exit, 0);
   fs::create_directories(directory / "bin");
-  write("bin/gnuplot", "#!/bin/sh\nfor f in energy spectrum_decay; do echo half >$f.png; done\nexit 1\n");
-  fs::permissions(directory / "bin/gnuplot", fs::perms::owner_all);
+  for (const char* program : {"gnuplot", "python3"}) {
+    write(fs::path("bin") / program, "#!/bin/sh\nfor f in energy spectrum_decay; do echo half >$f.png; done\nexit 1\n");
+    fs::permissions(directory / "bin" / program, fs::perms::owner_all);
+  }
   const std::string path = "PATH=\"" + (directory / "bin").string() + ":$PATH\"";
   EXPECT_EQ(seiche("plot out", path).exit, 1);
   EXPECT_EQ(names("out/figures"), (std::set<std::string>{}));
@@ -179,8 +182,9 @@ TEST_F(RunFolders, PicturesAreWholeOrThoseOfBefore) {
   EXPECT_THAT(text("out/report.html"), HasSubstr("with pictures")) << "they are in it";
 }
 
-// Frames, but an ffmpeg that gives up.
+// An ffmpeg that gives up behind half a film.
 TEST_F(RunFolders, AFilmIsWholeOrNotThere) {
+  if (!test::can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
   write_case();
   ASSERT_EQ(seiche("run case.toml --out out --quiet --set problem.points=[8,8] problem.length=[2.0,2.0] "
                    "output.snapshot_every=16")
@@ -192,11 +196,13 @@ TEST_F(RunFolders, AFilmIsWholeOrNotThere) {
     write("bin" / name, "#!/bin/sh\n" + script);
     fs::permissions(directory / "bin" / name, fs::perms::owner_all);
   };
-  program("gnuplot", "exit 0\n");
   program("ffmpeg", "for last; do :; done\necho half >$last\nexit 1\n");
   EXPECT_EQ(seiche("plot out", "PATH=\"" + (directory / "bin").string() + ":$PATH\"").exit, 0) << text("stderr.txt");
-  EXPECT_THAT(text("stderr.txt"), HasSubstr("5 frames"));
-  EXPECT_EQ(names("out/figures"), (std::set<std::string>{}));
+  EXPECT_THAT(text("stderr.txt"), HasSubstr("an animated picture, since ffmpeg failed"));
+  const std::set<std::string> drawn = names("out/figures");
+  EXPECT_TRUE(drawn.count("film_u.webp") == 1 && drawn.count("film_u_dark.webp") == 1);
+  for (const char* half : {"film_u.mp4", "film_u.webm", "film_u_dark.mp4", "film_u_dark.webm"})
+    EXPECT_EQ(drawn.count(half), 0U) << half;
 }
 
 }  // namespace TEST_FILE

@@ -19,6 +19,14 @@
 
 namespace seiche::test {
 
+// Python with what draws the pictures of a run.
+inline bool can_draw() {
+  static const bool found = std::system(
+                                "python3 -c 'import matplotlib, h5py' 2>/dev/null || "
+                                "/usr/bin/python3 -c 'import matplotlib, h5py' 2>/dev/null") == 0;
+  return found;
+}
+
 inline bool have_gnuplot() {
   static const bool found = error_of([] { run_gnuplot({"exit\n"}, std::filesystem::temp_directory_path()); }).empty();
   return found;

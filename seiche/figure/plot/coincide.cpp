@@ -116,21 +116,4 @@ std::string separate(Plot& plot, const std::vector<std::vector<std::size_t>>& gr
                      names.size() == 1 ? "is" : "are");
 }
 
-std::string nest(Plot& plot, const std::vector<std::vector<std::size_t>>& groups) {
-  constexpr double widest = 3.4;
-  for (const std::vector<std::size_t>& group : groups) {
-    double width = widest;
-    for (const std::size_t i : group) {
-      Series& series = plot.series[i];
-      if (series.layer == reference_layer) continue;
-      const bool under = width == widest;
-      series.style.dash = under ? Dash::solid : Dash::dashed;
-      series.style.width = width;
-      if (!under) series.layer = coinciding_layer;
-      width *= 0.5;
-    }
-  }
-  return groups.empty() ? "" : "There the first is the wide line, and what lies on it is drawn narrower over it.";
-}
-
 }  // namespace seiche

@@ -18,8 +18,4 @@ std::string coincidence_sentence(const Plot& plot, const std::vector<std::vector
 // Of each group the thin solid lines become dashes over the thick one; returns a sentence that says so, or "".
 std::string separate(Plot& plot, const std::vector<std::vector<std::size_t>>& groups);
 
-// The same for lines of equal rank: of each group the first becomes a wide line, and the others narrower dashes on it.
-// References stay what they are.
-std::string nest(Plot& plot, const std::vector<std::vector<std::size_t>>& groups);
-
 }  // namespace seiche

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 namespace seiche {
 namespace {
@@ -29,24 +28,6 @@ Colour mixed(const Colour& a, const Colour& b, double s) {
   return c;
 }
 
-constexpr std::array viridis = {"#440154", "#472D7B", "#3B528B", "#2C728E", "#21918C",
-                                "#28AE80", "#5EC962", "#ADDC30", "#FDE725"};
-constexpr std::array vik = {"#001261", "#033E7D", "#1E6F9D", "#71A8C4", "#C9DDE7", "#ECE5E0",
-                            "#EACEBD", "#D39774", "#BE6533", "#8B2706", "#590008"};
-constexpr std::array berlin = {"#9EB0FF", "#5BA4DB", "#2D75A0", "#1A4256", "#11191E", "#140F10",
-                               "#280D01", "#501802", "#8A3F2A", "#C4756A", "#FFACAC"};
-
-std::span<const char* const> palette_colours(const Theme& theme, bool diverging) {
-  if (!diverging) return viridis;
-  return theme.dark ? berlin : vik;
-}
-
-std::string definition(std::span<const char* const> colours) {
-  std::string text;
-  for (std::size_t i = 0; i < colours.size(); ++i) text += fmt::format("{}{} '{}'", i > 0 ? ", " : "", i, colours[i]);
-  return "set palette defined (" + text + ") maxcolors 0\n";
-}
-
 }  // namespace
 
 std::string Theme::colour(const std::string& on_light) const {
@@ -67,11 +48,6 @@ const Theme& light_theme() {
 const Theme& dark_theme() {
   static const Theme theme{.suffix = "_dark", .paper = "#15181C", .ink = "#E6E8EA", .grid = "#363C44", .dark = true};
   return theme;
-}
-
-const std::vector<std::string>& picture_formats() {
-  static const std::vector<std::string> formats = {"png", "pdf", "svg"};
-  return formats;
 }
 
 std::string rendered(const Rendering& rendering, std::string_view stem, double width, double height,
@@ -102,19 +78,6 @@ std::string rendered(const Rendering& rendering, std::string_view stem, double w
                         gnuplot_file(fmt::format("{}{}.{}", stem, rendering.theme->suffix, format)), commands);
   }
   return text;
-}
-
-std::string palette(const Theme& theme, bool diverging) { return definition(palette_colours(theme, diverging)); }
-
-std::string palette_end(const Theme& theme, bool diverging, bool high) {
-  const auto colours = palette_colours(theme, diverging);
-  return high ? colours.back() : colours.front();
-}
-
-std::string sequence_colour(double s) {
-  const double place = std::clamp(0.05 + 0.75 * s, 0.0, 1.0) * (viridis.size() - 1);
-  const auto i = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
-  return text_of(mixed(parsed(viridis[i]), parsed(viridis[i + 1]), place - static_cast<double>(i)));
 }
 
 }  // namespace seiche

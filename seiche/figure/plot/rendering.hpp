@@ -21,20 +21,11 @@ const Theme& dark_theme();
 
 struct Rendering {
   const Theme* theme = &light_theme();
-  std::vector<std::string> formats = {"png", "pdf"};  // of picture_formats()
+  std::vector<std::string> formats = {"png", "pdf"};  // png, pdf, svg
 };
-
-const std::vector<std::string>& picture_formats();  // png, pdf, svg
 
 // Commands that run `commands` once for every format, into <stem><suffix>.<format>; inches.
 std::string rendered(const Rendering& rendering, std::string_view stem, double width, double height,
                      std::string_view commands);
-
-// Colours from low to high values, perceptually uniform: from both sides of zero (vik, and berlin on a dark ground), or
-// from low to high (viridis). Crameri, Nature Communications 11 (2020) 5444; Smith and van der Walt, SciPy 2015.
-std::string palette(const Theme& theme, bool diverging);
-std::string palette_end(const Theme& theme, bool diverging, bool high);  // its first or last colour
-// At s between 0 and 1 of viridis, without its ends, which would vanish on white or black: for curves in a sequence.
-std::string sequence_colour(double s);
 
 }  // namespace seiche

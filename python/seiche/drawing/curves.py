@@ -1,0 +1,310 @@
+"""Curves: energies and ledger over time, fields over time and along a line, phase portraits, the bars of a truss.
+
+Each function draws on axes that it is given, and returns what its caption has to say beyond what is drawn; curves are (x, y).
+"""
+
+from __future__ import annotations
+
+import typing
+
+import numpy as np
+
+from . import names, style
+
+if typing.TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Curve = tuple[np.ndarray, np.ndarray]
+Style = typing.Mapping[str, typing.Any]
+
+FEW_POINTS = 4  # each is shown over time
+_TURN = 2 * np.pi
+_WIDEST = 3.4  # points, of a line that another lies on
+
+
+def thinned(curve: Curve, points: int = 1500) -> Curve:
+    """No more points than are seen: of each stretch those with the smallest and the largest value, in their order."""
+    x, y = (np.asarray(values, dtype=float) for values in curve)
+    if len(x) <= 2 * points:
+        return x, y
+    stretch = -(-2 * len(x) // points)
+    whole = len(x) // stretch * stretch
+    parts = np.where(np.isfinite(y[:whole]), y[:whole], np.nan).reshape(-1, stretch)
+    parts = parts[np.isfinite(parts).any(axis=1)] if not np.isfinite(parts).any(axis=1).all() else parts
+    first = np.arange(len(parts)) * stretch
+    kept = np.unique(
+        np.concatenate(
+            [
+                [0],
+                first + np.nanargmin(parts, axis=1),
+                first + np.nanargmax(parts, axis=1),
+                np.arange(whole, len(x)),
+                [len(x) - 1],
+            ]
+        )
+    )
+    return x[kept], y[kept]
+
+
+def spread(count: int, most: int) -> np.ndarray:
+    """At most so many of the numbers below `count`, evenly, the first and the last among them."""
+    return np.unique(np.linspace(0, count - 1, min(count, most)).astype(int)) if count else np.zeros(0, int)
+
+
+def add(ax: "Axes", curve: Curve, given: Style = {}, **defaults: typing.Any) -> typing.Any:
+    """One more curve, in the colour that is next."""
+    (line,) = ax.plot(*curve, **style.with_style({"color": style.next_colour(ax)} | defaults, given))
+    return line
+
+
+def _legend(ax: "Axes", is_below: bool = False) -> None:
+    """Where there is more than one thing to name; inside, where it hides least, or below if it is large."""
+    labels = ax.get_legend_handles_labels()[1]
+    longest = max(map(len, labels), default=0)
+    if is_below or len(labels) > 4 or (longest > 24 and len(labels) > 1):
+        columns = 1 if longest > 34 else 2 if longest > 16 else 3 if longest > 12 or len(labels) > 4 else 4
+        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.5 if is_below else -0.2), ncol=columns, columnspacing=1.2)
+    elif len(labels) > 1:
+        ax.legend(loc="best")
+
+
+def number_points(axis: typing.Any, name: str) -> None:
+    """Ticks at whole numbers, along an axis of numbered points."""
+    if name == "point":
+        from matplotlib.ticker import MaxNLocator
+
+        axis.set_major_locator(MaxNLocator(integer=True))
+
+
+def _falls_by_decades(values: np.ndarray) -> bool:
+    values = values[np.isfinite(values)]
+    return bool(values.size and values.min() > 0 and values.max() >= 100 * values.min())
+
+
+def _lies_on(a: np.ndarray, b: np.ndarray) -> bool:
+    """Do nine tenths of the points of a lie below the line b, drawn wide? Both as seen, in inches."""
+    half = _WIDEST / 72 / 2
+    begin, along = b[:-1], np.diff(b, axis=0)
+    length = np.maximum((along**2).sum(axis=1), 1e-300)
+    close = 0
+    for points in np.array_split(a, -(-len(a) // 256)):
+        from_begin = points[:, None] - begin
+        share = np.clip((from_begin * along).sum(axis=2) / length, 0, 1)
+        away = from_begin - share[..., None] * along
+        close += int(np.count_nonzero((away**2).sum(axis=2).min(axis=1) <= half**2))
+    return close >= 0.9 * len(a)
+
+
+def coinciding(curves: typing.Mapping[str, Curve]) -> list[list[str]]:
+    """Groups of curves over one axis that hide one another."""
+    shown = {name: np.stack(thinned(curve, 500), axis=1) for name, curve in curves.items()}
+    shown = {name: points[np.isfinite(points).all(axis=1)] for name, points in shown.items()}
+    shown = {name: points for name, points in shown.items() if len(points) > 1}
+    if not shown:
+        return []
+    everything = np.concatenate(list(shown.values()))
+    seen = {
+        name: points / (np.where(np.ptp(everything, axis=0) > 0, np.ptp(everything, axis=0), 1.0) / (2.7, 1.8))
+        for name, points in shown.items()
+    }
+    groups: list[list[str]] = []
+    for name, points in seen.items():
+        for group in groups:
+            if all(_lies_on(points, seen[other]) and _lies_on(seen[other], points) for other in group):
+                group.append(name)
+                break
+        else:
+            groups.append([name])
+    return [group for group in groups if len(group) > 1]
+
+
+def nest(ax: "Axes", groups: list[list[str]], labels: typing.Mapping[str, str]) -> str:
+    """Shows curves that hide one another: the first wide, what lies on it narrower over it. Returns the sentence that says so."""
+    lines = {line.get_label(): line for line in ax.lines}
+    for group in groups:
+        width = _WIDEST
+        for place, name in enumerate(group):
+            line = lines[labels[name]]
+            line.set(linewidth=width, linestyle="-" if place == 0 else style.DASHES["dashed"], zorder=2 + place)
+            width *= 0.5
+    if not groups:
+        return ""
+    named = "; ".join(names.listed(group) for group in groups)
+    return (
+        f" Within the width of a line these coincide: {named}. There the first is the wide line, and what lies on it is "
+        "drawn narrower over it."
+    )
+
+
+def energy(ax: "Axes", H: Curve, modified: Curve | None = None, given: Style = {}) -> str:
+    """H over time, and the modified energy where there is one; both as the change since the start where the numbers of an axis would
+    not show it."""
+    t, values = H
+    first = float(values[0]) if len(values) else 0.0
+    span = max((float(np.nanmax(np.abs(y - first))) for _, y in filter(None, (H, modified)) if len(y)), default=0.0)
+    is_change = span < 1e-6 * abs(first)
+    shift = first if is_change else 0.0
+    symbol = "$H - H(0)$" if is_change else "$H$"
+    curves = {"H": (t, values - shift)}
+    labels = {"H": symbol, "the modified energy": "modified energy"}
+    add(ax, curves["H"], given, label=symbol)
+    if modified is not None:
+        curves["the modified energy"] = (modified[0], modified[1] - shift)
+        add(ax, curves["the modified energy"], given, linestyle="--", label="modified energy")
+    if not is_change and all(_falls_by_decades(y) for _, y in curves.values()):
+        ax.set_yscale("log")
+    ax.set(xlabel="time $t$", ylabel=symbol if is_change else "energy $H$")
+    said = nest(ax, coinciding(curves), labels) if not given else ""
+    _legend(ax)
+    return (
+        (f", as its change since the start, where it is {first:.6g}" if is_change else "")
+        + (", and the modified energy whose law the method keeps" if modified is not None else "")
+        + "."
+        + said
+    )
+
+
+def ledger(ax: "Axes", H: Curve, causes: typing.Mapping[str, Curve]) -> str:
+    """The change of H since the start as a thin line, and what it comes from; parts below a thousandth are left out."""
+    change = H[0], H[1] - H[1][0]
+    largest = max(float(np.ptp(y)) for _, y in (change, *causes.values()))
+    shown = {name: curve for name, curve in causes.items() if np.ptp(curve[1]) > 1e-3 * largest}
+    dashes = ("solid", "dashed", "dash_dotted", "dotted")
+    for place, (name, curve) in enumerate(shown.items()):
+        add(ax, curve, label=name, linestyle=style.DASHES[dashes[place % 4]], linewidth=1.2)
+    ax.plot(*change, color=style.on_ground(ax, "#000000"), linewidth=0.6, label="$H - H(0)$", zorder=3)
+    ax.set(xlabel="time $t$", ylabel="change of $H$ since $t$ = 0")
+    said = nest(
+        ax, coinciding(shown | {"the change": change}), {name: name for name in shown} | {"the change": "$H - H(0)$"}
+    )
+    _legend(ax)
+    return said
+
+
+class Field(typing.NamedTuple):
+    name: str
+    meaning: str
+    values: np.ndarray  # one row for each time, one column for each point
+
+    @property
+    def label(self) -> str:
+        return names.label(self.meaning, self.name)
+
+
+def over_time(ax: "Axes", t: np.ndarray, fields: typing.Sequence[Field]) -> None:
+    """Every field at every point over time."""
+    dashes = ("solid", "dashed", "dash_dotted", "dotted")
+    for k, field in enumerate(fields):
+        points = field.values.shape[1]
+        for p in range(points):
+            colour = style.on_ground(ax, style.CURVES[(p if points > 1 else k) % len(style.CURVES)])
+            which = f", point {p + 1}" if points > 1 else ""
+            label = names.symbol(field.name) + which
+            ax.plot(
+                *thinned((t, field.values[:, p])),
+                color=colour,
+                linestyle=style.DASHES[dashes[k % 4]],
+                linewidth=0.9,
+                label=label,
+            )
+    ax.set(xlabel="time $t$", ylabel=", ".join(names.symbol(field.name) for field in fields))
+    _legend(ax)
+
+
+def profiles(ax: "Axes", t: np.ndarray, axis: tuple[str, np.ndarray], field: Field, is_lattice: bool) -> None:
+    """A field along a line at some times, in a sequence of colours; points of a lattice are dots on a thin line."""
+    for k in range(len(t)):
+        share = k / max(len(t) - 1, 1)
+        dots = {"marker": "o", "markersize": 1.8} if is_lattice and len(axis[1]) <= 200 else {}
+        width = (0.5 if dots else 0.8) * (1.6 if k in (0, len(t) - 1) else 1)
+        ax.plot(
+            axis[1],
+            field.values[k],
+            color=style.in_sequence(ax, share),
+            linewidth=width,
+            label=f"$t$ = {t[k]:.4g}",
+            **dots,
+        )
+    ax.set(xlabel=names.place(axis[0]), ylabel=field.label)
+    number_points(ax.xaxis, axis[0])
+    _legend(ax)
+
+
+def _mean_corner(x: np.ndarray, y: np.ndarray) -> float:
+    """Between one state and the next, as it is seen, in radians; long pieces count more."""
+    z = (x - x.min()) / (np.ptp(x) or 1.0) + 1j * (y - y.min()) / (np.ptp(y) or 1.0)
+    pieces = np.diff(z)
+    weights = np.abs(pieces[1:]) + np.abs(pieces[:-1])
+    return (
+        float(np.average(np.abs(np.angle(pieces[1:] * pieces[:-1].conj())), weights=weights))
+        if weights.sum() > 0
+        else 0.0
+    )
+
+
+def portrait(ax: "Axes", across: Field, up: Field, given: Style = {}) -> str:
+    """One field over another, with the start (open circle) and the end (filled square); every point is a curve.
+
+    Where fewer than 24 states make a turn they are shown as dots on a thin line, and where fewer than 6 do, without it: corners are
+    not of the solution.
+    """
+    pairs = list(zip(across.values.T, up.values.T))
+    corner = max(_mean_corner(a, b) for a, b in pairs)
+    dots: dict[str, typing.Any] = {}
+    if corner > _TURN / 24:
+        dots = {"marker": ".", "markersize": 3, "linewidth": 0.4} | (
+            {"linestyle": "none"} if corner > _TURN / 6 else {}
+        )
+    ink = style.on_ground(ax, "#000000")
+    for place, (a, b) in enumerate(pairs):
+        add(ax, (a, b), given, **dots, **({"label": f"point {place + 1}"} if 1 < len(pairs) <= FEW_POINTS else {}))
+        ends = {"label": "start"}, {"label": "end"}
+        ax.plot(a[0], b[0], "o", mfc="none", color=ink, **(ends[0] if place == 0 else {}))
+        ax.plot(a[-1], b[-1], "s", color=ink, **(ends[1] if place == 0 else {}))
+    ax.set(xlabel=across.label, ylabel=up.label)
+    ax.margins(0.05)
+    _legend(ax)
+    if not dots:
+        return ""
+    return f" Dots are the {len(across.values)} states of the run" + (
+        ", too far apart to be joined."
+        if corner > _TURN / 6
+        else f", about {_TURN / corner:.0f} to a turn; the straight lines between them are no part of the solution."
+    )
+
+
+def magnification(largest: float, size: float) -> float:
+    """What displacements are multiplied by, so that the largest is seen: 1, or 1, 2 or 5 times a power of ten."""
+    seen = 0.02  # of the frame
+    if not 0 < largest < seen * size:
+        return 1.0
+    wanted = 2 * seen * size / largest
+    decade = 10.0 ** np.floor(np.log10(wanted))
+    return float(max(step * decade for step in (1, 2, 5) if step * decade <= wanted))
+
+
+def bars(
+    ax: "Axes", places: np.ndarray, supports: np.ndarray, ends: np.ndarray, t: np.ndarray, moved: np.ndarray
+) -> float:
+    """The bars of a truss at rest and at two times: places of all nodes, supports last, and displacements of those that move.
+
+    Returns what displacements are multiplied by.
+    """
+    everything = np.concatenate([places, supports])
+    factor = magnification(float(np.abs(moved).max(initial=0)), float(np.ptp(everything, axis=0).max()))
+
+    def draw(nodes: np.ndarray, **line: typing.Any) -> None:
+        broken = np.insert(nodes[ends], 2, np.nan, axis=1).reshape(-1, 2)
+        ax.plot(*broken.T, **line)
+
+    draw(everything, color="#8C8C8C", linewidth=0.6, label="at rest")
+    for k, colour in enumerate(style.CURVES[: len(t)]):
+        nodes = everything.copy()
+        nodes[: len(places)] += factor * moved[k]
+        draw(nodes, color=style.on_ground(ax, colour), linewidth=0.8 + 0.3 * k, label=f"$t$ = {t[k]:.4g}")
+    ax.plot(*supports.T, "^", color=style.on_ground(ax, "#000000"), label="support")
+    ax.set(xlabel="$x$", ylabel="$y$", aspect="equal")
+    ax.margins(0.05)
+    ax.grid(False)
+    _legend(ax, is_below=True)
+    return factor

@@ -1,0 +1,252 @@
+"""What stands in the pictures of `seiche plot`: scales, names, titles, curves that hide one another."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import seiche
+from seiche._toml import section
+from seiche.drawing import colours, curves, films, maps, names, render, runs, style
+
+
+@pytest.fixture(autouse=True)
+def closed_figures():
+    yield
+    plt.close("all")
+
+
+def pictures(tmp_path, problem, t_end=2.0, h=0.0625, method=None, **output):
+    """Of a run, by stem."""
+    sections = {
+        "problem": problem,
+        "method": {"name": method, "h": h},
+        "time": {"end": t_end},
+        "output": {"snapshot_every": 1, "ledger": "on"} | output,
+    }
+    tmp_path.mkdir(exist_ok=True)
+    (tmp_path / "case.toml").write_text("".join(section(*one) for one in sections.items()), encoding="utf-8")
+    seiche.run(tmp_path / "case.toml", tmp_path / "run")
+    solution = runs.Solution(str(tmp_path / "run/solution.h5"))
+    rows = np.genfromtxt(tmp_path / "run/energy.csv", delimiter=",", names=True)
+    curve = lambda name: [rows["t"].tolist(), rows[name].tolist()]  # noqa: E731
+    causes = [
+        [name, [rows["t"].tolist(), np.cumsum(rows[name]).tolist()]]
+        for name in rows.dtype.names
+        if name not in ("t", "H", "H_modified")
+    ]
+    history = {
+        "H": curve("H"),
+        "modified": curve("H_modified") if "H_modified" in rows.dtype.names else None,
+        "causes": causes,
+    }
+    return {picture.stem: picture for picture in runs.pictures_of(solution, history, colours.Look())}, solution
+
+
+def drawn(picture, ground="light"):
+    with style.on(style.GROUNDS[ground]):
+        figure = plt.figure()
+        return figure, picture.draw(figure)
+
+
+def test_energies_that_coincide_are_both_seen(tmp_path):
+    of, _ = pictures(tmp_path, {"name": "klein_gordon"})
+    figure, said = drawn(of["energy"])
+    under, over = figure.axes[0].lines
+    assert "coincide: H and the modified energy" in said
+    assert under.get_linestyle() == "-" and over.get_linestyle() == "--"
+    assert under.get_linewidth() >= 2 * over.get_linewidth() and over.get_zorder() > under.get_zorder()
+
+
+def test_parts_of_the_ledger_that_coincide_are_both_seen_and_small_ones_left_out(tmp_path):
+    of, _ = pictures(tmp_path, {"name": "oscillator", "gamma": 0.1}, h=0.03125)
+    figure, said = drawn(of["ledger"])
+    labels = [line.get_label() for line in figure.axes[0].lines]
+    assert labels == ["damping_left", "damping_right", "$H - H(0)$"]
+    assert "coincide: damping_left and damping_right" in said
+
+
+def test_what_hardly_changes_is_drawn_as_its_change():
+    ax = plt.figure().subplots()
+    t = np.linspace(0, 1, 11)
+    said = curves.energy(ax, (t, 0.5 + 1e-12 * t))
+    assert "as its change since the start, where it is 0.5" in said and ax.get_ylabel() == "$H - H(0)$"
+    ax = plt.figure().subplots()
+    assert curves.energy(ax, (t, 10.0 ** -(4 * t))) == "." and ax.get_yscale() == "log"
+
+
+@pytest.mark.parametrize(
+    "every, marker, line, words",
+    [
+        (1, "None", "-", ""),
+        (16, ".", "-", "41 states of the run, about 13 to a turn"),
+        (128, ".", "None", "too far apart to be joined"),
+    ],
+)
+def test_a_portrait_of_few_states_to_a_turn_shows_them(tmp_path, every, marker, line, words):
+    problem = {"name": "oscillator", "alpha": 0.0, "gamma": 0.0}
+    of, _ = pictures(tmp_path, problem, t_end=20.0, h=0.03125, method="egc4", snapshot_every=every)
+    figure, said = drawn(of["portrait_q_p"])
+    curve = figure.axes[0].lines[0]
+    assert (curve.get_marker(), curve.get_linestyle()) == (marker, line)
+    assert words in said and (said == "") == (every == 1)
+
+
+def test_portraits_pair_a_coordinate_with_its_momentum(tmp_path):
+    problem = {"name": "custom", "fields": ["a", "b", "pa", "pb"], "H": "pa^2/2 + pb^2/2 + a^2 + b^4 + a^2*b^2"}
+    of, _ = pictures(tmp_path, problem | {"initial": {"a": 1, "b": 0, "pa": 0, "pb": 0.5}})
+    assert list(of) == ["energy", "ledger", "fields", "portrait_a_pa", "portrait_b_pb"]
+
+
+def test_a_truss_is_drawn_as_its_bars_moved_by_what_the_file_holds(tmp_path):
+    of, solution = pictures(tmp_path, {"name": "truss", "amplitude": 0.2}, t_end=1.0)
+    assert list(of) == ["energy", "ledger", "bars"], "its points are in no order that a curve could show"
+    places, supports, ends = solution.mesh()
+    figure, _ = drawn(of["bars"])
+    rest, start, end, fixed = figure.axes[0].lines
+    moved = np.stack([solution.values(name, np.array([len(solution.t) - 1]))[0] for name in ("x", "y")], axis=-1)
+    nodes = np.concatenate([places + moved, supports])
+    pieces = end.get_xydata().reshape(-1, 3, 2)
+    assert np.abs(moved).max() > 1e-3 and np.array_equal(pieces[:, :2], nodes[ends]) and np.isnan(pieces[:, 2]).all()
+    assert np.array_equal(rest.get_xydata().reshape(-1, 3, 2)[:, :2], np.concatenate([places, supports])[ends])
+    assert np.array_equal(fixed.get_xydata(), supports) and figure.axes[0].get_aspect() == 1
+    small, _ = pictures(tmp_path / "small", {"name": "truss", "amplitude": 0.001}, t_end=0.125, h=0.03125)
+    assert "Displacements are drawn 200 times as large" in small["bars"].caption and "× 200" in small["bars"].what
+
+
+def test_names_are_set_alike_everywhere(tmp_path):
+    problem = {
+        "name": "custom",
+        "fields": ["theta", "p1"],
+        "H": "p1^2/2 - cos(theta)",
+        "initial": {"theta": "1", "p1": "0"},
+    }
+    of, _ = pictures(tmp_path, problem)
+    figure, _ = drawn(of["fields"])
+    assert figure.axes[0].get_ylabel() == r"$\theta$, $p_{1}$"
+    assert [line.get_label() for line in figure.axes[0].lines] == [r"$\theta$", "$p_{1}$"]
+    assert of["portrait_theta_p1"].caption == "Phase portrait: p₁ over θ."
+    assert names.symbol("u_field") == r"$\mathit{u\_field}$" and names.symbol("px") == "$p_{x}$"
+    assert [names.number(x) for x in (1e-5, 3e-5, -2.5e-7, 0.125, 0)] == ["10⁻⁵", "3·10⁻⁵", "−2.5·10⁻⁷", "0.125", "0"]
+    assert [names.step(h) for h in (2.0**-8, 1.0, 0.1, 1e-5)] == ["2⁻⁸", "2⁰", "0.1", "10⁻⁵"]
+
+
+def test_a_scale_has_two_sides_only_where_values_do_in_earnest():
+    rng = np.random.default_rng(1)
+    scale = colours.scale_of([rng.uniform(-1, 1, 1000)])
+    assert scale.is_diverging and scale.low == -scale.high
+    vacuum = 1 + 0.1 * rng.uniform(-1, 1, 1000)
+    vacuum[0] = -0.5  # one dot beyond zero
+    scale = colours.scale_of([vacuum])
+    assert not scale.is_diverging and scale.low > 0.85 and "down to −0.5" in scale.remark()
+    assert colours.scale_of([np.zeros(5)]) == colours.Scale(-1.0, 1.0, True)
+    assert colours.scale_of([np.full(5, 3.0)])[:2] == (0.0, 6.0) and colours.scale_of([np.full(5, -3.0)])[:2] == (
+        -6.0,
+        0.0,
+    )
+    assert colours.scale_of([np.array([0.5, np.nan, 2.0])])[:2] == (0.5, 2.0)
+
+
+def test_a_scale_ends_where_it_covers_nearly_all_of_every_picture():
+    values = np.linspace(-1, 1, 10001)
+    values[0] = 50
+    scale = colours.scale_of([values])
+    assert scale.is_diverging and 0.9 < scale.high < 1 and "up to 50" in scale.remark()
+    ax = plt.figure().subplots()
+    mesh = maps.image(ax, np.arange(3), np.arange(2), np.array([[0, 1], [2, 50.0], [3, -4]]), scale)
+    assert colours.add_bar(mesh, ax, scale, "u").extend == "both"
+    assert colours.scale_of([values, 40 * values])[1] > 30, "and not of one alone"
+
+
+def test_what_is_asked_for_decides():
+    values = [np.linspace(-1, 3, 101)]
+    assert colours.scale_of(values, colours.Look(range=(0.0, 2.0)))[:3] == (0.0, 2.0, True)
+    assert colours.scale_of(values, colours.Look(centre=2.0))[:3] == (-1.0, 5.0, True)
+    ax = plt.figure().subplots()
+    assert colours.scale_of(values, colours.Look(palette="magma")).style(ax)["cmap"] == "magma"
+
+
+def test_pictures_of_a_field_that_dies_down_have_scales_of_their_own():
+    wave = np.sin(np.linspace(0, 6, 50)).reshape(5, 10)
+    slow = colours.scales_of([wave, 0.5 * wave])
+    assert slow[0] == slow[1]
+    own = colours.scales_of([wave, 0.01 * wave, np.zeros_like(wave)])
+    assert all(scale.is_diverging for scale in own)
+    assert [scale.high for scale in own] == pytest.approx(
+        [np.abs(wave).max(), 0.01 * np.abs(wave).max(), np.abs(wave).max()]
+    )
+
+
+def test_maps_show_every_state_and_no_more_than_is_seen(tmp_path):
+    of, solution = pictures(tmp_path, {"name": "klein_gordon"}, t_end=1.0)
+    figure, _ = drawn(of["space_time_u"], "dark")
+    mesh = figure.axes[0].collections[0]
+    assert np.array_equal(np.reshape(mesh.get_array(), (20, 17)), solution.values("u", np.arange(17)).T)
+    assert of["space_time_u"].what == "u in space and time" and of["profiles_u"].what == "u at some times"
+    x, values = maps.no_more_than_seen(np.arange(5000.0), np.arange(10000.0).reshape(2, 5000), 1)
+    assert len(x) <= maps.MOST_CELLS and np.array_equal(values[0], x)
+
+
+def test_thinning_keeps_peaks_and_ends():
+    t = np.arange(100001) * 0.01
+    y = np.sin(0.7 * t)
+    y[54321], y[100] = 9.0, np.nan
+    x, kept = curves.thinned((t, y))
+    assert len(x) < 4000 and kept.max() == 9.0 and (x[0], x[-1]) == (t[0], t[-1]) and (np.diff(x) > 0).all()
+
+
+def test_planes_go_through_the_middle_of_a_box(tmp_path):
+    problem = {
+        "name": "sine_gordon",
+        "points": [4, 6, 8],
+        "length": [4.0, 4.0, 4.0],
+        "initial": {"u": "x + 10*y + 100*z", "v": "0"},
+    }
+    of, solution = pictures(tmp_path, problem, t_end=0.0625)
+    x, z, values = runs.plane(solution, solution.values("u", np.array([0]))[0], 0, 2)
+    y = solution.axes[1][1][3]
+    assert np.allclose(values, x[:, None] + 10 * y + 100 * z[None, :])
+    figure, _ = drawn(of["planes_u"])
+    assert [ax.get_title(loc="left") for ax in figure.axes[:6]] == ["$t$ = 0", "$t$ = 0.0625"] * 3
+    assert films.frames(solution).tolist() == [0, 1]
+
+
+def request(run, **more):
+    history = {"H": [[0, 1], [1, 0.5]], "modified": None, "causes": []}
+    return {
+        "run": str(run),
+        "title": "title",
+        "warning": "",
+        "history": history,
+        "formats": ["png", "svg"],
+    } | more
+
+
+def program(what, folder):
+    return subprocess.run(
+        [sys.executable, "-B", Path(render.__file__).parent],
+        input=json.dumps(what),
+        cwd=folder,
+        text=True,
+        capture_output=True,
+    )
+
+
+def test_the_program_draws_what_it_is_asked_for_and_the_same_bytes_each_time(tmp_path):
+    pictures(tmp_path, {"name": "oscillator"}, t_end=0.5)
+    files = []
+    for into in (tmp_path / "one", tmp_path / "two"):
+        into.mkdir()
+        assert program(request(tmp_path / "run", warning="failed at t = 3"), into).returncode == 0
+        reply = json.loads((into / "reply.json").read_text())
+        assert [one["stem"] for one in reply["pictures"]] == ["energy", "fields", "portrait_q_p"]
+        assert reply["pictures"][0]["title"] == "title: energy; failed at t = 3" and reply["films"] == []
+        files.append({file.name: file.read_bytes() for file in into.iterdir()})
+    assert files[0] == files[1]
+    assert {"energy.png", "energy.svg", "energy_dark.png"} <= set(files[0]) and "energy_dark.svg" not in files[0]
+    assert b"failed at t = 3" in files[0]["energy.svg"]
+    wrong = program(request(tmp_path / "run", palette="vridis"), tmp_path)
+    assert wrong.returncode == 2 and wrong.stderr == "unknown --palette 'vridis'; did you mean 'viridis'?\n"

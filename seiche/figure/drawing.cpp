@@ -1,0 +1,74 @@
+#include <seiche/core/text/input_file.hpp>
+#include <seiche/figure/child_program.hpp>
+#include <seiche/figure/drawing.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace seiche {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int bad_request = 2, packages_missing = 3;  // exit codes of what is run
+
+// As `python -m` would run it: beside the program as it is built, or as it is installed.
+fs::path drawing_programs() {
+  const fs::path self = fs::read_symlink("/proc/self/exe");
+  for (const fs::path& folder : {self.parent_path(), self.parent_path().parent_path()})
+    if (fs::exists(folder / "share/seiche/drawing/__main__.py")) return folder / "share/seiche/drawing";
+  throw Error("share/seiche/drawing is neither beside {} nor above it, and holds the programs that draw pictures",
+              self.string());
+}
+
+// The one that the environment names, or else the first that has the packages: where python3 belongs to an environment
+// of its own, /usr/bin/python3 may have them.
+std::vector<std::string> interpreters() {
+  const char* chosen = std::getenv("SEICHE_PYTHON");  // NOLINT(concurrency-mt-unsafe)
+  if (chosen != nullptr && *chosen != '\0') return {chosen};
+  return {"python3", "/usr/bin/python3"};
+}
+
+struct Drawn {
+  int exit_code = 0;
+  std::string failure = {};
+};
+
+Drawn run(const std::string& interpreter, const fs::path& programs, const std::string& request, const fs::path& into) {
+  try {
+    // Without -B compiled files would appear where the programs are.
+    ChildProgram python({interpreter, "-B", programs.string()}, request, into,
+                        fmt::format("{} was not found; with Matplotlib it draws the pictures (Debian packages "
+                                    "python3-matplotlib and python3-h5py)",
+                                    interpreter));
+    const std::string failure = python.finish();
+    return {failure.empty() ? 0 : python.exit_code(), failure};
+  } catch (const Error& error) {
+    return {packages_missing, error.what()};
+  }
+}
+
+}  // namespace
+
+std::string draw(const std::string& request, const fs::path& into) {
+  const fs::path programs = drawing_programs();
+  std::string missing;
+  for (const std::string& interpreter : interpreters()) {
+    const Drawn drawn = run(interpreter, programs, request, into);
+    if (drawn.failure.empty()) {
+      const fs::path answer = into / "reply.json";
+      std::string reply = text_of_file(answer);
+      fs::remove(answer);
+      return reply;
+    }
+    if (drawn.exit_code == bad_request) throw BadDrawingRequest("{}", drawn.failure);
+    if (drawn.exit_code != packages_missing) throw Error("drawing failed: {}", drawn.failure);
+    if (missing.empty()) missing = drawn.failure;
+  }
+  throw Error("{}", missing);
+}
+
+}  // namespace seiche

@@ -1,0 +1,21 @@
+// Pictures are drawn by Matplotlib: a request in JSON goes to the programs of python/seiche/drawing, run by Python.
+#pragma once
+
+#include <seiche/core/error.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace seiche {
+
+// What a user asked for does not exist.
+struct BadDrawingRequest : Error {
+  using Error::Error;
+};
+
+// Draws into `into`, which exists. Request and answer, which says what was drawn, are in JSON; what they hold is said
+// in python/seiche/drawing/__main__.py. Throws Error where Python or a package that it needs is missing, saying which,
+// or where drawing fails, and BadDrawingRequest.
+std::string draw(const std::string& request, const std::filesystem::path& into);
+
+}  // namespace seiche
