@@ -58,16 +58,6 @@ class StudyProgress {
   bool quiet_, draws_;
 };
 
-// "", or why there are no figures: the numbers and the report are worth having without.
-std::string draw(const PaperResults& results, const std::string& directory) {
-  try {
-    draw_paper(results, directory);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 // A quick run must not take the place of a full one.
 std::string default_directory(bool quick) { return quick ? "out/paper-quick" : "out/paper"; }
 
@@ -100,8 +90,14 @@ ExitCode paper(const PaperArguments& arguments) {
     progress.wipe();
     require_same(folder);
     write_results(results, directory);
-    const std::string no_figures_because = stop ? "the study was interrupted" : draw(results, directory);
-    write_report(results, directory, versions(), no_figures_because);
+    std::vector<CurvePicture> pictures = paper_pictures(results);
+    std::string no_figures_because = stop ? "the study was interrupted" : "";
+    try {
+      if (!stop) pictures = draw_paper(results, directory);
+    } catch (const Error& error) {  // the numbers and the report are worth having without
+      no_figures_because = error.what();
+    }
+    write_report(results, pictures, directory, versions(), no_figures_because);
     print_data(arguments.json ? paper_json(results) : verdicts_text(results));
     if (!no_figures_because.empty()) print_note(fmt::format("there are no figures: {}", no_figures_because));
     if (!arguments.quiet) print_note(fmt::format("{:.1f} s; see {}/report.html", results.seconds, directory));

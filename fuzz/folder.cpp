@@ -1,5 +1,5 @@
 // Whatever has happened to the files that a run left, `seiche audit` and `seiche plot` read them or refuse them with a
-// sentence. What gnuplot makes of them is left out.
+// sentence. What is drawn of them is left out.
 #include "bars.hpp"
 #include "edits.hpp"
 #include "own_folder.hpp"

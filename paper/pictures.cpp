@@ -1,26 +1,23 @@
 #include <paper/pictures.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/figure/drawing_folder.hpp>
-#include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/plot/coincide.hpp>
-#include <seiche/figure/plot/curves.hpp>
+#include <seiche/figure/curves.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
 namespace seiche {
 namespace {
 
-constexpr const char* step_label = "'time step {/:Italic h}'";
-constexpr const char* error_label = "'maximal error'";
-constexpr const char* cpu_label = "'CPU time (s)'";
-constexpr const char* time_label = "'{/:Italic t}'";
-constexpr const char* energy_label = "'{/:Italic H}'";
-constexpr const char* energy_error_label = "'energy error'";
+constexpr const char* step_label = "time step $h$";
+constexpr const char* error_label = R"($\max_n\,\Vert z^n - z(t_n)\Vert_\infty$)";
+constexpr const char* cpu_label = "CPU time (s)";
+constexpr const char* time_label = "time $t$";
+constexpr const char* energy_label = "energy $H$";
+constexpr const char* energy_error_label = "$|H(z^n) - H(z(t_n))|$";
 
 // "Example 2.1" of "Example 2.1: damped α-FPU equation, …".
 std::string short_title(const std::string& title) {
@@ -31,6 +28,27 @@ std::string short_title(const std::string& title) {
 
 std::string picture_title(const std::string& what, const std::string& which, bool quick) {
   return what + ": " + which + (quick ? " (quick run)" : "");
+}
+
+// Where the paper has it: "Figure 1, left"; "" for what it has not.
+std::string figure_of_paper(const std::string& stem) {
+  static const std::map<std::string_view, std::string_view> figures = {
+      {"klein_gordon_order", "Figure 1, left"},
+      {"klein_gordon_efficiency", "Figure 1, right"},
+      {"klein_gordon_energy", "Figure 2, left"},
+      {"klein_gordon_energy_error", "Figure 2, right"},
+      {"alpha_fpu_conservative_order", "Figure 3, left"},
+      {"alpha_fpu_conservative_efficiency", "Figure 3, right"},
+      {"alpha_fpu_conservative_energy", "Figure 4, left"},
+      {"alpha_fpu_conservative_energy_error", "Figure 4, right"},
+      {"alpha_fpu_dissipative_energy", "Figure 5, left"},
+      {"alpha_fpu_formulations_efficiency", "Figure 5, right"},
+      {"gkdv_order", "Figure 6, left"},
+      {"gkdv_efficiency", "Figure 6, right"},
+      {"gkdv_energy", "Figure 7, left"},
+      {"gkdv_energy_error", "Figure 7, right"}};
+  const auto found = figures.find(stem);
+  return found == figures.end() ? "" : std::string(found->second);
 }
 
 int layer_of(const std::string& method) {
@@ -49,16 +67,9 @@ std::vector<Series> series_of_rows(const ExampleResult& example, double (*x)(con
       series.x.push_back(x(row));
       series.y.push_back(row.error);
     }
-    mark_all(series);
     all.push_back(std::move(series));
   }
   return all;
-}
-
-std::vector<double> all_values(const std::vector<Series>& all, std::vector<double> Series::*member) {
-  std::vector<double> values;
-  for (const Series& series : all) values.insert(values.end(), (series.*member).begin(), (series.*member).end());
-  return values;
 }
 
 // One series per curve; the markers of different curves sit at different times, since the curves often coincide.
@@ -82,114 +93,76 @@ std::vector<Series> series_of_curves(const std::vector<Curve>& curves) {
   return all;
 }
 
-// Without the series that have no point to show, which would only fill the legend; coinciding ones told apart and
-// named.
-CurvePicture finished(std::string caption, Plot plot) {
-  std::erase_if(plot.series, [&](const Series& series) {
-    for (std::size_t i = 0; i < series.x.size(); ++i) {
-      if (plot.x.shows(series.x[i]) && plot.y.shows(series.y[i])) return false;
-    }
-    return true;
-  });
-  const auto groups = coinciding_series(plot);
-  for (const std::string& sentence : {coincidence_sentence(plot, groups), separate(plot, groups)}) {
-    if (!sentence.empty()) caption += " " + sentence;
-  }
-  return {std::move(caption), std::move(plot)};
-}
-
-// The words of a study's axis as the main figures set them.
+// The words of a study's axis as the main figures set them. A sign of Matplotlib's is one of the text.
 std::string axis_label(const std::string& words) {
   if (words == "time step h") return step_label;
   if (words == "t") return time_label;
-  return gnuplot_text(words);
+  std::string text;
+  for (const char c : words) text += c == '$' ? std::string("\\$") : std::string(1, c);
+  return text;
 }
 
-Axis time_axis(const ExampleResult& example) { return axis_between(false, 0, example.t_end > 0 ? example.t_end : 1); }
+bool all_powers_of_two(const std::vector<double>& values) {
+  return !values.empty() && std::all_of(values.begin(), values.end(), [](double h) {
+    int exponent = 0;
+    return h > 0 && std::frexp(h, &exponent) == 0.5;
+  });
+}
+
+PictureAxis time_axis(const ExampleResult& example) {
+  return {.label = time_label, .limits = std::pair(0.0, example.t_end > 0 ? example.t_end : 1)};
+}
+
+CurvePicture picture_of(const ExampleResult& example, const std::string& what, bool quick, std::string caption,
+                        PictureAxis x, PictureAxis y, std::vector<Series> series) {
+  std::string stem = example.key + "_" + what, words = what;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  const std::string number = figure_of_paper(stem);
+  return {.stem = std::move(stem),
+          .title = picture_title(short_title(example.title), words, quick),
+          .caption = std::move(caption),
+          .number = number,
+          .x = std::move(x),
+          .y = std::move(y),
+          .series = std::move(series),
+          .slope_two = what == "order"};
+}
 
 CurvePicture order_picture(const ExampleResult& example, bool quick) {
-  std::vector<Series> series = series_of_rows(example, [](const StudyRow& row) { return row.h; });
-  const Axis y = fitted_axis(true, all_values(series, &Series::y), 0.1);
-  return finished(fmt::format("Largest error up to T = {:g} against the time step. The triangle has slope 2.",
-                              example.t_end),
-                  Plot{.stem = example.key + "_order",
-                       .title = picture_title(short_title(example.title), "order", quick),
-                       .x_label = step_label,
-                       .y_label = error_label,
-                       .x = step_size_axis(example.step_sizes),
-                       .y = y,
-                       .series = std::move(series),
-                       .slope_two = true});
+  return picture_of(example, "order", quick,
+                    fmt::format("Largest error up to T = {:g} against the time step; the dotted line has slope 2.",
+                                example.t_end),
+                    {.label = step_label, .logarithmic = true, .powers_of_two = true},
+                    {.label = error_label, .logarithmic = true},
+                    series_of_rows(example, [](const StudyRow& row) { return row.h; }));
 }
 
 CurvePicture efficiency_picture(const ExampleResult& example, bool quick) {
-  std::vector<Series> series = series_of_rows(example, [](const StudyRow& row) { return row.cpu_seconds; });
-  const Axis x = fitted_axis(true, all_values(series, &Series::x), 0.08);
-  const Axis y = fitted_axis(true, all_values(series, &Series::y), 0.1);
-  return finished("Largest error against the CPU time of the run. Further left and further down is better.",
-                  Plot{.stem = example.key + "_efficiency",
-                       .title = picture_title(short_title(example.title), "efficiency", quick),
-                       .x_label = cpu_label,
-                       .y_label = error_label,
-                       .x = x,
-                       .y = y,
-                       .series = std::move(series)});
+  return picture_of(example, "efficiency", quick,
+                    "Largest error against the CPU time of the run. Further left and further down is better.",
+                    {.label = cpu_label, .logarithmic = true}, {.label = error_label, .logarithmic = true},
+                    series_of_rows(example, [](const StudyRow& row) { return row.cpu_seconds; }));
 }
 
 CurvePicture energy_picture(const ExampleResult& example, bool quick) {
-  std::vector<Series> series = series_of_curves(example.energy);
-  const Axis y = fitted_axis(falls_by_decades(example.energy), all_values(series, &Series::y));
-  return finished(
+  return picture_of(
+      example, "energy", quick,
       fmt::format("Energy H(zⁿ) at h = {}, and the reference as a thin black line. Each method has its markers at "
                   "times of its own.",
                   step_text(example.curve_h)),
-      Plot{.stem = example.key + "_energy",
-           .title = picture_title(short_title(example.title), "energy", quick),
-           .x_label = time_label,
-           .y_label = energy_label,
-           .x = time_axis(example),
-           .y = y,
-           .series = std::move(series)});
+      time_axis(example), {.label = energy_label, .logarithmic = falls_by_decades(example.energy)},
+      series_of_curves(example.energy));
 }
 
 CurvePicture energy_error_picture(const ExampleResult& example, bool quick) {
   std::vector<Curve> envelopes;
   for (const Curve& curve : example.energy_errors) envelopes.push_back(upper_envelope(curve));
-  std::vector<Series> series = series_of_curves(envelopes);
-  const Axis y = fitted_axis(true, all_values(series, &Series::y));
-  return finished(
+  return picture_of(
+      example, "energy_error", quick,
       fmt::format("|H(zⁿ) − H(z(tₙ))| at h = {}: the largest value in each of {} stretches of time, because the error "
                   "passes through zero again and again.",
                   step_text(example.curve_h), envelope_stretches),
-      Plot{.stem = example.key + "_energy_error",
-           .title = picture_title(short_title(example.title), "energy error", quick),
-           .x_label = time_label,
-           .y_label = energy_error_label,
-           .x = time_axis(example),
-           .y = y,
-           .series = std::move(series)});
-}
-
-// A linear one that nearly begins at zero begins there.
-Axis abscissa_axis(bool logarithmic, const std::vector<double>& x) {
-  const Axis tight = fitted_axis(logarithmic, x, logarithmic ? 0.06 : 0);
-  const bool from_zero = !logarithmic && !tight.empty && tight.low > 0 && tight.low < 0.05 * tight.high;
-  return from_zero ? axis_from_zero(tight.high) : tight;
-}
-
-// Moves zeros, which a logarithmic axis cannot show, to a line of their own; false without zeros.
-bool draw_zeros(std::vector<Series>& all, Axis& y) {
-  const AxisWithZero extended = with_zero_line(y);
-  bool any = false;
-  for (Series& series : all) {
-    for (double& value : series.y) {
-      if (value != 0) continue;
-      value = extended.zero;
-      any = true;
-    }
-  }
-  if (any) y = extended.axis;
-  return any;
+      time_axis(example), {.label = energy_error_label, .logarithmic = true}, series_of_curves(envelopes));
 }
 
 const ExampleResult* find_example(const PaperResults& results, const std::string& key) {
@@ -202,21 +175,15 @@ const ExampleResult* find_example(const PaperResults& results, const std::string
 }  // namespace
 
 std::vector<CurvePicture> example_pictures(const ExampleResult& example, bool quick) {
-  std::vector<CurvePicture> pictures;
-  pictures.push_back(order_picture(example, quick));
-  pictures.push_back(efficiency_picture(example, quick));
-  pictures.push_back(energy_picture(example, quick));
-  pictures.push_back(energy_error_picture(example, quick));
-  std::size_t room = 0;
-  for (const CurvePicture& picture : pictures) room = std::max(room, picture.plot.series.size());
-  for (CurvePicture& picture : pictures) picture.plot.legend_room = room;
-  return pictures;
+  return {order_picture(example, quick), efficiency_picture(example, quick), energy_picture(example, quick),
+          energy_error_picture(example, quick)};
 }
 
 std::optional<CurvePicture> formulations_picture(const PaperResults& results) {
   const ExampleResult* conservative = find_example(results, "alpha_fpu_conservative");
   const ExampleResult* dissipative = find_example(results, "alpha_fpu_dissipative");
   if (!conservative || !dissipative) return {};
+  constexpr const char* formulations = "alpha_fpu_formulations_efficiency";
   const auto cpu = [](const StudyRow& row) { return row.cpu_seconds; };
   const std::array<std::string, 4> compared = {"SAVF", "SEAVF", "SEISAV", "SEILM"};
   std::vector<Series> all;
@@ -227,7 +194,6 @@ std::optional<CurvePicture> formulations_picture(const PaperResults& results) {
         series.label.clear();
         series.style.dash = Dash::dotted;
         series.style.width = 1.0;
-        series.style.size *= 0.7;
       }
       all.push_back(std::move(series));
     }
@@ -239,18 +205,15 @@ std::optional<CurvePicture> formulations_picture(const PaperResults& results) {
       {.label = "Example 2.1", .style = {.colour = grey, .dash = Dash::dotted, .width = 1.0}, .x = {}, .y = {}});
   all.push_back({.label = "Example 2.2", .style = {.colour = grey}, .x = {}, .y = {}});
 
-  const Axis x = fitted_axis(true, all_values(all, &Series::x), 0.08);
-  const Axis y = fitted_axis(true, all_values(all, &Series::y), 0.1);
-  return CurvePicture{
-      "Four splitting schemes under both formulations: Example 2.1 dotted with small markers, Example 2.2 as in "
-      "the other figures.",
-      Plot{.stem = "alpha_fpu_formulations_efficiency",
-           .title = picture_title("Examples 2.1 and 2.2", "efficiency", results.quick),
-           .x_label = cpu_label,
-           .y_label = error_label,
-           .x = x,
-           .y = y,
-           .series = std::move(all)}};
+  return CurvePicture{.stem = formulations,
+                      .title = picture_title("Examples 2.1 and 2.2", "efficiency", results.quick),
+                      .caption =
+                          "Four splitting schemes under both formulations: Example 2.1 dotted, Example 2.2 as in "
+                          "the other figures.",
+                      .number = figure_of_paper(formulations),
+                      .x = {.label = cpu_label, .logarithmic = true},
+                      .y = {.label = error_label, .logarithmic = true},
+                      .series = std::move(all)};
 }
 
 CurvePicture side_picture(const SideStudy& study, bool quick) {
@@ -268,31 +231,23 @@ CurvePicture side_picture(const SideStudy& study, bool quick) {
                   .y = curve.value};
     if (curve.name.starts_with(method)) series.label.replace(0, method.size(), method_label(method));
     constexpr std::size_t few = 24;
-    if (curve.t.size() <= few) {
-      mark_all(series);
-    } else {
+    if (curve.t.size() > few) {
       series.marked = staggered(curve.t, i, count);
       series.style.width = 0.8;  // a wiggling heavy line is a blot
     }
     all.push_back(std::move(series));
   }
-  const std::vector<double> x = all_values(all, &Series::x);
+  std::vector<double> x;
+  for (const Series& series : all) x.insert(x.end(), series.x.begin(), series.x.end());
   const bool halved = study.log_x && all_powers_of_two(x);
-  Axis y_axis = fitted_axis(study.log_y, all_values(all, &Series::y), 0.1);
-  std::string caption = study.explanation;
-  if (study.log_y && !y_axis.empty && draw_zeros(all, y_axis)) {
-    caption += " What is exactly zero stands on the line 0 at the bottom, below the logarithmic axis.";
-  }
-  return finished(std::move(caption),
-                  Plot{.stem = study.key,
-                       .title = study.title + (quick ? " (quick run)" : ""),
-                       .x_label = axis_label(study.x_label),
-                       .y_label = axis_label(study.y_label),
-                       .x = halved ? step_size_axis(x) : abscissa_axis(study.log_x, x),
-                       .y = y_axis,
-                       .series = std::move(all),
-                       // Other quantities have no order to compare with.
-                       .slope_two = halved && study.log_y && study.y_label.find("error") != std::string::npos});
+  return {.stem = study.key,
+          .title = study.title + (quick ? " (quick run)" : ""),
+          .caption = study.explanation,
+          .x = {.label = axis_label(study.x_label), .logarithmic = study.log_x, .powers_of_two = halved},
+          .y = {.label = axis_label(study.y_label), .logarithmic = study.log_y},
+          .series = std::move(all),
+          // Other quantities have no order to compare with.
+          .slope_two = halved && study.log_y && study.y_label.find("error") != std::string::npos};
 }
 
 std::vector<CurvePicture> paper_pictures(const PaperResults& results) {
@@ -305,26 +260,18 @@ std::vector<CurvePicture> paper_pictures(const PaperResults& results) {
   return all;
 }
 
-void draw_paper(const PaperResults& results, const std::filesystem::path& directory) {
+std::vector<CurvePicture> draw_paper(const PaperResults& results, const std::filesystem::path& directory) {
+  std::vector<CurvePicture> pictures = paper_pictures(results);
   const std::filesystem::path figures = directory / "figures";
-  DrawingFolder drawing(figures);
-  // Two processes: starting gnuplot once per picture would take longer than drawing.
-  std::vector<std::string> scripts(2);
-  std::size_t next = 0;
-  for (const CurvePicture& picture : paper_pictures(results)) {
-    const std::string& stem = picture.plot.stem;
-    if (stem.empty() || stem.find('/') != std::string::npos || stem.find('\n') != std::string::npos) {
-      throw Error("'{}' cannot be the name of a figure file", stem);
-    }
-    for (const char* suffix : {".png", ".pdf"}) {
+  for (const CurvePicture& picture : pictures) {
+    for (const char* suffix : {".png", "_dark.png", ".pdf"}) {
       std::error_code ignored;
-      std::filesystem::remove(figures / (stem + suffix), ignored);
+      std::filesystem::remove(figures / (picture.stem + suffix), ignored);
     }
-    scripts[next++ % scripts.size()] += plot_script(picture.plot);
   }
-  std::erase(scripts, std::string());
-  run_gnuplot(scripts, drawing.path());
-  drawing.commit();
+  const std::vector<std::string> formats = results.quick ? std::vector<std::string>{"png"} : CurveFiles{}.formats;
+  draw_curves(pictures, figures, {.formats = formats, .dark = true});
+  return pictures;
 }
 
 }  // namespace seiche

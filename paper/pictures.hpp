@@ -3,7 +3,7 @@
 #pragma once
 
 #include <paper/results.hpp>
-#include <seiche/figure/plot/plot.hpp>
+#include <seiche/figure/curve_picture.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -19,8 +19,9 @@ std::optional<CurvePicture> formulations_picture(const PaperResults& results);
 CurvePicture side_picture(const SideStudy& study, bool quick = false);
 std::vector<CurvePicture> paper_pictures(const PaperResults& results);
 
-// Draws all pictures into directory/figures. Throws Error if gnuplot is missing or fails; figures of an earlier run are
-// gone then, so that a report never shows them beside new numbers.
-void draw_paper(const PaperResults& results, const std::filesystem::path& directory);
+// Draws all pictures into directory/figures, those of a quick run as PNG alone; returns them with their captions.
+// Throws Error where Python or Matplotlib is missing or fails; figures of an earlier run are gone then, so that a
+// report never shows them beside new numbers.
+std::vector<CurvePicture> draw_paper(const PaperResults& results, const std::filesystem::path& directory);
 
 }  // namespace seiche

@@ -3,6 +3,7 @@
 #include <paper/report_tables.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/figure/html.hpp>
+#include <seiche/figure/report_figure.hpp>
 #include <seiche/figure/report_style.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/run_folder.hpp>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
 namespace seiche {
@@ -21,6 +23,7 @@ namespace fs = std::filesystem;
 struct Page {
   const PaperResults& results;
   fs::path directory;
+  const std::vector<CurvePicture>& pictures;
   std::string no_figures_because;
 };
 
@@ -44,18 +47,23 @@ std::string links(const Page& page, const std::vector<std::string>& files) {
   return text.empty() ? "" : "<p>" + text + "</p>\n";
 }
 
-std::string figure(const Page& page, const CurvePicture& picture) {
-  const std::string stem = picture.plot.stem;
-  const std::string caption = "<figcaption>" + html_text(picture.caption) + "</figcaption></figure>\n";
-  try {
-    const PngPicture png = read_png(page.directory / "figures" / (stem + ".png"));
-    return fmt::format(
-        "<figure><a href=\"figures/{0}.pdf\" title=\"{0}.pdf\"><img src=\"{1}\" width=\"{2}\" height=\"{3}\" alt=\"{4}\">"
-        "</a>{5}",
-        html_escaped(stem), png.data_uri, png.width, png.height, html_escaped(picture.plot.title), caption);
-  } catch (const Error&) {
-    return "<figure><div class=\"missing\">" + html_escaped(picture.plot.title) + ": not drawn</div>" + caption;
-  }
+std::string anchor_of(std::string number) {
+  std::erase(number, ',');
+  std::replace(number.begin(), number.end(), ' ', '-');
+  std::transform(number.begin(), number.end(), number.begin(), [](unsigned char c) { return std::tolower(c); });
+  return number;
+}
+
+std::string figure(const Page& page, const std::string& stem) {
+  const auto found = std::find_if(page.pictures.begin(), page.pictures.end(),
+                                  [&](const CurvePicture& picture) { return picture.stem == stem; });
+  if (found == page.pictures.end()) return "";
+  return report_figure(page.directory, {.stem = stem,
+                                        .title = found->title,
+                                        .caption = found->caption,
+                                        .formats = {"png", "pdf"},
+                                        .number = found->number,
+                                        .anchor = anchor_of(found->number)});
 }
 
 std::string page_head(const Page& page) {
@@ -139,9 +147,9 @@ std::string example_section(const Page& page, const ExampleResult& example) {
   std::string text =
       fmt::format("<h2 id=\"{}\">{}</h2>\n<p class=\"parameters\">{}</p>\n<div class=\"pictures\">\n",
                   html_escaped(example.key), html_escaped(example.title), html_escaped(example.parameters));
-  for (const CurvePicture& picture : example_pictures(example, page.results.quick)) text += figure(page, picture);
+  for (const CurvePicture& picture : example_pictures(example, page.results.quick)) text += figure(page, picture.stem);
   if (example.key == "alpha_fpu_dissipative") {
-    if (const auto picture = formulations_picture(page.results)) text += figure(page, *picture);
+    if (const auto picture = formulations_picture(page.results)) text += figure(page, picture->stem);
   }
   text += "</div>\n<h3>Errors and orders</h3>\n" + error_table(example);
   text += "<details><summary>Energy, cost and solver of each run</summary>\n" + record_table(example) + "</details>\n";
@@ -154,7 +162,7 @@ std::string side_section(const Page& page) {
   std::string text = "<h2 id=\"studies\">Further studies</h2>\n<div class=\"pictures\">\n";
   std::vector<std::string> files;
   for (const SideStudy& study : page.results.side_studies) {
-    text += figure(page, side_picture(study, page.results.quick));
+    text += figure(page, study.key);
     files.push_back("data/" + study.key + ".csv");
   }
   return text + "</div>\n" + links(page, files);
@@ -174,16 +182,23 @@ std::string origin(const Page& page, const std::map<std::string, std::string>& v
   return text + "</tbody></table></div>\n";
 }
 
+FigureAnchors anchors_of(const std::vector<CurvePicture>& pictures) {
+  FigureAnchors anchors;
+  for (const CurvePicture& picture : pictures)
+    if (!picture.number.empty()) anchors[picture.number] = anchor_of(picture.number);
+  return anchors;
+}
+
 }  // namespace
 
-void write_report(const PaperResults& results, const fs::path& directory,
+void write_report(const PaperResults& results, const std::vector<CurvePicture>& pictures, const fs::path& directory,
                   const std::map<std::string, std::string>& versions, const std::string& no_figures_because) {
-  const Page page{results, directory, no_figures_because};
+  const Page page{results, directory, pictures, no_figures_because};
   make_directory(directory);
   AtomicFile file(directory / "report.html");
   file.write(page_head(page));
   file.write(summary(page));
-  file.write("<h2 id=\"verdicts\">Verdicts</h2>\n" + verdict_table(results.verdicts));
+  file.write("<h2 id=\"verdicts\">Verdicts</h2>\n" + verdict_table(results.verdicts, anchors_of(pictures)));
   file.write(how_measured(results));
   for (const ExampleResult& example : results.examples) file.write(example_section(page, example));
   file.write(side_section(page));

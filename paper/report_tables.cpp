@@ -1,7 +1,7 @@
 #include <paper/report_tables.hpp>
+#include <seiche/figure/curves.hpp>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/plot/curves.hpp>
-#include <seiche/figure/plot/style.hpp>
+#include <seiche/figure/style.hpp>
 
 #include <fmt/format.h>
 
@@ -114,7 +114,20 @@ std::string outcome_mark(Outcome outcome) {
   return "";
 }
 
-std::string verdict_table(const std::vector<Verdict>& verdicts) {
+namespace {
+
+// With a link to the figure of the paper that it names, where that is drawn here.
+std::string source_text(const std::string& source, const FigureAnchors& figures) {
+  for (const auto& [number, anchor] : figures)
+    if (source.starts_with(number))
+      return fmt::format("<a href=\"#{}\">{}</a>{}", anchor, html_escaped(number),
+                         html_text(source.substr(number.size())));
+  return html_text(source);
+}
+
+}  // namespace
+
+std::string verdict_table(const std::vector<Verdict>& verdicts, const FigureAnchors& figures) {
   if (verdicts.empty()) return "<p>No claim was judged in this run.</p>\n";
   std::vector<std::string> groups;
   for (const Verdict& verdict : verdicts) {
@@ -130,7 +143,7 @@ std::string verdict_table(const std::vector<Verdict>& verdicts) {
       if (verdict.example != group) continue;
       text +=
           fmt::format("<tr><td>{}</td><td>{}<div class=\"source\">{}</div></td><td>{}{}</td></tr>\n",
-                      outcome_mark(verdict.outcome), html_text(verdict.claim), html_text(verdict.source),
+                      outcome_mark(verdict.outcome), html_text(verdict.claim), source_text(verdict.source, figures),
                       html_text(verdict.measured),
                       verdict.remark.empty() ? "" : "<div class=\"remark\">" + html_text(verdict.remark) + "</div>");
     }

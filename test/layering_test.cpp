@@ -236,7 +236,7 @@ TEST(Layering, ForbiddenIncludesAreRefused) {
       {"seiche/run/x.cpp", 1, "seiche/output/outputs.hpp", false},
       {"seiche/config/x.cpp", 1, "seiche/study/converge.hpp", false},
       {"seiche/figure/x.cpp", 1, "seiche/method/methods.hpp", false},
-      {"seiche/study/x.cpp", 1, "seiche/figure/plot/plot.hpp", false},
+      {"seiche/study/x.cpp", 1, "seiche/figure/curve_picture.hpp", false},
       {"seiche/study/x.cpp", 1, "cli/commands.hpp", false},
       {"seiche/study/x.cpp", 1, "paper/examples.hpp", false},
       {"seiche/core/x.cpp", 1, "seiche/seiche.hpp", false},
@@ -270,7 +270,7 @@ TEST(Layering, ForbiddenIncludesAreRefused) {
       {"seiche/config/x.cpp", 1, "seiche/method/methods.hpp", false},
       {"seiche/study/x.cpp", 1, "seiche/simulation/simulation.hpp", false},
       {"seiche/seiche.hpp", 1, "seiche/study/converge.hpp", false},
-      {"cli/main.cpp", 1, "seiche/figure/plot/plot.hpp", false},
+      {"cli/main.cpp", 1, "seiche/figure/curve_picture.hpp", false},
       {"cli/main.cpp", 1, "commands.hpp", true},
       {"cli/main.cpp", 1, "CLI/CLI.hpp", false},
   };

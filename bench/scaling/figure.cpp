@@ -1,6 +1,5 @@
 #include <bench/scaling/figure.hpp>
-#include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/plot/plot.hpp>
+#include <seiche/figure/curve_picture.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +14,6 @@ Series series_of(const std::vector<SizeCost>& costs, double Floor::*time, const 
     series.x.push_back(static_cast<double>(cost.points));
     series.y.push_back(cost.per_point(cost.floor.*time));
   }
-  mark_all(series);
   return series;
 }
 
@@ -38,26 +36,20 @@ Series guide(const std::vector<SizeCost>& costs, Index smallest) {
 }  // namespace
 
 void draw_scaling(const std::vector<SizeCost>& costs, Index smallest, const std::filesystem::path& directory) {
-  Plot plot{.stem = "scaling",
-            .title = "A step and its transforms, 1-D Klein–Gordon",
-            .x_label = gnuplot_text("grid points N"),
-            .y_label = gnuplot_text("ns per point and step"),
-            .x = {},
-            .y = {},
-            .series = {}};
-  plot.series.push_back(series_of(costs, &Floor::step, "step of SEISAV", method_line("seisav")));
-  plot.series.push_back(series_of(costs, &Floor::transforms, "its four transforms",
-                                  {"#555555", Marker::circle, true, Dash::solid, 0.8, 0.6}));
-  plot.series.push_back(
-      series_of(costs, &Floor::triad, "triad", {"#8C8C8C", Marker::diamond, false, Dash::dotted, 0.8, 0.6}));
-  plot.series.push_back(guide(costs, smallest));
-  std::vector<double> even_powers, shown;
-  for (const SizeCost& cost : costs)
-    if (std::lround(cost.levels()) % 2 == 0) even_powers.push_back(static_cast<double>(cost.points));
-  for (const Series& series : plot.series) shown.insert(shown.end(), series.y.begin(), series.y.end());
-  plot.x = step_size_axis(even_powers);
-  plot.y = fitted_axis(true, shown);
-  run_gnuplot({plot_script(plot)}, directory);
+  CurvePicture picture{.stem = "scaling",
+                       .title = "A step and its transforms, 1-D Klein–Gordon",
+                       .caption = {},
+                       .x = {.label = "grid points $N$", .logarithmic = true, .powers_of_two = true},
+                       .y = {.label = "ns per point and step", .logarithmic = true},
+                       .series = {}};
+  picture.series.push_back(series_of(costs, &Floor::step, "step of SEISAV", method_line("seisav")));
+  picture.series.push_back(
+      series_of(costs, &Floor::transforms, "its four transforms", {"#555555", Marker::circle, true, Dash::solid, 0.8}));
+  picture.series.push_back(
+      series_of(costs, &Floor::triad, "triad", {"#8C8C8C", Marker::diamond, false, Dash::dotted, 0.8}));
+  picture.series.push_back(guide(costs, smallest));
+  std::vector<CurvePicture> pictures = {std::move(picture)};
+  draw_curves(pictures, directory);
 }
 
 }  // namespace seiche::bench

@@ -8,7 +8,7 @@
 
 namespace seiche::bench {
 
-// Leaves scaling.png and scaling.pdf. Throws Error where gnuplot is missing or fails.
+// Leaves scaling.png and scaling.pdf. Throws Error where Python or Matplotlib is missing or fails.
 void draw_scaling(const std::vector<SizeCost>& costs, Index smallest, const std::filesystem::path& directory);
 
 }  // namespace seiche::bench

@@ -1,6 +1,5 @@
 #include <bench/work_precision/figures.hpp>
-#include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/plot/plot.hpp>
+#include <seiche/figure/curve_picture.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 
 #include <fmt/format.h>
@@ -26,26 +25,25 @@ LineStyle style_of(const Curve& curve, int index) {
     line.width = std::max(line.width, 1.3);
     if (curve.rows.front()->sweep == Sweep::tolerance) line.dash = dash_dotted;
     if (curve.peer.ends_with(" explicit")) line.filled = false;
-    line.size = 0.9;
     return line;
   }
   // Hand-written dashed, packaged dotted; Seiche alone has heavy solid lines.
   // clang-format off
   static const std::vector<PeerStyle> styles = {
-      {"ETDRK4",                {"#000000", circle,        false, dashed, 0.8, 0.8}},
-      {"Strang exact flow",     {"#6A4C93", triangle,      false, dashed, 0.8, 0.8}},
-      {"RKN4 kicks",            {"#4D9221", square,        false, dashed, 0.8, 0.8}},
-      {"RKN6 kicks",            {"#276419", diamond,       false, dashed, 0.8, 0.9}},
-      {"RKN4 exact flow",       {"#C51B7D", square,        true,  dashed, 0.8, 0.6}},
-      {"RKN6 exact flow",       {"#8E0152", diamond,       true,  dashed, 0.8, 0.7}},
-      {"odeint dopri5",         {"#8C8C8C", circle,        true,  dotted, 0.8, 0.6}},
-      {"odeint Fehlberg78",     {"#8C8C8C", square,        true,  dotted, 0.8, 0.6}},
-      {"odeint Bulirsch–Stoer", {"#8C8C8C", triangle,      true,  dotted, 0.8, 0.6}},
-      {"GSL rk8pd",             {"#5B7FA6", pentagon,      true,  dotted, 0.8, 0.7}},
-      {"CVODE Adams",           {"#B08D57", circle,        true,  dotted, 0.8, 0.6}},
-      {"CVODE BDF",             {"#B08D57", square,        true,  dotted, 0.8, 0.6}},
-      {"ARKODE ERK",            {"#B08D57", triangle,      true,  dotted, 0.8, 0.6}},
-      {"ARKODE ImEx",           {"#B08D57", triangle_down, true,  dotted, 0.8, 0.6}},
+      {"ETDRK4",                {"#000000", circle,        false, dashed, 0.8}},
+      {"Strang exact flow",     {"#6A4C93", triangle,      false, dashed, 0.8}},
+      {"RKN4 kicks",            {"#4D9221", square,        false, dashed, 0.8}},
+      {"RKN6 kicks",            {"#276419", diamond,       false, dashed, 0.8}},
+      {"RKN4 exact flow",       {"#C51B7D", square,        true,  dashed, 0.8}},
+      {"RKN6 exact flow",       {"#8E0152", diamond,       true,  dashed, 0.8}},
+      {"odeint dopri5",         {"#8C8C8C", circle,        true,  dotted, 0.8}},
+      {"odeint Fehlberg78",     {"#8C8C8C", square,        true,  dotted, 0.8}},
+      {"odeint Bulirsch–Stoer", {"#8C8C8C", triangle,      true,  dotted, 0.8}},
+      {"GSL rk8pd",             {"#5B7FA6", pentagon,      true,  dotted, 0.8}},
+      {"CVODE Adams",           {"#B08D57", circle,        true,  dotted, 0.8}},
+      {"CVODE BDF",             {"#B08D57", square,        true,  dotted, 0.8}},
+      {"ARKODE ERK",            {"#B08D57", triangle,      true,  dotted, 0.8}},
+      {"ARKODE ImEx",           {"#B08D57", triangle_down, true,  dotted, 0.8}},
   };
   // clang-format on
   const auto found =
@@ -67,19 +65,17 @@ std::set<std::string> shown_methods(const std::vector<Curve>& curves) {
 }
 
 // Values below `smallest` mean no more than it, and are drawn there.
-Plot plot_of(const ProblemResult& result, const Panel& panel, double Row::*value, const std::string& label,
-             double smallest) {
-  Plot plot{.stem = panel.stem,
-            .title = panel.title,
-            .x_label = gnuplot_text("CPU time (s)"),
-            .y_label = gnuplot_text(label),
-            .x = {},
-            .y = {},
-            .series = {}};
+CurvePicture picture_of(const ProblemResult& result, const Panel& panel, double Row::*value, const std::string& label,
+                        double smallest) {
+  CurvePicture picture{.stem = panel.stem,
+                       .title = panel.title,
+                       .caption = panel.caption,
+                       .x = {.label = "CPU time (s)", .logarithmic = true},
+                       .y = {.label = label, .logarithmic = true},
+                       .series = {}};
   const std::vector<Curve> curves = curves_of(result);
   const std::set<std::string> methods = shown_methods(curves);
   constexpr double senseless = 30;  // a run that lost the solution would only squeeze the others together
-  std::vector<double> xs, ys;
   int index = 0;
   for (const Curve& curve : curves) {
     if (curve.origin == Origin::seiche && !methods.contains(curve.peer)) continue;
@@ -94,14 +90,9 @@ Plot plot_of(const ProblemResult& result, const Panel& panel, double Row::*value
       series.y.push_back(std::max(row->*value, smallest));
     }
     if (series.x.empty()) continue;
-    xs.insert(xs.end(), series.x.begin(), series.x.end());
-    ys.insert(ys.end(), series.y.begin(), series.y.end());
-    mark_all(series);
-    plot.series.push_back(std::move(series));
+    picture.series.push_back(std::move(series));
   }
-  plot.x = fitted_axis(true, xs);
-  plot.y = fitted_axis(true, ys);
-  return plot;
+  return picture;
 }
 
 }  // namespace
@@ -117,7 +108,7 @@ void draw_figures(const std::vector<ProblemResult>& results, const std::filesyst
   const std::filesystem::path figures = directory / "figures";
   make_directory(figures);
   constexpr double smallest_energy_error = 1e-16;
-  std::string script;
+  std::vector<CurvePicture> pictures;
   for (const ProblemResult& result : results) {
     const std::vector<Panel> panels = panels_of(result);
     for (const Panel& panel : panels) {
@@ -126,10 +117,10 @@ void draw_figures(const std::vector<ProblemResult>& results, const std::filesyst
         std::filesystem::remove(figures / (panel.stem + suffix), ignored);
       }
     }
-    script += plot_script(plot_of(result, panels[0], &Row::error, "error", result.reference_difference));
-    script += plot_script(plot_of(result, panels[1], &Row::energy_error, "energy error", smallest_energy_error));
+    pictures.push_back(picture_of(result, panels[0], &Row::error, "error", result.reference_difference));
+    pictures.push_back(picture_of(result, panels[1], &Row::energy_error, "energy error", smallest_energy_error));
   }
-  run_gnuplot({script}, figures);
+  draw_curves(pictures, figures);
 }
 
 }  // namespace seiche::bench

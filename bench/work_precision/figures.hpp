@@ -17,7 +17,7 @@ struct Panel {
 // Of Seiche's methods those that are fastest at one of the wanted errors, seisav and seilm; all peers.
 std::vector<Panel> panels_of(const ProblemResult& result);
 
-// Throws Error where gnuplot is missing or fails.
+// Throws Error where Python or Matplotlib is missing or fails.
 void draw_figures(const std::vector<ProblemResult>& results, const std::filesystem::path& directory);
 
 }  // namespace seiche::bench

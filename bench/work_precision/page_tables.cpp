@@ -1,6 +1,6 @@
 #include <bench/work_precision/page_tables.hpp>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/plot/style.hpp>
+#include <seiche/figure/style.hpp>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "bind.hpp"
 
 #include <pybind11/stl.h>
-#include <seiche/figure/plot/style.hpp>
+#include <seiche/figure/style.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/study/lists.hpp>
 

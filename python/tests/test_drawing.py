@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import seiche
 from seiche._toml import section
-from seiche.drawing import colours, curves, films, maps, names, render, runs, style
+from seiche.drawing import colours, curve_pictures, curves, films, maps, names, render, runs, style
 
 
 @pytest.fixture(autouse=True)
@@ -212,6 +212,77 @@ def test_planes_go_through_the_middle_of_a_box(tmp_path):
     figure, _ = drawn(of["planes_u"])
     assert [ax.get_title(loc="left") for ax in figure.axes[:6]] == ["$t$ = 0", "$t$ = 0.0625"] * 3
     assert films.frames(solution).tolist() == [0, 1]
+
+
+def described(series, x_log=True, y_log=True, powers=True, slope=True):
+    def axis(log, powers=False):
+        return {"label": "a", "log": log, "powers_of_two": powers, "limits": None}
+
+    look = {
+        "colour": "#0072B2",
+        "marker": "circle",
+        "filled": True,
+        "dash": "solid",
+        "width": 1.0,
+        "layer": 0,
+        "marked": None,
+    }
+    all_series = [look | {"label": label, "x": list(x), "y": list(y)} for label, (x, y) in series.items()]
+    axes = {"x": axis(x_log, powers), "y": axis(y_log)}
+    return {"stem": "p", "title": "title", "caption": "Caption.", "series": all_series, "slope": slope} | axes
+
+
+H = 2.0 ** -np.arange(5, 9)
+
+
+def test_a_line_of_slope_two_lies_below_all_curves():
+    ax = plt.figure().subplots()
+    assert curve_pictures.draw(ax, described({"a": (H, 3 * H**2), "b": (H, 0.01 * H**1.5)})) == ""
+    slope, *lines = ax.lines
+    x, y = slope.get_data()
+    assert np.log(y[1] / y[0]) / np.log(x[1] / x[0]) == pytest.approx(2)
+    for line in lines:
+        assert (np.interp(np.log(line.get_xdata()), np.log(x), np.log(y)) < np.log(line.get_ydata())).all()
+    ax.figure.canvas.draw()
+    assert [tick.get_text() for tick in ax.get_xticklabels()] == ["2⁻⁸", "2⁻⁷", "2⁻⁶", "2⁻⁵"]
+
+
+def test_zeros_stand_on_a_line_below_all_other_values_and_the_rest_is_left_out():
+    bad = [0.0, -1.0, float("nan"), float("inf"), 5e-324, 1e308]
+    ax = plt.figure().subplots()
+    said = curve_pictures.draw(
+        ax, described({"a": (H, 3 * H**2), "b": ([0.25] * 7, [*bad, 1e-3]), "none": ([], [])}, slope=False)
+    )
+    assert "What is exactly zero stands on the line 0" in said
+    line, b = ax.lines[0].get_ydata()[0], ax.lines[2].get_ydata()
+    assert b[0] == line < min(3 * H.min() ** 2, 1e-3) and np.isnan(b[1:6]).all() and b[6] == 1e-3
+    assert "0" in [text.get_text() for text in ax.texts]
+    for nothing in ({}, {"a": ([0.1], [0.0])}, {"a": ([-1.0], [1.0]), "b": ([1.0], [-1.0])}):
+        for powers in (True, False):
+            figure = plt.figure()
+            assert curve_pictures.draw(figure.subplots(), described(nothing, powers=powers)) == ""
+            figure.canvas.draw()
+
+
+def test_curves_that_hide_one_another_are_told_apart_and_named():
+    ax = plt.figure().subplots()
+    curves_of = {"a": (H, 3 * H**2), "b, c": (H, 1.01 * H**2), "d": (H, H**2)}
+    said = curve_pictures.draw(ax, described(curves_of, slope=False))
+    assert said.endswith("the first of them the widest: “b, c” and d.")
+    a, b, d = ax.lines
+    assert b.get_linewidth() > 2 * d.get_linewidth() and d.get_zorder() > b.get_zorder() and a.get_linewidth() == 1
+    ax = plt.figure().subplots()
+    assert "All curves coincide" in curve_pictures.draw(
+        ax, described({"a": (H, H**2), "d": (H, H**2)}, slope=False)
+    )
+
+
+def test_text_of_others_is_text_and_no_formula():
+    for text in ("100 $", r"$\frac{ a_b", "a_b^c {y} \\"):
+        figure = plt.figure()
+        curve_pictures.draw(figure.subplots(), described({text: (H, H), "b": (H, 9 * H)}))
+        style.title(figure, text, text)
+        figure.canvas.draw()
 
 
 def request(run, **more):

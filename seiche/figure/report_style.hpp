@@ -63,7 +63,9 @@ tr.group th { background: var(--tint); font-size: .95rem; padding-top: .5rem; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); gap: 1.2rem; align-items: start;
   margin: 1rem 0; }
 figure { margin: 0; max-width: 34rem; }
-figure a { display: block; background: #fff; border: 1px solid var(--line); border-radius: .5rem; padding: .6rem; }
+.drawn { background: #fff; border: 1px solid var(--line); border-radius: .5rem; padding: .6rem; }
+@media (prefers-color-scheme: dark) { .drawn { background: #15181c; } }
+figure .files a { margin-left: .3rem; }
 figure img { display: block; width: 100%; height: auto; }
 figcaption { font-size: .88rem; color: var(--soft); margin-top: .4rem; }
 .missing { border: 1px dashed var(--line); border-radius: .5rem; padding: 2rem 1rem; color: var(--soft); text-align: center; }
@@ -85,12 +87,10 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace
 
 // What the report of a single run adds.
 inline constexpr std::string_view run_report_style = R"css(
-.drawn { background: #fff; border: 1px solid var(--line); border-radius: .5rem; padding: .6rem; }
 .on-dark { display: none; }
-@media (prefers-color-scheme: dark) { .drawn { background: #15181c; }
+@media (prefers-color-scheme: dark) {
   .on-dark { display: block; } .on-light { display: none; } }
 .drawn video, .film img { width: 100%; }
-figure .files a, figure.film figcaption a { display: inline; background: none; border: 0; padding: 0; margin-left: .3rem; }
 pre { background: var(--tint); border-radius: .5rem; padding: .8rem 1rem; overflow-x: auto; max-width: 46rem; }
 pre code { background: none; padding: 0; }
 .certificate th[scope=row] { font-weight: 600; width: 14rem; }

@@ -1,9 +1,9 @@
 #include <seiche/core/error.hpp>
+#include <seiche/figure/curves.hpp>
 #include <seiche/figure/drawing.hpp>
 #include <seiche/figure/drawing_folder.hpp>
-#include <seiche/figure/plot/curves.hpp>
-#include <seiche/figure/plot/style.hpp>
 #include <seiche/figure/run_pictures.hpp>
+#include <seiche/figure/style.hpp>
 #include <seiche/output/solution_reader.hpp>
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr std::string_view dark_suffix = "_dark";
 

@@ -1,9 +1,10 @@
 #include <seiche/core/error.hpp>
+#include <seiche/figure/curves.hpp>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/plot/curves.hpp>
-#include <seiche/figure/plot/style.hpp>
+#include <seiche/figure/report_figure.hpp>
 #include <seiche/figure/report_style.hpp>
 #include <seiche/figure/run_report.hpp>
+#include <seiche/figure/style.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/study/run_files.hpp>
@@ -69,14 +70,15 @@ std::string number(double value) {
 
 std::string energy_row(const char* name, const EnergyNumbers& energy) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{:.10g}</td><td>{:.10g}</td><td>{}</td></tr>\n", name,
-                     energy.initial, energy.final, html_number(energy.max_increase));
+                     energy.initial, energy.final,
+                     html_number(energy.max_increase) + (energy.max_increase < 0 ? " (it never rose)" : ""));
 }
 
 std::string energies(const RunFiles& run) {
   std::string text =
       "<h2 id=\"energy\">Energy</h2>\n<div class=\"scroll\"><table class=\"numbers narrow\"><thead><tr><th scope=\"col\"></th>"
-      "<th scope=\"col\">at the start</th><th scope=\"col\">at the end</th><th scope=\"col\">largest rise in a "
-      "record</th></tr></thead>\n<tbody>\n";
+      "<th scope=\"col\">at the start</th><th scope=\"col\">at the end</th><th scope=\"col\">largest increase "
+      "between records</th></tr></thead>\n<tbody>\n";
   text += energy_row("H", run.energy);
   if (run.modified) text += energy_row("modified energy", *run.modified);
   return text + "</tbody></table></div>\n";
@@ -114,29 +116,6 @@ std::string ledger(const RunFiles& run, const EnergyHistory& history) {
                      number(run.energy.final - run.energy.initial));
 }
 
-// Light and dark, as the page is.
-std::string figure(const RunFiles& run, const RunPictures& pictures, const RunPicture& picture) {
-  const fs::path figures = run.directory / "figures";
-  std::string files;
-  for (const std::string& format : pictures.formats) {
-    const std::string name = html_escaped(picture.stem + "." + format);
-    if (fs::exists(figures / (picture.stem + "." + format)))
-      files += fmt::format(" <a href=\"figures/{0}\">{1}</a>", name, format);
-  }
-  const std::string caption = fmt::format("<figcaption>{} <span class=\"files\">{}</span></figcaption></figure>\n",
-                                          html_text(picture.caption), files);
-  try {
-    const PngPicture light = read_png(figures / (picture.stem + ".png"));
-    const PngPicture dark = read_png(figures / (picture.stem + "_dark.png"));
-    return fmt::format(
-        "<figure><div class=\"drawn\"><picture><source media=\"(prefers-color-scheme: dark)\" srcset=\"{}\"><img src=\"{}\" "
-        "width=\"{}\" height=\"{}\" alt=\"{}\"></picture></div>{}",
-        dark.data_uri, light.data_uri, light.width, light.height, html_escaped(picture.title), caption);
-  } catch (const Error&) {
-    return "<figure><div class=\"missing\">" + html_escaped(picture.title) + ": not drawn</div>" + caption;
-  }
-}
-
 std::string film(const Film& film) {
   const auto shown = [](const std::string& file, const char* ground) {
     const char* kind = file.ends_with(".mp4") || file.ends_with(".webm")
@@ -162,7 +141,11 @@ std::string pictures_section(const RunFiles& run, const RunPictures& pictures, c
                              ". Everything else is complete.</p>\n");
   }
   text += "<div class=\"pictures\">\n";
-  for (const RunPicture& picture : pictures.list) text += figure(run, pictures, picture);
+  for (const RunPicture& picture : pictures.list)
+    text += report_figure(run.directory, {.stem = picture.stem,
+                                          .title = picture.title,
+                                          .caption = picture.caption,
+                                          .formats = pictures.formats});
   text += "</div>\n";
   if (!pictures.films.empty()) text += pictures.films.size() > 1 ? "<h3>Films</h3>\n" : "<h3>Film</h3>\n";
   for (const Film& one : pictures.films) text += film(one);

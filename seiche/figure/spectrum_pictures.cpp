@@ -1,7 +1,5 @@
-#include <seiche/figure/drawing_folder.hpp>
-#include <seiche/figure/gnuplot.hpp>
-#include <seiche/figure/plot/curves.hpp>
-#include <seiche/figure/plot/plot.hpp>
+#include <seiche/figure/curve_picture.hpp>
+#include <seiche/figure/curves.hpp>
 #include <seiche/figure/spectrum_pictures.hpp>
 
 #include <fmt/format.h>
@@ -13,8 +11,6 @@
 
 namespace seiche {
 namespace {
-
-constexpr const char* frequency_label = "'exact frequency'";
 
 using Quantity = std::function<std::optional<double>(const SpectrumRow&)>;
 
@@ -39,20 +35,14 @@ Series series_of(Curve curve, std::string label, const LineStyle& style, int lay
       .label = std::move(label), .style = style, .x = std::move(curve.t), .y = std::move(curve.value), .layer = layer};
 }
 
-Plot plot_of(const Spectrum& spectrum, const std::string& stem, const std::string& what, const char* y_label,
-             std::vector<Series> series) {
-  std::vector<double> x, y = {0.0};
-  for (const Series& s : series) {
-    x.insert(x.end(), s.x.begin(), s.x.end());
-    y.insert(y.end(), s.y.begin(), s.y.end());
-  }
+CurvePicture picture_of(const Spectrum& spectrum, const std::string& stem, const std::string& what,
+                        const std::string& y_label, std::vector<Series> series) {
   return {.stem = stem,
           .title = fmt::format("{}, {}, h = {}: {}", spectrum.problem, method_label(spectrum.method),
                                step_text(spectrum.h), what),
-          .x_label = frequency_label,
-          .y_label = y_label,
-          .x = fitted_axis(false, x),
-          .y = fitted_axis(false, y),
+          .caption = {},
+          .x = {.label = "exact angular frequency"},
+          .y = {.label = y_label},
           .series = std::move(series)};
 }
 
@@ -68,12 +58,11 @@ void draw_spectrum(const Spectrum& spectrum, const std::filesystem::path& direct
   Series phase = series_of(over_frequency(spectrum, [](const SpectrumRow& row) { return row.phase_error(); }),
                            method_label(spectrum.method), style, 0);
   phase.marked = staggered(phase.x, 0, 1);
-  DrawingFolder drawing(directory);
-  run_gnuplot(
-      {plot_script(plot_of(spectrum, "spectrum_decay", "decay of the modes", "'decay rate'", {numerical, exact})),
-       plot_script(plot_of(spectrum, "spectrum_phase", "error of the frequencies", "'relative error'", {phase}))},
-      drawing.path());
-  drawing.commit();
+  std::vector<CurvePicture> pictures = {picture_of(spectrum, "spectrum_decay", "decay of the modes", "decay rate",
+                                                   {numerical, exact}),
+                                        picture_of(spectrum, "spectrum_phase", "error of the frequencies",
+                                                   "relative error", {phase})};
+  draw_curves(pictures, directory);
 }
 
 }  // namespace seiche

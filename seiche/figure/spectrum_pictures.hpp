@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-// Draws spectrum_decay and spectrum_phase, .png and .pdf each, in `directory`. Throws Error if gnuplot is missing or
+// Draws spectrum_decay and spectrum_phase, .png and .pdf each, in `directory`. Throws Error if Matplotlib is missing or
 // fails.
 void draw_spectrum(const Spectrum& spectrum, const std::filesystem::path& directory);
 

@@ -2,6 +2,7 @@
 #include <test/support/background.hpp>
 #include <test/support/paths.hpp>
 #include <test/support/program.hpp>
+#include <test/support/run_folder.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,6 +25,7 @@ namespace TEST_FILE {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using test::Background;
+using test::can_draw;
 using test::Cli;
 using Result = Cli::Result;
 using testing::AllOf;
@@ -103,7 +105,7 @@ TEST_F(CliSlow, ThePaperLeavesDataFiguresAndAReport) {
     EXPECT_FALSE(fs::is_empty(directory / "out/paper-quick/figures"));
   } else {
     EXPECT_EQ(result.exit, 1);
-    EXPECT_THAT(result.err, HasSubstr("gnuplot")) << "the only excuse";
+    EXPECT_THAT(result.err, HasSubstr("python3-matplotlib")) << "the only excuse";
   }
 }
 
@@ -128,12 +130,12 @@ TEST_F(Cli, SpectrumTellsWhetherTheDampingIsPhysical) {
   EXPECT_THAT(refused("spectrum case.toml"), AllOf(HasSubstr("give --set method.h="), HasSubstr("tells the sizes")));
 }
 
-TEST_F(Cli, SpectrumWithoutGnuplotSaysAndKeepsWhatItComputed) {
+TEST_F(Cli, SpectrumWithoutPythonSaysAndKeepsWhatItComputed) {
   write_case();
-  const Result result = seiche("spectrum case.toml --out out", "PATH=/nonexistent");
+  const Result result = seiche("spectrum case.toml --out out", "SEICHE_PYTHON=/nonexistent/python");
   EXPECT_EQ(result.exit, 1);
   EXPECT_THAT(result.out, HasSubstr("The damping is physical: every"));
-  EXPECT_THAT(result.err, HasSubstr("gnuplot was not found"));
+  EXPECT_THAT(result.err, HasSubstr("/nonexistent/python was not found"));
   EXPECT_EQ(lines("out/spectrum.csv").size(), 1U + 5U);
   EXPECT_EQ(std::distance(fs::directory_iterator(directory / "out"), {}), 1);
 }
@@ -160,7 +162,7 @@ TEST_F(Cli, ASignalDuringSetUpEndsTheProgram) {
 }
 
 TEST_F(Cli, SpectrumLeavesATableAndFigures) {
-  if (std::system("gnuplot --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot";
+  if (!can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
   write_case();
   const Result result = seiche("spectrum case.toml --out out");
   ASSERT_EQ(result.exit, 0) << result.err;

@@ -1,14 +1,14 @@
 // Every picture is drawn, the report holds every verdict and nothing from elsewhere, and bad numbers break neither.
 #include <test/support/error_of.hpp>
+#include <test/support/run_folder.hpp>
 #include <test/support/temporary_directory.hpp>
 #include <test/support/text_of.hpp>
 
 #include <paper/pictures.hpp>
 #include <paper/report.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/figure/gnuplot.hpp>
+#include <seiche/figure/drawing.hpp>
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/plot/coincide.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,6 +18,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ namespace seiche {
 namespace TEST_FILE {
 
 namespace fs = std::filesystem;
+using test::can_draw;
 using test::error_of;
 using test::text_of;
 using testing::HasSubstr;
@@ -102,18 +104,13 @@ PaperResults results() {
   return paper;
 }
 
-bool have_gnuplot() {
-  static const bool found = error_of([] { run_gnuplot({"exit\n"}, fs::temp_directory_path()); }).empty();
-  return found;
-}
-
 class Figures : public test::InTemporaryDirectory {
  protected:
   std::string report() const { return text_of(directory / "report.html"); }
 
   void expect_drawn(const PaperResults& paper) const {
     for (const CurvePicture& picture : paper_pictures(paper)) {
-      const fs::path stem = directory / "figures" / picture.plot.stem;
+      const fs::path stem = directory / "figures" / picture.stem;
       EXPECT_TRUE(text_of(stem.string() + ".png").starts_with("\x89PNG\r\n\x1a\n")) << stem;
       EXPECT_TRUE(text_of(stem.string() + ".pdf").starts_with("%PDF-")) << stem;
     }
@@ -121,10 +118,10 @@ class Figures : public test::InTemporaryDirectory {
 };
 
 TEST_F(Figures, EveryPanelBecomesAPngAndAPdf) {
-  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  if (!can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
   const PaperResults paper = results();
   std::set<std::string> stems;
-  for (const CurvePicture& picture : paper_pictures(paper)) stems.insert(picture.plot.stem);
+  for (const CurvePicture& picture : paper_pictures(paper)) stems.insert(picture.stem);
   EXPECT_EQ(stems.size(), 5U * 4 + 1 + 1);
   for (const char* stem : {"klein_gordon_order", "klein_gordon_efficiency", "klein_gordon_energy",
                            "klein_gordon_energy_error", "alpha_fpu_formulations_efficiency", "gkdv_sigma1"}) {
@@ -135,7 +132,7 @@ TEST_F(Figures, EveryPanelBecomesAPngAndAPdf) {
 }
 
 TEST_F(Figures, ValuesThatNoAxisCanShowAreLeftOut) {
-  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  if (!can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
   const double bad[] = {0, -1, nan, infinity, -infinity, 5e-324, 1e308};
   PaperResults paper = results();
   std::size_t next = 0;
@@ -160,9 +157,8 @@ TEST_F(Figures, ValuesThatNoAxisCanShowAreLeftOut) {
   paper.examples[4].rows.clear();
   paper.examples[4].energy.clear();
   paper.side_studies[0].curves.clear();
-  draw_paper(paper, directory);
+  write_report(paper, draw_paper(paper, directory), directory);
   expect_drawn(paper);
-  write_report(paper, directory);
   std::string page = report();
   for (std::size_t at = 0; (at = page.find("base64,", at)) != std::string::npos; ++at) {
     page.erase(at, page.find('"', at) - at);  // there any three letters may meet
@@ -171,12 +167,16 @@ TEST_F(Figures, ValuesThatNoAxisCanShowAreLeftOut) {
 }
 
 TEST_F(Figures, TextIsDrawnAndNeverRun) {
-  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  if (!can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
   PaperResults paper = results();
   paper.examples.resize(1);
   const std::string victim = (directory / "made_by_a_title").string();
-  const std::vector<std::string> commands = {"`touch " + victim + "`", "'; system('touch " + victim + "'); '",
-                                             "x'\nsystem('touch " + victim + "')\n", R"({/=99 a_b^c @x &{y} ~z \)"};
+  const std::vector<std::string> commands = {"`touch " + victim + "`",
+                                             "'; system('touch " + victim + "'); '",
+                                             "x'\nsystem('touch " + victim + "')\n",
+                                             R"($\frac{ a_b^c @x &{y} ~z \)",
+                                             "100 $",
+                                             "a $\\alpha$"};
   for (const std::string& command : commands) {
     paper.examples[0].title = command;
     paper.side_studies[0].title = paper.side_studies[0].x_label = paper.side_studies[0].curves[2].name = command;
@@ -188,67 +188,52 @@ TEST_F(Figures, TextIsDrawnAndNeverRun) {
   EXPECT_THAT(error_of([&] { draw_paper(paper, directory); }), HasSubstr("../outside"));
 }
 
-TEST_F(Figures, DigitsAfterPunctuationStayDigits) {
-  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const std::vector<std::string> texts = {"μ = 0.1", "2.1", "a_1", "(1,2)", "h = 2^-7, 89.0", "7.77.7"};
-  std::string script = "set print 'printed.txt'\n";
-  for (const std::string& text : texts) script += "print " + gnuplot_file(text) + "\n";
-  run_gnuplot({script + "print " + gnuplot_text("0.1_2") + "\n"}, directory);
-  std::string expected;
-  for (const std::string& text : texts) expected += text + "\n";
-  EXPECT_EQ(text_of(directory / "printed.txt"), expected + "0.1\\_2\n");
-}
-
-TEST_F(Figures, ZerosStandOnALineOfTheirOwn) {
-  const PaperResults paper = results();
-  const CurvePicture picture = side_picture(paper.side_studies[0]);  // its last curve ends at zero
-  const Plot& plot = picture.plot;
-  EXPECT_THAT(picture.caption, HasSubstr("exactly zero"));
-  EXPECT_THAT(plot.y.ticks, HasSubstr("'0'"));
-  ASSERT_EQ(plot.series.size(), 3U);
-  const double zero = plot.series.back().y.back();
-  EXPECT_GT(plot.y.place(zero), 0);
-  for (const Series& series : plot.series) {
-    for (const double value : series.y) EXPECT_LE(plot.y.place(zero), plot.y.place(value));
+TEST_F(Figures, ZerosStandOnALineOfTheirOwnAndCoincidingCurvesAreNamed) {
+  if (!can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
+  PaperResults paper = results();  // the last curve of its study ends at zero
+  paper.examples.resize(1);
+  const auto captions = [&] {
+    std::map<std::string, std::string> all;
+    for (const CurvePicture& picture : draw_paper(paper, directory)) all[picture.stem] = picture.caption;
+    return all;
+  };
+  std::map<std::string, std::string> of = captions();
+  EXPECT_THAT(of["gkdv_sigma1"], HasSubstr("exactly zero"));
+  EXPECT_THAT(of["klein_gordon_order"], Not(HasSubstr("coincide")));
+  paper.side_studies[0].curves.pop_back();
+  for (StudyRow& row : paper.examples[0].rows) {
+    if (row.method == "seilm") row.error = 1e-3 * row.h * row.h;
+    if (row.method == "seavf") row.error = 1.01e-3 * row.h * row.h;
   }
-  SideStudy without = paper.side_studies[0];
-  without.curves.pop_back();
-  without.curves.push_back({"SEILM, not a point", {}, {}});
-  const CurvePicture other = side_picture(without);
-  EXPECT_THAT(other.caption, Not(HasSubstr("exactly zero")));
-  EXPECT_EQ(other.plot.series.size(), 2U) << "a curve without a point stays out of the legend";
+  of = captions();
+  EXPECT_THAT(of["gkdv_sigma1"], Not(HasSubstr("exactly zero")));
+  EXPECT_THAT(of["klein_gordon_order"], HasSubstr("the first of them the widest: SEAVF and SEILM."));
 }
 
 TEST_F(Figures, SideStudiesUseTheWordsOfTheMainAxes) {
   const PaperResults paper = results();
-  EXPECT_EQ(side_picture(paper.side_studies[0]).plot.x_label, example_pictures(paper.examples[0])[0].plot.x_label);
+  EXPECT_EQ(side_picture(paper.side_studies[0]).x.label, example_pictures(paper.examples[0])[0].x.label);
 }
 
-TEST_F(Figures, CoincidingCurvesAreNamedAndToldApart) {
-  ExampleResult one = results().examples[0];
-  const std::string before = example_pictures(one)[0].caption;
-  EXPECT_THAT(before, Not(HasSubstr("coincide")));
-  for (StudyRow& row : one.rows) {
-    if (row.method == "seilm") row.error = 1e-3 * row.h * row.h;
-    if (row.method == "seavf") row.error = 1.01e-3 * row.h * row.h;
-  }
-  const CurvePicture picture = example_pictures(one)[0];
-  EXPECT_THAT(picture.caption, HasSubstr("coincide within the width of a line: SEAVF and SEILM."));
-  EXPECT_THAT(picture.caption, HasSubstr("SEAVF is drawn as dashes"));
-  int dashed = 0;
-  for (const Series& series : picture.plot.series) {
-    if (series.style.dash != Dash::long_dashed) continue;
-    EXPECT_EQ(series.label, "SEAVF");
-    EXPECT_EQ(series.layer, coinciding_layer);
-    ++dashed;
-  }
-  EXPECT_EQ(dashed, 1);
+// The paper has seven figures of two pictures each.
+TEST_F(Figures, PicturesHaveTheNumbersOfThePaperAndVerdictsLinkToThem) {
+  PaperResults paper = results();
+  std::set<std::string> numbers;
+  for (const CurvePicture& picture : paper_pictures(paper)) numbers.insert(picture.number);
+  EXPECT_EQ(numbers.size(), 14U + 1) << "one for those that the paper has not";
+  paper.verdicts[0].source = "Figure 1, left";
+  paper.verdicts[1].source = "Figure 7, right, and Section 5";
+  write_report(paper, paper_pictures(paper), directory);
+  for (const char* text :
+       {"<a href=\"#figure-1-left\">Figure 1, left</a>", "<figure id=\"figure-1-left\">", "<b>Figure 1, left.</b>",
+        "<a href=\"#figure-7-right\">Figure 7, right</a>, and Section 5", "<figure id=\"figure-7-right\">"})
+    EXPECT_THAT(report(), HasSubstr(text));
 }
 
 TEST_F(Figures, TheReportHoldsEveryVerdictAndNothingFromElsewhere) {
   const PaperResults paper = results();
-  if (have_gnuplot()) draw_paper(paper, directory);
-  write_report(paper, directory, {{"Seiche", "0.1.0"}, {"a < b", "1 & 2"}});
+  write_report(paper, can_draw() ? draw_paper(paper, directory) : paper_pictures(paper), directory,
+               {{"Seiche", "0.1.0"}, {"a < b", "1 & 2"}});
   const std::string page = report();
   for (const Verdict& verdict : paper.verdicts) {
     for (const std::string& text : {verdict.claim, verdict.measured, verdict.remark, to_string(verdict.outcome)}) {
@@ -260,40 +245,47 @@ TEST_F(Figures, TheReportHoldsEveryVerdictAndNothingFromElsewhere) {
     EXPECT_EQ(page.find(foreign), std::string::npos) << foreign;
   }
   EXPECT_THAT(page, Not(HasSubstr("Quick run")));
-  if (!have_gnuplot()) return;
+  if (!can_draw()) return;
   for (const CurvePicture& picture : paper_pictures(paper))
-    EXPECT_THAT(page, HasSubstr("figures/" + picture.plot.stem + ".pdf"));
+    EXPECT_THAT(page, HasSubstr("figures/" + picture.stem + ".pdf"));
   EXPECT_THAT(page, Not(HasSubstr("not drawn")));
 }
 
 TEST_F(Figures, AQuickRunIsMarkedInPageAndFigures) {
   PaperResults paper = results();
   paper.quick = true;
-  write_report(paper, directory);
+  write_report(paper, paper_pictures(paper), directory);
   EXPECT_THAT(report(), HasSubstr("Quick run"));
-  for (const CurvePicture& picture : paper_pictures(paper)) EXPECT_THAT(picture.plot.title, HasSubstr("quick"));
+  for (const CurvePicture& picture : paper_pictures(paper)) EXPECT_THAT(picture.title, HasSubstr("quick"));
 }
 
 TEST_F(Figures, FailedAndUnsolvedRunsAreNamed) {
   PaperResults paper = results();
   paper.examples[0].rows[0].failure = "no root for η <at> t = 3";
   paper.examples[0].rows[5].unresolved = 7;
-  write_report(paper, directory);
+  write_report(paper, paper_pictures(paper), directory);
   EXPECT_THAT(report(), HasSubstr("AVF at h = 2⁻⁵ did not reach the end: no root for η &lt;at&gt; t = 3"));
   EXPECT_THAT(report(), HasSubstr("SAV at h = 2⁻⁶: in 7 of 640 steps the scalar equation was not solved"));
 }
 
-TEST_F(Figures, WithoutGnuplotTheReportIsStillWritten) {
+class WithoutPython {
+ public:
+  WithoutPython() { setenv("SEICHE_PYTHON", "/nonexistent/python", 1); }
+  ~WithoutPython() { unsetenv("SEICHE_PYTHON"); }
+  WithoutPython(const WithoutPython&) = delete;
+  WithoutPython& operator=(const WithoutPython&) = delete;
+};
+
+TEST_F(Figures, WithoutPythonTheReportIsStillWritten) {
   const PaperResults paper = results();
-  const char* before = std::getenv("PATH");
-  const std::string path = before ? before : "";
-  setenv("PATH", directory.c_str(), 1);
-  const std::string sentence = error_of([&] { draw_paper(paper, directory); });
-  setenv("PATH", path.c_str(), 1);
-  EXPECT_THAT(sentence, HasSubstr("gnuplot was not found"));
-  EXPECT_THAT(sentence, HasSubstr("gnuplot-nox"));
-  write_report(paper, directory, {}, sentence);
-  EXPECT_THAT(report(), HasSubstr("gnuplot-nox"));
+  const std::string sentence = [&] {
+    const WithoutPython without;
+    return error_of([&] { draw_paper(paper, directory); });
+  }();
+  EXPECT_THAT(sentence, HasSubstr("/nonexistent/python was not found"));
+  EXPECT_THAT(sentence, HasSubstr("python3-matplotlib"));
+  write_report(paper, paper_pictures(paper), directory, {}, sentence);
+  EXPECT_THAT(report(), HasSubstr("python3-matplotlib"));
   EXPECT_THAT(report(), HasSubstr("not drawn"));
   EXPECT_THAT(report(), HasSubstr(paper.verdicts[0].claim));
 }
@@ -302,19 +294,16 @@ TEST_F(Figures, FiguresOfAnEarlierRunDoNotOutliveAFailure) {
   const PaperResults paper = results();
   fs::create_directories(directory / "figures");
   std::ofstream(directory / "figures" / "klein_gordon_order.png") << "old";
-  const char* before = std::getenv("PATH");
-  const std::string path = before ? before : "";
-  setenv("PATH", directory.c_str(), 1);
+  const WithoutPython without;
   EXPECT_THROW(draw_paper(paper, directory), Error);
-  setenv("PATH", path.c_str(), 1);
   EXPECT_FALSE(fs::exists(directory / "figures" / "klein_gordon_order.png"));
 }
 
-TEST_F(Figures, WhatGnuplotSaysIsReported) {
-  if (!have_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const std::string message = error_of([&] { run_gnuplot({"exit\n", "set no_such_option\n"}, directory); });
-  EXPECT_THAT(message, HasSubstr("no_such_option"));
-  EXPECT_THAT(error_of([&] { run_gnuplot({"exit\n"}, directory / "absent"); }), HasSubstr("absent"));
+TEST_F(Figures, WhatFailsIsReported) {
+  if (!can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
+  EXPECT_THAT(error_of([&] { draw("{\"pictures\": [{}], \"formats\": [\"png\"]}", directory); }),
+              HasSubstr("drawing failed: KeyError"));
+  EXPECT_THAT(error_of([&] { draw("{}", directory / "absent"); }), HasSubstr("absent"));
 }
 
 }  // namespace TEST_FILE

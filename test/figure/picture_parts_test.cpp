@@ -1,15 +1,14 @@
-// Parts of pictures and pages by themselves: the triangle of slope two, styles of methods, text and numbers in HTML.
+// Parts of pictures and pages by themselves: styles of methods, text and numbers in HTML.
 #include <seiche/figure/html.hpp>
-#include <seiche/figure/plot/slope_triangle.hpp>
-#include <seiche/figure/plot/style.hpp>
+#include <seiche/figure/style.hpp>
 #include <seiche/method/methods.hpp>
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace seiche {
@@ -17,39 +16,9 @@ namespace TEST_FILE {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(SlopeTriangle, HasSlopeTwoAndIsClearOfTheCurves) {
-  for (const double spread : {1.0, 3.0, 10.0, 1e3, 1e6}) {
-    Plot plot;
-    std::vector<double> all;
-    const std::vector<double> h = {0.03125, 0.015625, 0.0078125, 0.00390625};
-    for (int k = 0; k < 3; ++k) {
-      Series series{.label = "x", .style = {}, .x = h, .y = {}};
-      for (const double step : h) series.y.push_back(step * step * std::pow(spread, k));
-      all.insert(all.end(), series.y.begin(), series.y.end());
-      plot.series.push_back(series);
-    }
-    plot.x = step_size_axis(h);
-    plot.y = fitted_axis(true, all, 0.1);
-    const auto triangle = clear_slope_triangle(plot, 2.7, 1.8);
-    ASSERT_TRUE(triangle) << spread;
-    EXPECT_NEAR(std::log(triangle->y1 / triangle->y0) / std::log(triangle->x1 / triangle->x0), 2.0, 1e-12);
-    EXPECT_GT(plot.x.place(triangle->x0), 0);
-    EXPECT_LT(plot.x.place(triangle->x1), 1);
-    EXPECT_GT(plot.y.place(triangle->y0), 0);
-    EXPECT_LT(plot.y.place(triangle->y1), 1);
-    for (int k = 0; k < 3; ++k) {
-      // A line h² c passes its corners (x0, y0) and (x1, y1) on one side, the right angle on the same.
-      const double c = std::pow(spread, k);
-      const auto above = [&](double x, double y) { return y > c * x * x; };
-      const bool first = above(triangle->x0, triangle->y0);
-      EXPECT_EQ(above(triangle->x1, triangle->y1), first) << spread;
-      EXPECT_EQ(above(triangle->x1, triangle->y0), first) << spread;
-    }
-  }
-}
-
 TEST(MethodStyle, EveryMethodThatHasAStyleLooksLikeNoOther) {
-  std::set<std::string> colours, shapes;
+  std::set<std::string> colours;
+  std::set<std::tuple<std::string, Marker, bool>> shapes;
   for (const MethodEntry& method : methods()) {
     const MethodStyle* style = find_method_style(method.name);
     if (style == nullptr) continue;  // drawn by the default
@@ -57,12 +26,8 @@ TEST(MethodStyle, EveryMethodThatHasAStyleLooksLikeNoOther) {
     EXPECT_TRUE(colours.insert(style->line.colour).second) << method.name;
     const bool one_step = method.kind.make_base != nullptr;
     const bool collocation = method.projects() && !one_step;
-    const std::string marker = gnuplot_marker({.marker = style->line.marker, .filled = style->line.filled});
-    EXPECT_TRUE(shapes.insert(collocation ? "long dashes, " + marker
-                              : one_step  ? "dots, " + marker
-                                          : marker)
-                    .second)
-        << method.name;
+    const char* kind = collocation ? "long dashes" : one_step ? "dots" : "";
+    EXPECT_TRUE(shapes.insert({kind, style->line.marker, style->line.filled}).second) << method.name;
     const bool exponential = method.propagator == PropagatorKind::exponential;
     EXPECT_EQ(style->line.filled, exponential) << method.name;
     EXPECT_EQ(style->line.dash == Dash::solid, exponential && !method.projects()) << method.name;

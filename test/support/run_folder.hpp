@@ -8,7 +8,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <seiche/figure/gnuplot.hpp>
 #include <seiche/figure/html.hpp>
 
 #include <cstdlib>
@@ -24,11 +23,6 @@ inline bool can_draw() {
   static const bool found = std::system(
                                 "python3 -c 'import matplotlib, h5py' 2>/dev/null || "
                                 "/usr/bin/python3 -c 'import matplotlib, h5py' 2>/dev/null") == 0;
-  return found;
-}
-
-inline bool have_gnuplot() {
-  static const bool found = error_of([] { run_gnuplot({"exit\n"}, std::filesystem::temp_directory_path()); }).empty();
   return found;
 }
 

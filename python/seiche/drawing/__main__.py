@@ -1,8 +1,9 @@
 """Draws what the request on standard input asks for; `seiche plot` writes it.
 
-{"run": its folder, "title": of all, "warning": below it, "history": its energies,
-"formats": ["png", …], "films": the fields, or null for the first, "range": [low, high], "centre": number, "palette": name,
-"width": inches, "journal": whether without titles, "progress": whether someone looks on}. Pictures appear in the working
+{"formats": ["png", …], "grounds": ["light", "dark"], "width": inches, "journal": whether without titles, "progress": whether
+someone looks on}, and of a run {"run": its folder, "title": of all, "warning": below it, "history": its energies, "films":
+the fields, or null for the first, "range": [low, high], "centre": number, "palette": name}, or else {"pictures": what
+curve_pictures describes}. Pictures appear in the working
 directory, and what was drawn is in reply.json beside them.
 """
 
@@ -12,6 +13,7 @@ import importlib.util
 import json
 import pathlib
 import sys
+import warnings
 
 _BAD_REQUEST, _MISSING = 2, 3  # exit codes
 
@@ -28,6 +30,8 @@ def main() -> int:
         return _MISSING
     sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
     from drawing import render
+
+    warnings.simplefilter("ignore")  # what remains to be said is an error
 
     try:
         reply = render.draw(request)

@@ -57,8 +57,8 @@ def add(ax: "Axes", curve: Curve, given: Style = {}, **defaults: typing.Any) -> 
     return line
 
 
-def _legend(ax: "Axes", is_below: bool = False) -> None:
-    """Where there is more than one thing to name; inside, where it hides least, or below if it is large."""
+def legend(ax: "Axes", is_below: bool = False) -> None:
+    """Of axes with more than one thing to name; inside, where it hides least, or below if it is large."""
     labels = ax.get_legend_handles_labels()[1]
     longest = max(map(len, labels), default=0)
     if is_below or len(labels) > 4 or (longest > 24 and len(labels) > 1):
@@ -76,6 +76,20 @@ def number_points(axis: typing.Any, name: str) -> None:
         axis.set_major_locator(MaxNLocator(integer=True))
 
 
+def number_decades(axis: typing.Any) -> None:
+    """Of a logarithmic axis: powers of ten, and where it has less than two decades also twice and five times them. As formulas the
+    numbers would be set many times more slowly."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
+
+    low, high = axis.get_view_interval()
+    is_short = 0 < low < high < 100 * low
+    if is_short:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: names.number(value) if is_short else names.power(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
 def _falls_by_decades(values: np.ndarray) -> bool:
     values = values[np.isfinite(values)]
     return bool(values.size and values.min() > 0 and values.max() >= 100 * values.min())
@@ -86,18 +100,19 @@ def _lies_on(a: np.ndarray, b: np.ndarray) -> bool:
     half = _WIDEST / 72 / 2
     begin, along = b[:-1], np.diff(b, axis=0)
     length = np.maximum((along**2).sum(axis=1), 1e-300)
-    close = 0
-    for points in np.array_split(a, -(-len(a) // 256)):
+
+    def share_below(points: np.ndarray) -> float:
         from_begin = points[:, None] - begin
-        share = np.clip((from_begin * along).sum(axis=2) / length, 0, 1)
-        away = from_begin - share[..., None] * along
-        close += int(np.count_nonzero((away**2).sum(axis=2).min(axis=1) <= half**2))
-    return close >= 0.9 * len(a)
+        place = np.clip((from_begin * along).sum(axis=2) / length, 0, 1)
+        away = from_begin - place[..., None] * along
+        return float(np.mean((away**2).sum(axis=2).min(axis=1) <= half**2))
+
+    return share_below(a[:: -(-len(a) // 24)]) >= 0.7 and share_below(a) >= 0.9
 
 
 def coinciding(curves: typing.Mapping[str, Curve]) -> list[list[str]]:
     """Groups of curves over one axis that hide one another."""
-    shown = {name: np.stack(thinned(curve, 500), axis=1) for name, curve in curves.items()}
+    shown = {name: np.stack(thinned(curve, 100), axis=1) for name, curve in curves.items()}
     shown = {name: points[np.isfinite(points).all(axis=1)] for name, points in shown.items()}
     shown = {name: points for name, points in shown.items() if len(points) > 1}
     if not shown:
@@ -153,9 +168,10 @@ def energy(ax: "Axes", H: Curve, modified: Curve | None = None, given: Style = {
         add(ax, curves["the modified energy"], given, linestyle="--", label="modified energy")
     if not is_change and all(_falls_by_decades(y) for _, y in curves.values()):
         ax.set_yscale("log")
+        number_decades(ax.yaxis)
     ax.set(xlabel="time $t$", ylabel=symbol if is_change else "energy $H$")
     said = nest(ax, coinciding(curves), labels) if not given else ""
-    _legend(ax)
+    legend(ax)
     return (
         (f", as its change since the start, where it is {first:.6g}" if is_change else "")
         + (", and the modified energy whose law the method keeps" if modified is not None else "")
@@ -177,7 +193,7 @@ def ledger(ax: "Axes", H: Curve, causes: typing.Mapping[str, Curve]) -> str:
     said = nest(
         ax, coinciding(shown | {"the change": change}), {name: name for name in shown} | {"the change": "$H - H(0)$"}
     )
-    _legend(ax)
+    legend(ax)
     return said
 
 
@@ -208,7 +224,7 @@ def over_time(ax: "Axes", t: np.ndarray, fields: typing.Sequence[Field]) -> None
                 label=label,
             )
     ax.set(xlabel="time $t$", ylabel=", ".join(names.symbol(field.name) for field in fields))
-    _legend(ax)
+    legend(ax)
 
 
 def profiles(ax: "Axes", t: np.ndarray, axis: tuple[str, np.ndarray], field: Field, is_lattice: bool) -> None:
@@ -227,7 +243,7 @@ def profiles(ax: "Axes", t: np.ndarray, axis: tuple[str, np.ndarray], field: Fie
         )
     ax.set(xlabel=names.place(axis[0]), ylabel=field.label)
     number_points(ax.xaxis, axis[0])
-    _legend(ax)
+    legend(ax)
 
 
 def _mean_corner(x: np.ndarray, y: np.ndarray) -> float:
@@ -263,7 +279,7 @@ def portrait(ax: "Axes", across: Field, up: Field, given: Style = {}) -> str:
         ax.plot(a[-1], b[-1], "s", color=ink, **(ends[1] if place == 0 else {}))
     ax.set(xlabel=across.label, ylabel=up.label)
     ax.margins(0.05)
-    _legend(ax)
+    legend(ax)
     if not dots:
         return ""
     return f" Dots are the {len(across.values)} states of the run" + (
@@ -306,5 +322,5 @@ def bars(
     ax.set(xlabel="$x$", ylabel="$y$", aspect="equal")
     ax.margins(0.05)
     ax.grid(False)
-    _legend(ax, is_below=True)
+    legend(ax, is_below=True)
     return factor

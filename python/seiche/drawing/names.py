@@ -52,6 +52,11 @@ def number(x: float) -> str:
     return f"{factor}10{str(int(power.replace('−', '-'))).translate(_EXPONENTS)}" if power else digits
 
 
+def power(x: float) -> str:
+    """Of a power of ten: 10⁻³."""
+    return f"10{str(round(math.log10(x))).translate(_EXPONENTS)}" if x > 0 else ""
+
+
 def offset(text: str) -> str:
     """Of an axis, as Matplotlib writes it: 1e−5 and +1e3, or both."""
     return re.sub(r"1e([-−]?\d+)", lambda found: "10" + found[1].replace("−", "-").translate(_EXPONENTS), text)

@@ -9,13 +9,16 @@ import pathlib
 import time
 import typing
 
-from . import colours, films, names, runs, style
+if typing.TYPE_CHECKING:
+    from matplotlib.transforms import Bbox
+
+from . import colours, curve_pictures, films, names, runs, style
 
 
 class _Progress:
     """A line on the terminal that says how far all processes have come; nothing where nobody looks on."""
 
-    def __init__(self, tasks: int, is_shown: bool):
+    def __init__(self, tasks: float, is_shown: bool):
         self._tasks, self._done = tasks, multiprocessing.Value("d", 0.0)
         self._last = multiprocessing.Value("d", 0.0)
         self._begin = time.monotonic()
@@ -63,56 +66,88 @@ def _known_palette(name: str | None) -> str | None:
     )
 
 
-class Studio:
-    """All that a process needs to draw its share of the tasks."""
+class RunStudio:
+    """All that a process needs to draw its share of the pictures and films of a run."""
 
     def __init__(self, request: dict[str, typing.Any]):
-        self.into = pathlib.Path()
-        self.title, self.warning, self.formats = request["title"], request["warning"], request["formats"]
-        self.is_journal = bool(request.get("journal"))
-        width = request.get("width", _WIDTH)
-        self.settings = {"figure.figsize": (width, width), "font.size": 8 if self.is_journal else 7}
+        self.title, self.warning = request["title"], request["warning"]
         limits = request.get("range")
-        self.look = colours.Look(
-            tuple(limits) if limits else None, request.get("centre"), _known_palette(request.get("palette"))
-        )
-        self.run, self.history = request["run"], request["history"]
-        self.solution = runs.Solution(os.path.join(self.run, "solution.h5"))
-        self.pictures = runs.pictures_of(self.solution, self.history, self.look)
-        self.filmed: list[str] = []
+        palette = _known_palette(request.get("palette"))
+        look = colours.Look(tuple(limits) if limits else None, request.get("centre"), palette)
+        self.solution = runs.Solution(os.path.join(request["run"], "solution.h5"))
+        self.pictures = runs.pictures_of(self.solution, request["history"], look)
+        self.films: list[str] = []
         if len(self.solution.axes) == 2 and len(self.solution.t) > 1:
             wanted = request.get("films")
-            self.filmed = [
-                name
-                for name in self.solution.fields
-                if name in (wanted if wanted is not None else self.solution.fields[:1])
-            ]
-        self.scales = {field: films.common_scale(self.solution, field, self.look) for field in self.filmed}
+            wanted = self.solution.fields[:1] if wanted is None else wanted
+            self.films = [name for name in self.solution.fields if name in wanted]
+        self.scales = {field: films.common_scale(self.solution, field, look) for field in self.films}
 
-    def tasks(self) -> list[tuple[str, int, str]]:
-        """Films first, since they take longest."""
-        filmed = [("film", place, ground) for place in range(len(self.filmed)) for ground in style.GROUNDS]
-        return filmed + [("picture", place, ground) for place in range(len(self.pictures)) for ground in style.GROUNDS]
+    def film(self, field: str, ground: style.Ground, progress: typing.Callable[[float], None]) -> dict[str, typing.Any]:
+        solution = runs.Solution(self.solution.path)  # of this process
+        scale = self.scales[field]
+        return films.draw(solution, field, ground, scale, self.title, self.warning, pathlib.Path(), progress)
 
-    def do(self, task: tuple[str, int, str], progress: _Progress) -> tuple[tuple[str, int, str], typing.Any]:
+    def film_reply(self, field: str, of: dict[str, dict[str, typing.Any]]) -> dict[str, typing.Any]:
+        first = next(iter(of.values()))
+        files = {ground: one["file"] for ground, one in of.items()}
+        remark = self.scales[field].remark()
+        return {
+            "field": names.in_text(field),
+            "frames": first["frames"],
+            "remark": remark,
+            "note": first["note"],
+            "files": files,
+        }
+
+
+class CurveStudio:
+    """The same of pictures that are described one by one."""
+
+    title, warning = "", ""
+    films: typing.Sequence[str] = ()
+
+    def __init__(self, request: dict[str, typing.Any]):
+        self.pictures = [curve_pictures.picture_of(one) for one in request["pictures"]]
+
+
+class _Draw:
+    """What one process does: a film or a picture, on one ground."""
+
+    def __init__(self, request: dict[str, typing.Any]):
+        self.studio = CurveStudio(request) if "pictures" in request else RunStudio(request)
+        self.grounds = request.get("grounds", list(style.GROUNDS))
+        self.formats, self.is_journal = request["formats"], bool(request.get("journal"))
+        width = request.get("width", _WIDTH)
+        self.settings = {"figure.figsize": (width, width), "font.size": 8 if self.is_journal else 7}
+        # Films first, since they take longest.
+        self.tasks = [("film", k, ground) for k in range(len(self.studio.films)) for ground in self.grounds]
+        self.tasks += [("picture", k, "") for k in range(len(self.studio.pictures))]
+        self.progress = _Progress(
+            sum(_FILM if kind == "film" else 1 for kind, *_ in self.tasks), bool(request.get("progress"))
+        )
+
+    def do(self, task: Task) -> tuple[Task, typing.Any]:
         kind, place, name = task
         if kind == "film":
-            field = self.filmed[place]
-            share = [0.0]
+            done = [0.0]
 
-            def report(done: float) -> None:
-                progress.add(_FILM * (done - share[0]))
-                share[0] = done
+            def report(share: float) -> None:
+                self.progress.add(_FILM * (share - done[0]))
+                done[0] = share
 
-            solution = runs.Solution(self.solution.path)  # of this process
-            return task, films.draw(
-                solution, field, style.GROUNDS[name], self.scales[field], self.title, self.warning, self.into, report
-            )
-        said = self.draw(self.pictures[place], style.GROUNDS[name])
-        progress.add(1)
+            return task, self.studio.film(self.studio.films[place], style.GROUNDS[name], report)
+        said, places = "", None
+        for ground in self.grounds:
+            said, places = self.picture(self.studio.pictures[place], style.GROUNDS[ground], places)
+        self.progress.add(1)
         return task, said
 
-    def draw(self, picture: runs.Picture, ground: style.Ground) -> str:
+    def title(self, picture: runs.Picture) -> str:
+        return f"{self.studio.title}: {picture.what}" if self.studio.title else picture.what
+
+    def picture(self, picture: runs.Picture, ground: style.Ground, places: list[Bbox] | None) -> tuple[str, list[Bbox]]:
+        """Returns what the caption has to say beyond, and the places of all axes, which are those on another ground too."""
         import matplotlib.pyplot as plt
 
         with style.on(ground, self.settings):
@@ -120,72 +155,63 @@ class Studio:
             figure = plt.figure(figsize=(width, width * picture.height))
             said = picture.draw(figure)
             if not self.is_journal:
-                style.title(figure, f"{self.title}: {picture.what}", self.warning)
+                style.title(figure, self.title(picture), self.studio.warning)
             style.set_offsets(figure)
-            figure.canvas.draw()
-            figure.set_layout_engine("none")  # laid out once for all files
+            if places is None:
+                figure.get_layout_engine().execute(figure)
+            figure.set_layout_engine("none")  # once for all files
+            for ax, position in zip(figure.axes, places or []):
+                ax.set_position(position)
+            places = [ax.get_position(original=True) for ax in figure.axes]
             for extension in self.formats:
                 if extension != "png" and ground.suffix:
                     continue  # on paper there is one ground
-                file = self.into / f"{picture.stem}{ground.suffix}.{extension}"
-                figure.savefig(
-                    file,
-                    metadata={}
-                    if extension == "png"
-                    else {"Date": None}
-                    if extension == "svg"
-                    else {"CreationDate": None},
-                )
+                dateless = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[extension]
+                fast = {"pil_kwargs": {"compress_level": 4}} if extension == "png" else {}
+                figure.savefig(f"{picture.stem}{ground.suffix}.{extension}", metadata=dateless, **fast)
             plt.close(figure)
-        return said
+        return said, places
+
+    def reply(self, results: dict[Task, typing.Any]) -> dict[str, typing.Any]:
+        warning = f"; {self.studio.warning}" if self.studio.warning else ""
+        pictures = [
+            {
+                "stem": picture.stem,
+                "title": self.title(picture) + warning,
+                "caption": picture.caption + results["picture", k, ""],
+            }
+            for k, picture in enumerate(self.studio.pictures)
+        ]
+        made = [
+            self.studio.film_reply(field, {ground: results["film", k, ground] for ground in self.grounds})
+            for k, field in enumerate(self.studio.films)
+        ]
+        return {"pictures": pictures, "films": made}
 
 
+Task = tuple[str, int, str]  # "film", which of them, the ground; or "picture", which of them, ""
 _WIDTH = 3.4  # inches
-_FILM = 20.0  # tasks that one film counts for
-_studio: Studio
-_progress: _Progress
+_FILM = 10.0  # pictures that one film counts for
+_draw: _Draw
 
 
-def _do(task: tuple[str, int, str]) -> tuple[tuple[str, int, str], typing.Any]:
-    return _studio.do(task, _progress)
+def _do(task: Task) -> tuple[Task, typing.Any]:
+    return _draw.do(task)
 
 
 def draw(request: dict[str, typing.Any]) -> dict[str, typing.Any]:
-    """Returns {"pictures": [{stem, title, caption}, …], "films": [{field, frames, remark, note, files}, …]}."""
+    """Into the working directory. Returns {"pictures": [{stem, title, caption}, …], "films": [{field, frames, remark, note, files}, …]}."""
     import matplotlib
 
+    matplotlib.rcdefaults()  # whatever a user's own settings are
     matplotlib.use("Agg")
-    global _studio, _progress
-    _studio = Studio(request)
-    tasks = _studio.tasks()
-    _progress = _Progress(
-        round(sum(_FILM if kind == "film" else 1 for kind, *_ in tasks)), bool(request.get("progress"))
-    )
-    processes = min(len(os.sched_getaffinity(0)), len(tasks), 8)
+    global _draw
+    _draw = _Draw(request)
+    processes = min(len(os.sched_getaffinity(0)), len(_draw.tasks), 8)
     if processes > 1:
         with multiprocessing.get_context("fork").Pool(processes) as pool:
-            results = dict(pool.imap_unordered(_do, tasks))
+            results = dict(pool.imap_unordered(_do, _draw.tasks))
     else:
-        results = dict(map(_do, tasks))
-    _progress.end()
-    pictures = [
-        {
-            "stem": picture.stem,
-            "title": f"{_studio.title}: {picture.what}" + (f"; {_studio.warning}" if _studio.warning else ""),
-            "caption": picture.caption + results["picture", place, "light"],
-        }
-        for place, picture in enumerate(_studio.pictures)
-    ]
-    made = []
-    for place, field in enumerate(_studio.filmed):
-        of = {ground: results["film", place, ground] for ground in style.GROUNDS}
-        made.append(
-            {
-                "field": names.in_text(field),
-                "frames": of["light"]["frames"],
-                "remark": _studio.scales[field].remark(),
-                "note": of["light"]["note"],
-                "files": {ground: one["file"] for ground, one in of.items()},
-            }
-        )
-    return {"pictures": pictures, "films": made}
+        results = dict(map(_do, _draw.tasks))
+    _draw.progress.end()
+    return _draw.reply(results)

@@ -105,7 +105,8 @@ def set_offsets(figure: "Figure") -> None:
 
 def title(figure: "Figure", text: str, warning: str) -> None:
     """Above a figure, at its left end, with a line in red below it for what a run falls short of."""
-    figure.suptitle(text + ("\n" if warning else ""), x=0.012, ha="left", wrap=True)
+    plain = {"ha": "left", "parse_math": False}
+    figure.suptitle(text + ("\n" if warning else ""), x=0.012, wrap=True, **plain)
     if warning:
         # On the empty line; the engine that lays out figures makes room for titles alone.
         size = figure._suptitle.get_fontsize() / 72 / figure.get_figheight()
@@ -113,6 +114,7 @@ def title(figure: "Figure", text: str, warning: str) -> None:
             0.012,
             0.985 - 1.2 * size,
             warning,
+            parse_math=False,
             color=_WARNING,
             ha="left",
             va="top",

@@ -1,4 +1,4 @@
-#include <seiche/figure/plot/curves.hpp>
+#include <seiche/figure/curves.hpp>
 
 #include <fmt/format.h>
 

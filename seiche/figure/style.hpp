@@ -18,7 +18,6 @@ struct LineStyle {
   bool filled = true;
   Dash dash = Dash::solid;
   double width = 0.8;  // pt
-  double size = 1.0;   // of the marker, relative
 };
 
 struct MethodStyle {
@@ -43,13 +42,5 @@ LineStyle curve_line(std::string_view curve_name, int nth, int index);
 const std::array<std::string, 6>& curve_colours();
 
 LineStyle reference_line();
-
-// gnuplot's options for a line, a marker and the white one under it: "lc rgb '#0072B2' lw 1.5 dt solid", "pt 7 ps 0.5".
-std::string gnuplot_line(const LineStyle& style);
-std::string gnuplot_marker(const LineStyle& style);
-std::string gnuplot_rim(const LineStyle& style);
-
-// Of a text in DejaVu Sans, near enough to lay out legends and titles; inches, the font size in points.
-double text_width(std::string_view text, double font_size);
 
 }  // namespace seiche
