@@ -122,9 +122,9 @@ int ExpressionGraph::add_program(std::span<const Instruction> program, Known& kn
   return stack.back();
 }
 
-void ExpressionGraph::set_numbers(double* table) const {
+void ExpressionGraph::set_numbers(double* table, std::size_t points) const {
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (nodes_[i].kind == Kind::number) std::fill_n(table + i * block, block, nodes_[i].number);
+    if (nodes_[i].kind == Kind::number) std::fill_n(table + i * block, points, nodes_[i].number);
 }
 
 void ExpressionGraph::evaluate(double* table, std::size_t points) const {

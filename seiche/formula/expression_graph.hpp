@@ -34,7 +34,7 @@ class ExpressionGraph {
   // Values of all nodes at up to `block` points, block numbers for each. The caller has put in the numbers of the
   // variables; set_numbers, once, those that stay.
   std::size_t table_size() const { return nodes_.size() * block; }
-  void set_numbers(double* table) const;
+  void set_numbers(double* table, std::size_t points = block) const;
   void evaluate(double* table, std::size_t points) const;        // of all programs
   void evaluate_first(double* table, std::size_t points) const;  // of the first program, whose nodes come first
 

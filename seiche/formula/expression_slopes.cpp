@@ -67,9 +67,9 @@ void add_up(const ExpressionGraph& graph, const double* a, const double* b, cons
     switch (node.kind) {
       case Kind::number:
       case Kind::variable:
-        std::fill_n(slopes + i * width, width, 0.0);
+        for (std::size_t d = 0; d < width; d += block) std::fill_n(slopes + i * width + d, points, 0.0);
         if (node.kind == Kind::variable && node.index < directions)
-          std::fill_n(slopes + i * width + static_cast<std::size_t>(node.index) * block, block, 1.0);
+          std::fill_n(slopes + i * width + static_cast<std::size_t>(node.index) * block, points, 1.0);
         break;
       case Kind::add: combine(i, x, y, one, one); break;
       case Kind::subtract: combine(i, x, y, one, minus_one); break;

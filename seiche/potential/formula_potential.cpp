@@ -149,18 +149,19 @@ class FormulaPotential final : public PointwisePotential {
     for (std::size_t a = 0; a < places_.size(); ++a)
       std::copy_n(places_[a].data() + begin, points, table + (fields_ + a) * block);
   }
-  // What stays from block to block.
-  void begin_table(double* table) const {
-    graph_.set_numbers(table);
-    for (std::size_t a = places_.size(); a < axes; ++a) std::fill_n(table + (fields_ + a) * block, block, 0.0);
+  // What stays from block to block of n points in all.
+  void begin_table(double* table, std::size_t n) const {
+    const std::size_t points = std::min(block, n);
+    graph_.set_numbers(table, points);
+    for (std::size_t a = places_.size(); a < axes; ++a) std::fill_n(table + (fields_ + a) * block, points, 0.0);
   }
 
   // Σ visit(table, first point, points) over the blocks, with u in the first of 2 + fields_ tables.
   template <class Visit>
   double sum(std::span<const double> u, const Visit& visit, double factor = 1) const {
     double* const table = scratch_of(scratch_size_).data();
-    begin_table(table);
     const std::size_t n = u.size() / fields_;
+    begin_table(table, n);
     LongSum all;
     for (std::size_t begin = 0; begin < n; begin += block) {
       const std::size_t points = std::min(block, n - begin);
@@ -185,7 +186,7 @@ class FormulaPotential final : public PointwisePotential {
 
   void mean_by_slopes(std::span<const double> a, std::span<const double> b, std::span<double> mean) const {
     const std::size_t n = a.size() / fields_;
-    begin_table(scratch_of(scratch_size_).data() + graph_.table_size());
+    begin_table(scratch_of(scratch_size_).data() + graph_.table_size(), n);
     sum(a, [&](double* at_a, std::size_t begin, std::size_t points) {
       double* const at_b = at_a + graph_.table_size();
       double* const slopes = at_b + graph_.table_size();
