@@ -169,14 +169,17 @@ void add_plot(CLI::App& app, Action& action) {
                           ->type_name("FIELDS");
   command->add_flag("--no-film", arguments->no_film, "No film of a solution in the plane, which takes longest")
       ->excludes(film);
-  command->add_option("--range", arguments->range, "Lowest and highest value of the colours: --range 0.8,1.2")
-      ->type_name("LOW,HIGH");
+  CLI::Option* range =
+      command->add_option("--range", arguments->range, "Lowest and highest value of the colours: --range 0.8,1.2")
+          ->type_name("LOW,HIGH");
   command
       ->add_option("--centre", arguments->centre, "The value of the middle colour, for colours from both sides of it")
-      ->type_name("VALUE");
+      ->type_name("VALUE")
+      ->excludes(range);
   command->add_option("--palette", arguments->palette, "Colours of maps, one of Matplotlib's: magma, RdBu_r, …")
       ->type_name("NAME");
-  command->add_option("--size", arguments->size, "Width of every picture in centimetres (8.6)")->type_name("CM");
+  command->add_option("--size", arguments->size, "Width of every picture but films in centimetres (8.6)")
+      ->type_name("CM");
   command->add_flag("--journal", arguments->journal,
                     "For a paper: 8.6 cm wide unless --size says otherwise, no titles");
   command->add_flag("--xdmf", arguments->xdmf,

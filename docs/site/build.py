@@ -76,19 +76,18 @@ def play(page, program, work):
 
 
 def film(program, work, name, setting):
-    """HTML of the film of a case in the plane, for both grounds; "" where ffmpeg cannot join its frames."""
+    """HTML of the film of a case in the plane, for both grounds."""
     run = pathlib.Path(work) / f"film_{name}"
     subprocess.run([program, "run", SOURCE / f"cases/{name}.toml", "--quiet", "--out", run, "--set", setting], check=True)
     subprocess.run([program, "plot", run, "--format", "png"], check=True, stdout=subprocess.DEVNULL)
-    files = [next((run / "figures").glob(f"film_u{ground}.*"), None) for ground in ("", "_dark")]
-    if None in files:
-        print(f"gallery: no film of {name} without ffmpeg", flush=True)
-        return ""
+    files = [next((run / "figures").glob(f"film_u{ground}.*")) for ground in ("", "_dark")]
     for file in files:
         shutil.copy(file, PAGES / "gallery" / file.name.replace("film_u", name))
-    light, dark = (f'<video class="on-{ground}" src="{file.name.replace("film_u", name)}" controls loop muted preload="metadata">'
-                   "</video>" for ground, file in zip(("light", "dark"), files))
-    return f'<div class="film">{light}{dark}</div>'
+    shown_by = {True: '<video class="on-{}" src="{}" controls loop muted preload="metadata"></video>',
+                False: '<img class="on-{}" src="{}" alt="film">'}  # a picture that moves, without ffmpeg
+    films = (shown_by[file.suffix in (".mp4", ".webm")].format(ground, file.name.replace("film_u", name))
+             for ground, file in zip(("light", "dark"), files))
+    return f'<div class="film">{"".join(films)}</div>'
 
 
 def add_gallery(program):

@@ -32,6 +32,7 @@ Provides-Extra: test
 Requires-Dist: pytest; extra == "test"
 Requires-Dist: scipy; extra == "test"
 Requires-Dist: matplotlib; extra == "test"
+Requires-Dist: h5py; extra == "test"
 Requires-Dist: xarray; extra == "test"
 Description-Content-Type: text/markdown
 

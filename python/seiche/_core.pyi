@@ -134,8 +134,5 @@ def problems() -> list[dict[str, Any]]:
 def backends() -> list[dict[str, Any]]:
     """Every backend: name and summary."""
 
-def curve_colours() -> list[str]:
-    """Colours of curves that belong to no method, one after the other."""
-
 def method_styles() -> dict[str, tuple[str, str, bool, str]]:
     """Of each method its colour, marker, whether that is filled, and dash."""

@@ -192,7 +192,7 @@ def phase_portrait(
             raise ValueError(f"there is no point {point}; they are 0 to {across.shape[1] - 1}")
         across, up = across[:, [point]], up[:, [point]]
     ax = _axes(ax)
-    meanings = dict(result.problem._core.layout["fields"])
+    meanings = {name: meaning for name, (_, meaning) in zip(fields, result.problem._core.layout["fields"])}
     _curves.portrait(
         ax, *(_curves.Field(name, meanings[name], values) for name, values in ((x, across), (y, up))), style
     )

@@ -43,7 +43,6 @@ void bind_lists(py::module_& module) {
       "Every problem: name, equation, reference, fields, initial data, and parameters with their defaults.");
   module.def(
       "backends", [] { return parsed(backends_json()); }, "Every backend: name and summary.");
-  module.def("curve_colours", &curve_colours, "Colours of curves that belong to no method, one after the other.");
   module.def("method_styles", &method_styles, "Of each method its colour, marker, whether that is filled, and dash.");
 }
 

@@ -1,6 +1,7 @@
 """What stands in the pictures of `seiche plot`: scales, names, titles, curves that hide one another."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -163,7 +164,9 @@ def test_a_scale_ends_where_it_covers_nearly_all_of_every_picture():
 
 def test_what_is_asked_for_decides():
     values = [np.linspace(-1, 3, 101)]
-    assert colours.scale_of(values, colours.Look(range=(0.0, 2.0)))[:3] == (0.0, 2.0, True)
+    assert colours.scale_of(values, colours.Look(range=(0.0, 2.0)))[:3] == (0.0, 2.0, False), "zero is not its middle"
+    assert colours.scale_of(values, colours.Look(range=(-2.0, 2.0)))[:3] == (-2.0, 2.0, True)
+    assert "so that" not in colours.scale_of(values, colours.Look(range=(0.0, 2.0))).remark()
     assert colours.scale_of(values, colours.Look(centre=2.0))[:3] == (-1.0, 5.0, True)
     ax = plt.figure().subplots()
     assert colours.scale_of(values, colours.Look(palette="magma")).style(ax)["cmap"] == "magma"
@@ -186,8 +189,16 @@ def test_maps_show_every_state_and_no_more_than_is_seen(tmp_path):
     mesh = figure.axes[0].collections[0]
     assert np.array_equal(np.reshape(mesh.get_array(), (20, 17)), solution.values("u", np.arange(17)).T)
     assert of["space_time_u"].what == "u in space and time" and of["profiles_u"].what == "u at some times"
-    x, values = maps.no_more_than_seen(np.arange(5000.0), np.arange(10000.0).reshape(2, 5000), 1)
-    assert len(x) <= maps.MOST_CELLS and np.array_equal(values[0], x)
+    assert maps.every_seen(maps.MOST_CELLS) == 1 and 5000 / maps.every_seen(5000) <= maps.MOST_CELLS
+    assert np.array_equal(
+        solution.values("u", np.array([3, 5, 16]), 4), solution.values("u", np.array([3, 5, 16]))[:, ::4]
+    )
+
+
+def test_a_grid_of_one_point_along_an_axis_is_shown():
+    ax = plt.figure().subplots()
+    mesh = maps.image(ax, np.array([2.0]), np.arange(3.0), np.arange(3.0)[None], colours.Scale(0, 2, False))
+    assert np.ptp(mesh.get_coordinates(), axis=(0, 1)).min() > 0 and ax.get_xlim() == (1.5, 2.5)
 
 
 def test_thinning_keeps_peaks_and_ends():
@@ -198,6 +209,29 @@ def test_thinning_keeps_peaks_and_ends():
     assert len(x) < 4000 and kept.max() == 9.0 and (x[0], x[-1]) == (t[0], t[-1]) and (np.diff(x) > 0).all()
 
 
+def test_thinning_leaves_out_what_is_not_finite_and_nothing_else():
+    t = np.arange(10000.0)
+    y = np.sin(t)
+    y[:5000] = np.nan
+    x, kept = curves.thinned((t, y))
+    assert np.isfinite(kept).sum() > 500
+    y = np.sin(t)
+    y[2000:3000], y[9000] = np.nan, 50.0
+    assert np.nanmax(curves.thinned((t, y))[1]) == 50.0
+
+
+def test_a_warning_stands_below_however_many_lines_a_title_has():
+    for letters in (10, 60, 200):
+        with style.on(style.GROUNDS["light"]):
+            figure = plt.figure()
+            figure.subplots()
+            style.title(figure, "word " * (letters // 5), "failed at t = 3")
+            figure.canvas.draw()
+            title, warning = (text.get_window_extent() for text in (figure._suptitle, figure.texts[-1]))
+            lines = figure._suptitle.get_text().count("\n")
+            assert warning.y1 <= title.y1 - 0.85 * (title.height * lines / (lines + 1)) and title.x1 <= figure.bbox.x1
+
+
 def test_planes_go_through_the_middle_of_a_box(tmp_path):
     problem = {
         "name": "sine_gordon",
@@ -206,7 +240,7 @@ def test_planes_go_through_the_middle_of_a_box(tmp_path):
         "initial": {"u": "x + 10*y + 100*z", "v": "0"},
     }
     of, solution = pictures(tmp_path, problem, t_end=0.0625)
-    x, z, values = runs.plane(solution, solution.values("u", np.array([0]))[0], 0, 2)
+    x, z, values = solution.plane("u", 0, 0, 2)
     y = solution.axes[1][1][3]
     assert np.allclose(values, x[:, None] + 10 * y + 100 * z[None, :])
     figure, _ = drawn(of["planes_u"])
@@ -304,6 +338,16 @@ def program(what, folder):
         text=True,
         capture_output=True,
     )
+
+
+def test_a_process_that_dies_ends_the_drawing(tmp_path, monkeypatch):
+    pictures(tmp_path, {"name": "oscillator"}, t_end=0.5)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1})
+    monkeypatch.setattr(render._Draw, "picture", lambda *_: os._exit(9))
+    monkeypatch.setattr(render, "_end_with_parent", lambda: None)
+    with pytest.raises(RuntimeError, match="terminated abruptly"):
+        render.draw(request(tmp_path / "run"))
 
 
 def test_the_program_draws_what_it_is_asked_for_and_the_same_bytes_each_time(tmp_path):

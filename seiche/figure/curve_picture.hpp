@@ -20,7 +20,7 @@ inline constexpr int reference_layer = 3;
 struct PictureAxis {
   std::string label;
   bool logarithmic = false;
-  bool powers_of_two = false;                            // its numbers are step sizes
+  bool powers_of_two = false;                            // its numbers are those, as of step sizes
   std::optional<std::pair<double, double>> limits = {};  // else those of the curves
 };
 

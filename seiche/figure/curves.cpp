@@ -39,13 +39,6 @@ Curve thinned(const Curve& curve, std::size_t points) {
   return result;
 }
 
-std::vector<Index> spread(Index count, Index most) {
-  std::vector<Index> chosen;
-  const Index n = std::min(count, most);
-  for (Index i = 0; i < n; ++i) chosen.push_back(n > 1 ? i * (count - 1) / (n - 1) : 0);
-  return chosen;
-}
-
 std::vector<std::size_t> staggered(const std::vector<double>& t, int index, int count) {
   std::vector<std::size_t> marked;
   if (t.empty() || count <= 0) return marked;

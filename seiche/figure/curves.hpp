@@ -1,7 +1,6 @@
 // Curves made ready for drawing: fewer points, markers spread out, envelopes instead of dips.
 #pragma once
 
-#include <seiche/core/vector.hpp>
 #include <seiche/study/results.hpp>
 
 #include <cstddef>
@@ -12,9 +11,6 @@ namespace seiche {
 
 // At most about `points`: of each stretch its smallest and its largest value, so that no peak is lost.
 Curve thinned(const Curve& curve, std::size_t points = 500);
-
-// At most `most` of `count` things, evenly, the first and the last among them.
-std::vector<Index> spread(Index count, Index most);
 
 // Indices of points for the markers of curve `index` of `count`.
 std::vector<std::size_t> staggered(const std::vector<double>& t, int index, int count);

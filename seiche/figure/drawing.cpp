@@ -1,6 +1,7 @@
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/figure/child_program.hpp>
 #include <seiche/figure/drawing.hpp>
+#include <seiche/version.hpp>
 
 #include <fmt/format.h>
 
@@ -15,13 +16,16 @@ namespace fs = std::filesystem;
 
 constexpr int bad_request = 2, packages_missing = 3;  // exit codes of what is run
 
-// As `python -m` would run it: beside the program as it is built, or as it is installed.
+// Beside the program as it is built, or as it is installed; for the programs of others where Seiche is installed.
 fs::path drawing_programs() {
-  const fs::path self = fs::read_symlink("/proc/self/exe");
-  for (const fs::path& folder : {self.parent_path(), self.parent_path().parent_path()})
-    if (fs::exists(folder / "share/seiche/drawing/__main__.py")) return folder / "share/seiche/drawing";
-  throw Error("share/seiche/drawing is neither beside {} nor above it, and holds the programs that draw pictures",
-              self.string());
+  std::error_code unknown;
+  const fs::path self = fs::read_symlink("/proc/self/exe", unknown);
+  for (const fs::path& folder : {self.parent_path() / "share/seiche", self.parent_path().parent_path() / "share/seiche",
+                                 fs::path(data_directory)})
+    if (fs::exists(folder / "drawing/__main__.py", unknown)) return folder / "drawing";
+  throw Error(
+      "there is no folder share/seiche/drawing beside {}, above it or in {}, with the programs that draw pictures",
+      self.string(), data_directory);
 }
 
 // The one that the environment names, or else the first that has the packages: where python3 belongs to an environment

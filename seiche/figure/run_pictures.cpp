@@ -40,8 +40,7 @@ bool is_picture(const fs::path& file) {
   const std::string extension = file.extension().string();
   std::string stem = file.stem().string();
   take_off(stem, dark_suffix);
-  if (is_one_of({".mp4", ".webm", ".webp"}, extension) || (extension == ".png" && begins_with_one_of(stem, {"film_"})))
-    return begins_with_one_of(stem, {"film_"});
+  if (is_one_of({".mp4", ".webm", ".webp", ".apng"}, extension)) return begins_with_one_of(stem, {"film_"});
   if (extension.empty() || !is_one_of(picture_formats(), extension.substr(1))) return false;
   return is_one_of({"energy", "ledger", "bars", "fields"}, stem) ||
          begins_with_one_of(stem, {"portrait_", "profiles_", "space_time_", "slices_", "planes_"});
@@ -82,7 +81,7 @@ Json request_for(const RunFiles& run, const EnergyHistory& history, const std::v
                  const PictureOptions& options) {
   Json causes = Json::array();
   for (const Curve& cause : history.causes) causes.push_back({cause_label(history, cause.name), points_of(cause)});
-  Json request = {{"run", fs::absolute(run.directory).string()},
+  Json request = {{"run", "../.."},  // from the folder of the drawing
                   {"title", title_of(run)},
                   {"warning", shortfall(run)},
                   {"formats", formats},

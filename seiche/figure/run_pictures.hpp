@@ -45,7 +45,8 @@ struct PictureOptions {
 
 const std::vector<std::string>& picture_formats();
 
-// Throws Error where DIR/figures, or the folder of frames in it, is a link, through which pictures would get elsewhere.
+// Throws Error where DIR/figures, or the folder in it where earlier versions left the frames of films, is a link,
+// through which files would get elsewhere or vanish there.
 void require_own_figures(const std::filesystem::path& directory);
 
 // Throws Error where require_own_figures does, where Python or a package that draws is missing or fails, and where

@@ -10,7 +10,7 @@
 namespace seiche {
 
 enum class Marker { none, circle, square, triangle, star, pentagon, diamond, triangle_down };
-enum class Dash { solid, dashed, dash_dotted, dotted, long_dashed };  // the last: over a curve that it coincides with
+enum class Dash { solid, dashed, dash_dotted, dotted, long_dashed };
 
 struct LineStyle {
   std::string colour = "#000000";

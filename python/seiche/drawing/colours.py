@@ -25,10 +25,11 @@ class Look(typing.NamedTuple):
 class Scale(typing.NamedTuple):
     low: float
     high: float
-    is_diverging: bool  # from both sides of a centre
+    is_diverging: bool  # from both sides of the middle
     palette: str | None = None  # instead of that of the house
     least: float = 0.0  # of all values
     most: float = 0.0
+    is_asked_for: bool = False
 
     def style(self, ax: "Axes") -> dict[str, typing.Any]:
         """Keywords of an image."""
@@ -37,56 +38,79 @@ class Scale(typing.NamedTuple):
 
     def remark(self) -> str:
         """Where values lie beyond the scale, a sentence, with a blank before it."""
-        beyond = [f"down to {names.number(self.least)}"] * (self.least < self.low) + [
-            f"up to {names.number(self.most)}"
-        ] * (self.most > self.high)
+        beyond = [f"down to {names.number(self.least)}"] * (self.least < self.low)
+        beyond += [f"up to {names.number(self.most)}"] * (self.most > self.high)
         if not beyond:
             return ""
-        ends = f"{names.number(self.low)} to {names.number(self.high)}"
+        why = "" if self.is_asked_for else ", so that small values are seen"
         return (
-            f" The scale goes from {ends}, so that small values are seen; beyond its pointed ends, {' and '.join(beyond)}, "
-            "colours stay as they are there."
+            f" The scale goes from {names.number(self.low)} to {names.number(self.high)}{why}; beyond its pointed ends, "
+            f"{' and '.join(beyond)}, colours stay as they are there."
         )
 
 
-def _have_both_signs(pictures: list[np.ndarray], low: float, high: float, top: float) -> bool:
-    """In earnest, a twentieth of the largest away from zero: nearly all of the values, which lie from `low` to `high`; or a few of
-    them, as of a wave in a wide field, where the others are at rest at zero."""
-    near = max(-low, high)
-    if near > 1e-3 * top and low < -0.05 * near and high > 0.05 * near:
+class Extent(typing.NamedTuple):
+    """What a scale has to know of a picture: its smallest and its largest value, those between which nearly all lie, the middle one,
+    and how far nearly all are from the centre."""
+
+    least: float
+    most: float
+    low: float
+    high: float
+    rest: float
+    near: float
+
+
+def extent_of(values: np.ndarray, look: Look = Look()) -> Extent:
+    values = values[np.isfinite(values)]
+    if not values.size:
+        values = np.zeros(1)
+    low, rest, high = (float(x) for x in np.quantile(values, (1 - _COVERED, 0.5, _COVERED)))
+    near = float(np.quantile(np.abs(values - (look.centre or 0.0)), _COVERED))
+    return Extent(float(values.min()), float(values.max()), low, high, rest, near)
+
+
+def _have_both_signs(whole: Extent) -> bool:
+    """In earnest, a twentieth of the largest away from zero: nearly all of the values; or a few of them, as of a wave in a wide field,
+    where the others are at rest at zero."""
+    top, near = max(-whole.least, whole.most), max(-whole.low, whole.high)
+    if near > 1e-3 * top and whole.low < -0.05 * near and whole.high > 0.05 * near:
         return True
-    least, most = min(values.min() for values in pictures), max(values.max() for values in pictures)
-    rest = max(abs(float(np.median(values))) for values in pictures)
-    return bool(rest <= 0.1 * top and least < -0.05 * top and most > 0.05 * top)
+    return abs(whole.rest) <= 0.1 * top and whole.least < -0.05 * top and whole.most > 0.05 * top
 
 
-def scale_of(pictures: typing.Sequence[np.ndarray], look: Look = Look()) -> Scale:
+def common_scale(extents: typing.Sequence[Extent], look: Look = Look()) -> Scale:
     """One scale for several pictures.
 
     Where values lie on both sides of zero in earnest it is as long on both, and else it goes from the lowest to the highest. Where
     that leaves nearly all of every picture in the inner half of the colours, it ends where it covers 98 per cent of each.
     """
-    finite = [values[np.isfinite(values)] for values in pictures]
-    finite = [values for values in finite if values.size] or [np.zeros(1)]
-    least, most = (float(f([f(values) for values in finite])) for f in (min, max))
-    low, high = (
-        pick([float(np.quantile(values, q)) for values in finite]) for pick, q in ((min, 1 - _COVERED), (max, _COVERED))
+    least, low = (min(getattr(one, name) for one in extents) for name in ("least", "low"))
+    most, high, near = (max(getattr(one, name) for one in extents) for name in ("most", "high", "near"))
+    rest = max((one.rest for one in extents), key=abs)
+    is_asked_for = look.range is not None or look.centre is not None
+    is_diverging = (
+        look.centre is not None or least == most == 0 or _have_both_signs(Extent(least, most, low, high, rest, near))
     )
-    top = max(-least, most)
-    is_diverging = look.centre is not None or _have_both_signs(finite, low, high, top) or least == most == 0
-    if look.range is not None:
-        return Scale(*look.range, is_diverging, look.palette, least, most)
+
+    def scale(begin: float, end: float, is_diverging: bool = is_diverging) -> Scale:
+        return Scale(begin, end, is_diverging, look.palette, least, most, is_asked_for)
+
+    if look.range is not None:  # zero stays the middle of colours from both sides of it
+        return scale(*look.range, is_diverging and look.range[0] == -look.range[1])
     if is_diverging:
         centre = look.centre or 0.0
         far = max(most - centre, centre - least)
-        near = max(float(np.quantile(np.abs(values - centre), _COVERED)) for values in finite)
         far = (near if 0 < near <= 0.5 * far else far) or 1.0
-        return Scale(centre - far, centre + far, True, look.palette, least, most)
+        return scale(centre - far, centre + far)
     if least == most:
-        return Scale(min(0.0, 2 * most), max(0.0, 2 * most), False, look.palette, least, most)
-    if high - low > 0 and high - low <= 0.5 * (most - least):
-        return Scale(low, high, False, look.palette, least, most)
-    return Scale(least, most, False, look.palette, least, most)
+        return scale(min(0.0, 2 * most), max(0.0, 2 * most))
+    return scale(low, high) if 0 < high - low <= 0.5 * (most - least) else scale(least, most)
+
+
+def scale_of(pictures: typing.Sequence[np.ndarray], look: Look = Look()) -> Scale:
+    """common_scale of their extents."""
+    return common_scale([extent_of(values, look) for values in pictures], look)
 
 
 def scales_of(pictures: typing.Sequence[np.ndarray], look: Look = Look()) -> list[Scale]:

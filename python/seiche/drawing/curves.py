@@ -30,19 +30,10 @@ def thinned(curve: Curve, points: int = 1500) -> Curve:
     stretch = -(-2 * len(x) // points)
     whole = len(x) // stretch * stretch
     parts = np.where(np.isfinite(y[:whole]), y[:whole], np.nan).reshape(-1, stretch)
-    parts = parts[np.isfinite(parts).any(axis=1)] if not np.isfinite(parts).any(axis=1).all() else parts
-    first = np.arange(len(parts)) * stretch
-    kept = np.unique(
-        np.concatenate(
-            [
-                [0],
-                first + np.nanargmin(parts, axis=1),
-                first + np.nanargmax(parts, axis=1),
-                np.arange(whole, len(x)),
-                [len(x) - 1],
-            ]
-        )
-    )
+    rows = np.flatnonzero(np.isfinite(parts).any(axis=1))
+    first, parts = rows * stretch, parts[rows]
+    ends = [[0], np.arange(whole, len(x)), [len(x) - 1]]
+    kept = np.unique(np.concatenate([first + np.nanargmin(parts, axis=1), first + np.nanargmax(parts, axis=1), *ends]))
     return x[kept], y[kept]
 
 
@@ -62,8 +53,13 @@ def legend(ax: "Axes", is_below: bool = False) -> None:
     labels = ax.get_legend_handles_labels()[1]
     longest = max(map(len, labels), default=0)
     if is_below or len(labels) > 4 or (longest > 24 and len(labels) > 1):
-        columns = 1 if longest > 34 else 2 if longest > 16 else 3 if longest > 12 or len(labels) > 4 else 4
-        ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.5 if is_below else -0.2), ncol=columns, columnspacing=1.2)
+        columns = 1 if longest > 26 else 2 if longest > 16 else 3 if longest > 12 or len(labels) > 4 else 4
+        below = {
+            "loc": "upper center",
+            "bbox_to_anchor": (0.5, 0),
+            "borderaxespad": 4.5,
+        }  # in letters, behind the axis' own
+        ax.legend(ncol=columns, columnspacing=1.2, **below)
     elif len(labels) > 1:
         ax.legend(loc="best")
 
@@ -301,11 +297,8 @@ def magnification(largest: float, size: float) -> float:
 
 def bars(
     ax: "Axes", places: np.ndarray, supports: np.ndarray, ends: np.ndarray, t: np.ndarray, moved: np.ndarray
-) -> float:
-    """The bars of a truss at rest and at two times: places of all nodes, supports last, and displacements of those that move.
-
-    Returns what displacements are multiplied by.
-    """
+) -> None:
+    """The bars of a truss at rest and at two times: places of all nodes, supports last, and displacements of those that move, magnified."""
     everything = np.concatenate([places, supports])
     factor = magnification(float(np.abs(moved).max(initial=0)), float(np.ptp(everything, axis=0).max()))
 
@@ -323,4 +316,3 @@ def bars(
     ax.margins(0.05)
     ax.grid(False)
     legend(ax, is_below=True)
-    return factor

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pathlib
 import shutil
 import subprocess
+import tempfile
 import typing
 
 import numpy as np
@@ -24,52 +25,59 @@ def frames(solution: runs.Solution) -> np.ndarray:
 
 
 def common_scale(solution: runs.Solution, field: str, look: colours.Look) -> colours.Scale:
-    """From some of the frames, the first and the last among them: of large planes all would take long to read."""
-    chosen = frames(solution)
-    most = max(2, int(4e7 / solution.points))
-    return colours.scale_of(list(solution.values(field, chosen[curves.spread(len(chosen), most)])), look)
+    """Of all frames."""
+    return colours.common_scale([colours.extent_of(solution.plane(field, k)[2], look) for k in frames(solution)], look)
 
 
-def _ffmpeg(file: pathlib.Path, size: tuple[int, int], codec: str) -> subprocess.Popen[bytes]:
-    raw = f"-f rawvideo -pixel_format rgba -video_size {size[0]}x{size[1]} -framerate {_FRAMES_PER_SECOND} -i -"
-    words = f"ffmpeg -nostdin -y -loglevel error {raw} -pix_fmt yuv420p -vf {_COLOURS} {codec}".split()
-    return subprocess.Popen([*words, str(file)], stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+class _Ffmpeg:
+    """Takes frames one by one. What went wrong is in `failure`, or ""."""
+
+    def __init__(self, file: pathlib.Path, size: tuple[int, int], codec: str):
+        self.file, self._said = file, tempfile.TemporaryFile()
+        raw = f"-f rawvideo -pixel_format rgba -video_size {size[0]}x{size[1]} -framerate {_FRAMES_PER_SECOND} -i -"
+        words = f"ffmpeg -nostdin -y -loglevel error {raw} -pix_fmt yuv420p -vf {_COLOURS} {codec}".split()
+        self._program = subprocess.Popen([*words, str(file)], stdin=subprocess.PIPE, stderr=self._said)
+
+    def add(self, frame: np.ndarray) -> None:
+        try:
+            self._program.stdin.write(frame.tobytes())
+        except BrokenPipeError:  # it has ended, and close() says why
+            pass
+
+    def close(self) -> str:
+        try:
+            self._program.stdin.close()
+        except BrokenPipeError:
+            pass
+        code = self._program.wait()
+        if code == 0:
+            return ""
+        self.file.unlink(missing_ok=True)
+        self._said.seek(0)
+        return self._said.read().decode(errors="replace").strip()[-300:] or f"exit code {code}"
 
 
-def _by_ffmpeg(stem: pathlib.Path, pictures: list[np.ndarray]) -> tuple[str, str]:
-    """The name of the file, or "" and why."""
-    said = ""
-    height, width = pictures[0].shape[:2]
-    for extension, codec in _CODECS:
-        file = stem.with_suffix("." + extension)
-        program = _ffmpeg(file, (width, height), codec)
-        _, words = program.communicate(b"".join(picture.tobytes() for picture in pictures))
-        if program.returncode == 0:
-            return file.name, ""
-        said = (
-            words.decode(errors="replace").strip()[-300:] or f"exit code {program.returncode}"
-        )  # built without this codec, most likely
-        file.unlink(missing_ok=True)
-    return "", said
+class _Animation:
+    """The same as a picture that moves: WebP, or PNG where Pillow has none. Pillow wants all frames at once, small as they are."""
 
+    def __init__(self, stem: pathlib.Path):
+        from PIL import features
 
-def _animated(stem: pathlib.Path, pictures: list[np.ndarray]) -> str:
-    from PIL import Image, features
+        self._webp = features.check("webp_anim")
+        self.file = stem.with_suffix(".webp" if self._webp else ".apng")
+        self._frames: list[typing.Any] = []
 
-    images = [Image.fromarray(picture[..., :3]) for picture in pictures]
-    settings: dict[str, typing.Any] = {
-        "save_all": True,
-        "append_images": images[1:],
-        "duration": 1000 // _FRAMES_PER_SECOND,
-        "loop": 0,
-    }
-    if features.check("webp_anim"):
-        file = stem.with_suffix(".webp")
-        images[0].save(file, quality=85, method=2, **settings)
-    else:
-        file = stem.with_suffix(".png")
-        images[0].save(file, **settings)
-    return file.name
+    def add(self, frame: np.ndarray) -> None:
+        from PIL import Image
+
+        image = Image.fromarray(frame[..., :3])
+        self._frames.append(image.resize((image.width // 2, image.height // 2)))
+
+    def close(self) -> str:
+        kind = {"format": "WEBP", "quality": 85, "method": 2} if self._webp else {"format": "PNG"}
+        times = {"duration": 1000 // _FRAMES_PER_SECOND, "loop": 0}
+        self._frames[0].save(self.file, save_all=True, append_images=self._frames[1:], **times, **kind)
+        return ""
 
 
 def draw(
@@ -82,13 +90,43 @@ def draw(
     into: pathlib.Path,
     progress: typing.Callable[[float], None],
 ) -> dict[str, typing.Any]:
-    """One film on one ground: {"file": its name, "frames": how many, "note": what is said of it}."""
+    """One film on one ground: {"file": its name, "frames": how many, "note": why it is no film but a picture that moves, or ""}."""
+    stem = into / f"film_{field}{ground.suffix}"
+    said = "was not found on the PATH (Debian package ffmpeg)"
+    kinds: list[typing.Callable[[tuple[int, int]], typing.Any]] = []
+    if shutil.which("ffmpeg"):
+        kinds = [
+            lambda size, e=extension, c=codec: _Ffmpeg(stem.with_suffix("." + e), size, c)
+            for extension, codec in _CODECS
+        ]
+    note = ""
+    for kind in kinds:
+        file, failure = _drawn(solution, field, ground, scale, title, warning, kind, progress)
+        if not failure:
+            break
+        said = f"failed: {failure}"  # built without this codec, most likely
+    else:
+        file, _ = _drawn(solution, field, ground, scale, title, warning, lambda size: _Animation(stem), progress)
+        note = f"an animated picture, since ffmpeg {said}"
+    return {"file": file.name, "frames": len(frames(solution)), "note": note}
+
+
+def _drawn(
+    solution: runs.Solution,
+    field: str,
+    ground: style.Ground,
+    scale: colours.Scale,
+    title: str,
+    warning: str,
+    kind: typing.Callable[[tuple[int, int]], typing.Any],
+    progress: typing.Callable[[float], None],
+) -> tuple[pathlib.Path, str]:
+    """The file, and why it is not there, or ""."""
     import matplotlib.pyplot as plt
 
     chosen = frames(solution)
-    x, y, first = runs.plane(solution, solution.values(field, chosen[:1])[0], 0, 1)
+    x, y, first = solution.plane(field, chosen[0])
     shape = min(1.6, max(0.3, float(np.ptp(y) / (np.ptp(x) or 1.0))))
-    pictures = []
     with style.on(ground, {"savefig.dpi": _DPI, "figure.dpi": _DPI}):
         height = round(_WIDTH * (0.78 * shape + 0.2) * _DPI / 2) * 2 / _DPI
         figure, ax = plt.subplots(figsize=(_WIDTH, height))
@@ -99,17 +137,12 @@ def draw(
         caption = ax.set_title(f"$t$ = {solution.t[-1]:.4g}")
         figure.canvas.draw()
         figure.set_layout_engine("none")  # once is enough, and nothing jumps
+        film = kind(figure.canvas.get_width_height())
         for done, k in enumerate(chosen):
-            mesh.set_array(runs.plane(solution, solution.values(field, np.array([k]))[0], 0, 1)[2].T)
+            mesh.set_array(solution.plane(field, k)[2].T)
             caption.set_text(f"$t$ = {solution.t[k]:.4g}")
             figure.canvas.draw()
-            pictures.append(np.array(figure.canvas.buffer_rgba()))
+            film.add(np.asarray(figure.canvas.buffer_rgba()))
             progress((done + 1) / len(chosen))
         plt.close(figure)
-    stem = into / f"film_{field}{ground.suffix}"
-    file, note = _by_ffmpeg(stem, pictures) if shutil.which("ffmpeg") else ("", "")
-    if not file:
-        file = _animated(stem, pictures)
-        why = f"failed: {note}" if note else "was not found on the PATH (Debian package ffmpeg)"
-        note = f"an animated picture, since ffmpeg {why}"
-    return {"file": file, "frames": len(chosen), "note": note}
+    return film.file, film.close()

@@ -28,13 +28,21 @@ def image(
     if given.get("norm") is not None:
         limits = {"cmap": limits["cmap"]}
     ax.grid(False)
-    return ax.pcolormesh(x, y, values.T, **({"shading": "nearest", "rasterized": True} | limits | dict(given)))
+    cells = (x, y) if "shading" in given else (_edges(x), _edges(y))
+    return ax.pcolormesh(*cells, values.T, **({"shading": "flat", "rasterized": True} | limits | dict(given)))
 
 
-def no_more_than_seen(x: np.ndarray, values: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray]:
-    """Every n-th point along an axis, where there are more than are seen."""
-    every = -(-len(x) // MOST_CELLS)
-    return x[::every], np.take(values, np.arange(0, len(x), every), axis)
+def every_seen(points: int) -> int:
+    """Every so many of them are shown, where there are more than are seen."""
+    return -(-points // MOST_CELLS)
+
+
+def _edges(x: np.ndarray) -> np.ndarray:
+    """Of the cells around points."""
+    if len(x) == 1:
+        return np.array([x[0] - 0.5, x[0] + 0.5])
+    middles = (x[1:] + x[:-1]) / 2
+    return np.concatenate([[2 * x[0] - middles[0]], middles, [2 * x[-1] - middles[-1]]])
 
 
 def space_time(
@@ -69,7 +77,8 @@ def planes(
     for ax in axes:
         ax.set_aspect("equal")
     if all(scale == scales[0] for scale in scales):
-        rows = axes[0].get_subplotspec().get_gridspec().nrows if axes[0].get_subplotspec() is not None else 1
+        place = getattr(axes[0], "get_subplotspec", lambda: None)()  # of axes side by side
+        rows = place.get_gridspec().nrows if place is not None else 1
         colours.add_bar(meshes[-1], list(axes), scales[0], label, rows)
     else:
         for mesh, ax, scale in zip(meshes, axes, scales):

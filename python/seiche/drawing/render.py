@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import concurrent.futures
+import ctypes
 import difflib
 import multiprocessing
 import os
 import pathlib
+import signal
 import time
 import typing
 
@@ -19,35 +22,41 @@ class _Progress:
     """A line on the terminal that says how far all processes have come; nothing where nobody looks on."""
 
     def __init__(self, tasks: float, is_shown: bool):
-        self._tasks, self._done = tasks, multiprocessing.Value("d", 0.0)
-        self._last = multiprocessing.Value("d", 0.0)
-        self._begin = time.monotonic()
+        self._tasks, self._begin = tasks, time.monotonic()
         self._terminal: typing.Any = None
         if is_shown:
             try:
+                self._done, self._last = multiprocessing.Value("d", 0.0), multiprocessing.Value("d", 0.0)
                 self._terminal = open("/dev/tty", "w", encoding="utf-8")
             except OSError:
                 pass
 
     def add(self, tasks: float) -> None:
+        if self._terminal is None:
+            return
         with self._done.get_lock():
             self._done.value += tasks
             share, now = self._done.value / self._tasks, time.monotonic()
-            if self._terminal is None or now - self._begin < 0.5 or now - self._last.value < 0.1:
+            if now - self._begin < 0.5 or now - self._last.value < 0.1:
                 return
             self._last.value = now
             left = (now - self._begin) * (1 - share) / max(share, 1e-9)
             bar = "━" * round(20 * share)
-            print(
-                f"\r\x1b[2K{100 * share:3.0f} % {bar:<20} drawing, {left:.0f} s left",
-                end="",
-                file=self._terminal,
-                flush=True,
-            )
+            line = f"\r\x1b[2K{100 * share:3.0f} % {bar:<20} drawing, {left:.0f} s left"
+            print(line, end="", file=self._terminal, flush=True)
 
     def end(self) -> None:
         if self._terminal is not None:
             print("\r\x1b[2K", end="", file=self._terminal, flush=True)
+
+
+def _end_with_parent() -> None:
+    """Where the program that asked ends, so does this one, and with it the processes that it started."""
+    set_signal = 1  # PR_SET_PDEATHSIG
+    try:
+        ctypes.CDLL(None).prctl(set_signal, signal.SIGTERM)
+    except (OSError, AttributeError):
+        pass  # another system than Linux
 
 
 class BadRequest(Exception):
@@ -119,7 +128,7 @@ class _Draw:
         self.grounds = request.get("grounds", list(style.GROUNDS))
         self.formats, self.is_journal = request["formats"], bool(request.get("journal"))
         width = request.get("width", _WIDTH)
-        self.settings = {"figure.figsize": (width, width), "font.size": 8 if self.is_journal else 7}
+        self.settings = {"figure.figsize": (width, width)}
         # Films first, since they take longest.
         self.tasks = [("film", k, ground) for k in range(len(self.studio.films)) for ground in self.grounds]
         self.tasks += [("picture", k, "") for k in range(len(self.studio.pictures))]
@@ -207,11 +216,24 @@ def draw(request: dict[str, typing.Any]) -> dict[str, typing.Any]:
     matplotlib.use("Agg")
     global _draw
     _draw = _Draw(request)
-    processes = min(len(os.sched_getaffinity(0)), len(_draw.tasks), 8)
-    if processes > 1:
-        with multiprocessing.get_context("fork").Pool(processes) as pool:
-            results = dict(pool.imap_unordered(_do, _draw.tasks))
-    else:
-        results = dict(map(_do, _draw.tasks))
-    _draw.progress.end()
+    _end_with_parent()
+    try:
+        results = dict(_all_done(_draw.tasks))
+    finally:
+        _draw.progress.end()
     return _draw.reply(results)
+
+
+def _all_done(tasks: list[Task]) -> typing.Iterator[tuple[Task, typing.Any]]:
+    processes = min(len(os.sched_getaffinity(0)), len(tasks), 8)
+    if processes > 1:
+        context = multiprocessing.get_context("fork")
+        try:
+            pool = concurrent.futures.ProcessPoolExecutor(processes, context, _end_with_parent)
+        except OSError:  # no memory that processes share
+            pool = None
+        if pool is not None:
+            with pool:
+                yield from pool.map(_do, tasks)
+            return
+    yield from map(_do, tasks)

@@ -58,12 +58,28 @@ class Solution:
     def label(self, field: str) -> str:
         return names.label(self.meaning(field), field)
 
-    def values(self, field: str, times: np.ndarray) -> np.ndarray:
-        """One state for each of these times, which rise."""
-        data = self._file[field]
-        if len(times) > 1 and len(times) * 4 > times[-1] - times[0]:
-            return data[times[0] : times[-1] + 1][times - times[0]]
-        return np.stack([data[k] for k in times])
+    def values(self, field: str, times: np.ndarray, every: int = 1) -> np.ndarray:
+        """One state for each of these times, which rise, with every n-th point along a line; a few states are read at a time."""
+        data, most = self._file[field], max(1, 1_000_000 // self.points)
+        states, begin = [], 0
+        while begin < len(times):
+            end = int(np.searchsorted(times, times[begin] + most))
+            slab = data[times[begin] : times[end - 1] + 1]
+            states.append(
+                slab[times[begin:end] - times[begin]][..., ::every].copy()
+                if every > 1
+                else slab[times[begin:end] - times[begin]]
+            )
+            begin = end
+        return np.concatenate(states)
+
+    def plane(self, field: str, k: int, a: int = 0, b: int = 1) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The plane of axes a < b through the middle of the others: x, y and values, no more of them than are seen."""
+        every = [maps.every_seen(len(axis)) for _, axis in self.axes]
+        cut = tuple(
+            slice(None, None, every[n]) if n in (a, b) else len(axis) // 2 for n, (_, axis) in enumerate(self.axes)
+        )
+        return self.axes[a][1][:: every[a]], self.axes[b][1][:: every[b]], self._file[field][(k, *cut)]
 
     def field(self, name: str, times: np.ndarray) -> curves.Field:
         return curves.Field(name, self.meaning(name), self.values(name, times).reshape(len(times), -1))
@@ -135,7 +151,8 @@ def _space_time(solution: Solution, name: str, look: colours.Look) -> Picture:
     right = np.clip(np.searchsorted(solution.t, wanted), 1, len(solution.t) - 1)
     chosen = np.unique(np.where(wanted - solution.t[right - 1] < solution.t[right] - wanted, right - 1, right))
     place, x = solution.axes[0]
-    x, values = maps.no_more_than_seen(x, solution.values(name, chosen), 1)
+    every = maps.every_seen(len(x))
+    x, values = x[::every], solution.values(name, chosen, every)
     scale = colours.scale_of([values], look)
     caption = f"{names.in_text(name)} over {place} and t, from {len(solution.t)} states.{scale.remark()}"
 
@@ -145,22 +162,11 @@ def _space_time(solution: Solution, name: str, look: colours.Look) -> Picture:
     return _curves(f"space_time_{name}", f"{names.in_text(name)} in space and time", caption, draw)
 
 
-def plane(solution: Solution, values: np.ndarray, a: int, b: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The plane of axes a < b through the middle of the others: x, y and values, no more of them than are seen."""
-    cut = tuple(
-        slice(None) if axis in (a, b) else len(solution.axes[axis][1]) // 2 for axis in range(len(solution.axes))
-    )
-    x, picture = maps.no_more_than_seen(solution.axes[a][1], values[cut], 0)
-    y, picture = maps.no_more_than_seen(solution.axes[b][1], picture, 1)
-    return x, y, picture
-
-
 def _planes(solution: Solution, name: str, look: colours.Look, is_box: bool) -> Picture:
     """Of a plane four times; of a box its middle planes at the first and the last time."""
     chosen = np.unique([0, len(solution.t) - 1]) if is_box else curves.spread(len(solution.t), 4)
     pairs = ((0, 1), (0, 2), (1, 2)) if is_box else ((0, 1),)
-    states = solution.values(name, chosen)
-    panels = [(plane(solution, state, a, b), a, b, solution.t[k]) for a, b in pairs for k, state in zip(chosen, states)]
+    panels = [(solution.plane(name, k, a, b), a, b, solution.t[k]) for a, b in pairs for k in chosen]
     scales = colours.scales_of([picture for (_, _, picture), *_ in panels], look)
     columns = min(2, len(panels))
     rows = -(-len(panels) // columns)
@@ -210,7 +216,7 @@ def _planes(solution: Solution, name: str, look: colours.Look, is_box: bool) -> 
 def _profiles(solution: Solution, name: str) -> Picture:
     chosen = curves.spread(len(solution.t), 5)
     field = solution.field(name, chosen)
-    caption = f"{names.in_text(name)} at {len(chosen)} times, from the first (violet) to the last (green)."
+    caption = f"{names.in_text(name)} at {len(chosen)} times; the first and the last are drawn thicker."
     return _curves(
         f"profiles_{name}",
         f"{names.in_text(name)} at some times",

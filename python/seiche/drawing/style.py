@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import pathlib
+import textwrap
 import typing
 
 from . import names
@@ -105,21 +106,23 @@ def set_offsets(figure: "Figure") -> None:
 
 def title(figure: "Figure", text: str, warning: str) -> None:
     """Above a figure, at its left end, with a line in red below it for what a run falls short of."""
+    points = figure.get_figwidth() * 72
+    letters = int(points / (0.58 * _title_size()))  # of a line
+    lines = textwrap.wrap(text, letters) or [""]
     plain = {"ha": "left", "parse_math": False}
-    figure.suptitle(text + ("\n" if warning else ""), x=0.012, wrap=True, **plain)
+    figure.suptitle("\n".join(lines) + ("\n" if warning else ""), x=0.012, **plain)
     if warning:
-        # On the empty line; the engine that lays out figures makes room for titles alone.
-        size = figure._suptitle.get_fontsize() / 72 / figure.get_figheight()
-        figure.text(
-            0.012,
-            0.985 - 1.2 * size,
-            warning,
-            parse_math=False,
-            color=_WARNING,
-            ha="left",
-            va="top",
-            fontsize=figure._suptitle.get_fontsize(),
-        )
+        # On the line that is left empty: whoever lays out a figure makes room for its title alone.
+        height = 1.2 * _title_size() / 72 / figure.get_figheight()
+        at = 0.985 - len(lines) * height
+        figure.text(0.012, at, warning, color=_WARNING, va="top", fontsize=_title_size(), **plain)
+
+
+def _title_size() -> float:
+    import matplotlib
+    from matplotlib.font_manager import FontProperties
+
+    return float(FontProperties(size=matplotlib.rcParams["figure.titlesize"]).get_size_in_points())
 
 
 def is_dark(ax: "Axes") -> bool:
