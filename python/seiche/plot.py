@@ -139,7 +139,7 @@ def slices(
     if count < 1:
         raise ValueError(f"count = {count} must be ≥ 1")
     values = result.field(name)
-    times = _np.unique(_np.linspace(0, len(result.t) - 1, count).astype(int))
+    times = _curves.spread(len(result.t), count)
     if axes is None:
         import matplotlib.pyplot as plt
 

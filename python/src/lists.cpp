@@ -6,7 +6,6 @@
 #include <seiche/method/methods.hpp>
 #include <seiche/study/lists.hpp>
 
-#include <array>
 #include <map>
 #include <string>
 #include <tuple>
@@ -16,9 +15,6 @@ namespace {
 
 py::object parsed(const std::string& json) { return py::module_::import("json").attr("loads")(json); }
 
-constexpr std::array markers = {"none", "circle", "square", "triangle", "star", "pentagon", "diamond", "triangle_down"};
-constexpr std::array dashes = {"solid", "dashed", "dash_dotted", "dotted", "long_dashed"};
-
 using Style = std::tuple<std::string, std::string, bool, std::string>;  // colour, marker, filled, dash
 
 std::map<std::string, Style> method_styles() {
@@ -26,8 +22,7 @@ std::map<std::string, Style> method_styles() {
   for (const std::string& name : method_names()) {
     if (!find_method_style(name)) continue;  // "auto" draws as the method that it chose
     const LineStyle line = method_line(name);
-    styles[name] = {line.colour, markers.at(static_cast<std::size_t>(line.marker)), line.filled,
-                    dashes.at(static_cast<std::size_t>(line.dash))};
+    styles[name] = {line.colour, std::string(name_of(line.marker)), line.filled, std::string(name_of(line.dash))};
   }
   return styles;
 }

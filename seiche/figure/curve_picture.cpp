@@ -10,31 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* name_of(Marker marker) {
-  switch (marker) {
-    case Marker::none: return "none";
-    case Marker::circle: return "circle";
-    case Marker::square: return "square";
-    case Marker::triangle: return "triangle";
-    case Marker::star: return "star";
-    case Marker::pentagon: return "pentagon";
-    case Marker::diamond: return "diamond";
-    case Marker::triangle_down: return "triangle_down";
-  }
-  return "none";
-}
-
-const char* name_of(Dash dash) {
-  switch (dash) {
-    case Dash::solid: return "solid";
-    case Dash::dashed: return "dashed";
-    case Dash::dash_dotted: return "dash_dotted";
-    case Dash::dotted: return "dotted";
-    case Dash::long_dashed: return "long_dashed";
-  }
-  return "solid";
-}
-
 Json json_of(const PictureAxis& axis) {
   return {{"label", axis.label},
           {"log", axis.logarithmic},

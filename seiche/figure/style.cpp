@@ -56,6 +56,17 @@ LineStyle neutral_line(int index) {
 
 }  // namespace
 
+std::string_view name_of(Marker marker) {
+  constexpr std::array<std::string_view, 8> names = {"none", "circle",   "square",  "triangle",
+                                                     "star", "pentagon", "diamond", "triangle_down"};
+  return names.at(static_cast<std::size_t>(marker));
+}
+
+std::string_view name_of(Dash dash) {
+  constexpr std::array<std::string_view, 5> names = {"solid", "dashed", "dash_dotted", "dotted", "long_dashed"};
+  return names.at(static_cast<std::size_t>(dash));
+}
+
 const MethodStyle* find_method_style(std::string_view name) {
   const auto& styles = table();
   const auto found = std::find_if(styles.begin(), styles.end(), [&](const MethodStyle& s) { return s.name == name; });

@@ -12,6 +12,9 @@ namespace seiche {
 enum class Marker { none, circle, square, triangle, star, pentagon, diamond, triangle_down };
 enum class Dash { solid, dashed, dash_dotted, dotted, long_dashed };
 
+std::string_view name_of(Marker marker);  // "triangle_down", as what draws knows them
+std::string_view name_of(Dash dash);      // "dash_dotted"
+
 struct LineStyle {
   std::string colour = "#000000";
   Marker marker = Marker::none;

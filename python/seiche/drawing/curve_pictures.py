@@ -15,18 +15,15 @@ from . import curves, names, runs, style
 
 if typing.TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 Description = dict[str, typing.Any]
 
 
 def picture_of(description: Description) -> runs.Picture:
-    def on_axes(figure: "Figure") -> str:
-        return draw(figure.subplots(), description)
-
     rows = sum(bool(series["label"]) for series in description["series"])
     height = 0.68 + 0.03 * max(0, rows - 4)  # of the legend below
-    return runs.Picture(description["stem"], description["title"], description["caption"], on_axes, height)
+    of = (description[key] for key in ("stem", "title", "caption"))
+    return runs.on_axes(*of, lambda ax: draw(ax, description), height)
 
 
 def _shown(picture: Description, series: Description) -> tuple[np.ndarray, np.ndarray]:

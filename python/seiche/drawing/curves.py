@@ -48,17 +48,19 @@ def add(ax: "Axes", curve: Curve, given: Style = {}, **defaults: typing.Any) -> 
     return line
 
 
+def _dash(place: int) -> typing.Any:
+    """Of one curve after the other."""
+    return style.DASHES[("solid", "dashed", "dash_dotted", "dotted")[place % 4]]
+
+
 def legend(ax: "Axes", is_below: bool = False) -> None:
     """Of axes with more than one thing to name; inside, where it hides least, or below if it is large."""
     labels = ax.get_legend_handles_labels()[1]
     longest = max(map(len, labels), default=0)
     if is_below or len(labels) > 4 or (longest > 24 and len(labels) > 1):
         columns = 1 if longest > 26 else 2 if longest > 16 else 3 if longest > 12 or len(labels) > 4 else 4
-        below = {
-            "loc": "upper center",
-            "bbox_to_anchor": (0.5, 0),
-            "borderaxespad": 4.5,
-        }  # in letters, behind the axis' own
+        # So many letters below the axes, behind their own numbers and label.
+        below = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 4.5}
         ax.legend(ncol=columns, columnspacing=1.2, **below)
     elif len(labels) > 1:
         ax.legend(loc="best")
@@ -181,9 +183,8 @@ def ledger(ax: "Axes", H: Curve, causes: typing.Mapping[str, Curve]) -> str:
     change = H[0], H[1] - H[1][0]
     largest = max(float(np.ptp(y)) for _, y in (change, *causes.values()))
     shown = {name: curve for name, curve in causes.items() if np.ptp(curve[1]) > 1e-3 * largest}
-    dashes = ("solid", "dashed", "dash_dotted", "dotted")
     for place, (name, curve) in enumerate(shown.items()):
-        add(ax, curve, label=name, linestyle=style.DASHES[dashes[place % 4]], linewidth=1.2)
+        add(ax, curve, label=name, linestyle=_dash(place), linewidth=1.2)
     ax.plot(*change, color=style.on_ground(ax, "#000000"), linewidth=0.6, label="$H - H(0)$", zorder=3)
     ax.set(xlabel="time $t$", ylabel="change of $H$ since $t$ = 0")
     said = nest(
@@ -205,7 +206,6 @@ class Field(typing.NamedTuple):
 
 def over_time(ax: "Axes", t: np.ndarray, fields: typing.Sequence[Field]) -> None:
     """Every field at every point over time."""
-    dashes = ("solid", "dashed", "dash_dotted", "dotted")
     for k, field in enumerate(fields):
         points = field.values.shape[1]
         for p in range(points):
@@ -215,7 +215,7 @@ def over_time(ax: "Axes", t: np.ndarray, fields: typing.Sequence[Field]) -> None
             ax.plot(
                 *thinned((t, field.values[:, p])),
                 color=colour,
-                linestyle=style.DASHES[dashes[k % 4]],
+                linestyle=_dash(k),
                 linewidth=0.9,
                 label=label,
             )
@@ -298,9 +298,8 @@ def magnification(largest: float, size: float) -> float:
 def bars(
     ax: "Axes", places: np.ndarray, supports: np.ndarray, ends: np.ndarray, t: np.ndarray, moved: np.ndarray
 ) -> None:
-    """The bars of a truss at rest and at two times: places of all nodes, supports last, and displacements of those that move, magnified."""
+    """The bars of a truss at rest and at two times: places of points and of supports, and how far to move the points."""
     everything = np.concatenate([places, supports])
-    factor = magnification(float(np.abs(moved).max(initial=0)), float(np.ptp(everything, axis=0).max()))
 
     def draw(nodes: np.ndarray, **line: typing.Any) -> None:
         broken = np.insert(nodes[ends], 2, np.nan, axis=1).reshape(-1, 2)
@@ -309,7 +308,7 @@ def bars(
     draw(everything, color="#8C8C8C", linewidth=0.6, label="at rest")
     for k, colour in enumerate(style.CURVES[: len(t)]):
         nodes = everything.copy()
-        nodes[: len(places)] += factor * moved[k]
+        nodes[: len(places)] += moved[k]
         draw(nodes, color=style.on_ground(ax, colour), linewidth=0.8 + 0.3 * k, label=f"$t$ = {t[k]:.4g}")
     ax.plot(*supports.T, "^", color=style.on_ground(ax, "#000000"), label="support")
     ax.set(xlabel="$x$", ylabel="$y$", aspect="equal")

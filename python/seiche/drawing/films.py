@@ -30,7 +30,7 @@ def common_scale(solution: runs.Solution, field: str, look: colours.Look) -> col
 
 
 class _Ffmpeg:
-    """Takes frames one by one. What went wrong is in `failure`, or ""."""
+    """Takes frames one by one, and raises BrokenPipeError where ffmpeg has ended; close() says what went wrong, or ""."""
 
     def __init__(self, file: pathlib.Path, size: tuple[int, int], codec: str):
         self.file, self._said = file, tempfile.TemporaryFile()
@@ -39,10 +39,7 @@ class _Ffmpeg:
         self._program = subprocess.Popen([*words, str(file)], stdin=subprocess.PIPE, stderr=self._said)
 
     def add(self, frame: np.ndarray) -> None:
-        try:
-            self._program.stdin.write(frame.tobytes())
-        except BrokenPipeError:  # it has ended, and close() says why
-            pass
+        self._program.stdin.write(frame.tobytes())
 
     def close(self) -> str:
         try:
@@ -80,69 +77,61 @@ class _Animation:
         return ""
 
 
-def draw(
-    solution: runs.Solution,
-    field: str,
-    ground: style.Ground,
-    scale: colours.Scale,
-    title: str,
-    warning: str,
-    into: pathlib.Path,
-    progress: typing.Callable[[float], None],
-) -> dict[str, typing.Any]:
-    """One film on one ground: {"file": its name, "frames": how many, "note": why it is no film but a picture that moves, or ""}."""
-    stem = into / f"film_{field}{ground.suffix}"
+class Scene(typing.NamedTuple):
+    """What all frames of a film have in common."""
+
+    solution: runs.Solution
+    field: str
+    ground: style.Ground
+    scale: colours.Scale
+    title: str
+    warning: str
+
+
+def draw(scene: Scene, progress: typing.Callable[[float], None]) -> dict[str, typing.Any]:
+    """One film, in the working directory: {"file": its name, "frames": how many, "note": why it is no film but a picture that moves,
+    or ""}. `progress` is told each part of it that is done."""
+    stem = pathlib.Path(f"film_{scene.field}{scene.ground.suffix}")
     said = "was not found on the PATH (Debian package ffmpeg)"
-    kinds: list[typing.Callable[[tuple[int, int]], typing.Any]] = []
-    if shutil.which("ffmpeg"):
-        kinds = [
-            lambda size, e=extension, c=codec: _Ffmpeg(stem.with_suffix("." + e), size, c)
-            for extension, codec in _CODECS
-        ]
-    note = ""
-    for kind in kinds:
-        file, failure = _drawn(solution, field, ground, scale, title, warning, kind, progress)
+    count = len(frames(scene.solution))
+    for extension, codec in _CODECS if shutil.which("ffmpeg") else ():
+        file, failure = _drawn(scene, lambda size: _Ffmpeg(stem.with_suffix("." + extension), size, codec), progress)
         if not failure:
-            break
+            return {"file": file.name, "frames": count, "note": ""}
         said = f"failed: {failure}"  # built without this codec, most likely
-    else:
-        file, _ = _drawn(solution, field, ground, scale, title, warning, lambda size: _Animation(stem), progress)
-        note = f"an animated picture, since ffmpeg {said}"
-    return {"file": file.name, "frames": len(frames(solution)), "note": note}
+    file, _ = _drawn(scene, lambda _: _Animation(stem), progress)
+    return {"file": file.name, "frames": count, "note": f"an animated picture, since ffmpeg {said}"}
 
 
 def _drawn(
-    solution: runs.Solution,
-    field: str,
-    ground: style.Ground,
-    scale: colours.Scale,
-    title: str,
-    warning: str,
-    kind: typing.Callable[[tuple[int, int]], typing.Any],
-    progress: typing.Callable[[float], None],
+    scene: Scene, kind: typing.Callable[[tuple[int, int]], typing.Any], progress: typing.Callable[[float], None]
 ) -> tuple[pathlib.Path, str]:
     """The file, and why it is not there, or ""."""
     import matplotlib.pyplot as plt
 
+    solution, field = scene.solution, scene.field
     chosen = frames(solution)
     x, y, first = solution.plane(field, chosen[0])
     shape = min(1.6, max(0.3, float(np.ptp(y) / (np.ptp(x) or 1.0))))
-    with style.on(ground, {"savefig.dpi": _DPI, "figure.dpi": _DPI}):
+    with style.on(scene.ground, {"savefig.dpi": _DPI, "figure.dpi": _DPI}):
         height = round(_WIDTH * (0.78 * shape + 0.2) * _DPI / 2) * 2 / _DPI
         figure, ax = plt.subplots(figsize=(_WIDTH, height))
-        mesh = maps.image(ax, x, y, first, scale)
-        colours.add_bar(mesh, ax, scale, solution.label(field))
+        mesh = maps.image(ax, x, y, first, scene.scale)
+        colours.add_bar(mesh, ax, scene.scale, solution.label(field))
         ax.set(xlabel=names.place(solution.axes[0][0]), ylabel=names.place(solution.axes[1][0]), aspect="equal")
-        style.title(figure, title, warning)
+        style.title(figure, scene.title, scene.warning)
         caption = ax.set_title(f"$t$ = {solution.t[-1]:.4g}")
         figure.canvas.draw()
         figure.set_layout_engine("none")  # once is enough, and nothing jumps
         film = kind(figure.canvas.get_width_height())
-        for done, k in enumerate(chosen):
-            mesh.set_array(solution.plane(field, k)[2].T)
-            caption.set_text(f"$t$ = {solution.t[k]:.4g}")
-            figure.canvas.draw()
-            film.add(np.asarray(figure.canvas.buffer_rgba()))
-            progress((done + 1) / len(chosen))
+        try:
+            for k in chosen:
+                mesh.set_array(solution.plane(field, k)[2].T)
+                caption.set_text(f"$t$ = {solution.t[k]:.4g}")
+                figure.canvas.draw()
+                film.add(np.asarray(figure.canvas.buffer_rgba()))
+                progress(1 / len(chosen))
+        except BrokenPipeError:  # no further frame is of use
+            pass
         plt.close(figure)
     return film.file, film.close()

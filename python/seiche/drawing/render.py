@@ -7,7 +7,6 @@ import ctypes
 import difflib
 import multiprocessing
 import os
-import pathlib
 import signal
 import time
 import typing
@@ -36,7 +35,7 @@ class _Progress:
             return
         with self._done.get_lock():
             self._done.value += tasks
-            share, now = self._done.value / self._tasks, time.monotonic()
+            share, now = min(1.0, self._done.value / self._tasks), time.monotonic()
             if now - self._begin < 0.5 or now - self._last.value < 0.1:
                 return
             self._last.value = now
@@ -94,8 +93,8 @@ class RunStudio:
 
     def film(self, field: str, ground: style.Ground, progress: typing.Callable[[float], None]) -> dict[str, typing.Any]:
         solution = runs.Solution(self.solution.path)  # of this process
-        scale = self.scales[field]
-        return films.draw(solution, field, ground, scale, self.title, self.warning, pathlib.Path(), progress)
+        scene = films.Scene(solution, field, ground, self.scales[field], self.title, self.warning)
+        return films.draw(scene, progress)
 
     def film_reply(self, field: str, of: dict[str, dict[str, typing.Any]]) -> dict[str, typing.Any]:
         first = next(iter(of.values()))
@@ -139,13 +138,8 @@ class _Draw:
     def do(self, task: Task) -> tuple[Task, typing.Any]:
         kind, place, name = task
         if kind == "film":
-            done = [0.0]
-
-            def report(share: float) -> None:
-                self.progress.add(_FILM * (share - done[0]))
-                done[0] = share
-
-            return task, self.studio.film(self.studio.films[place], style.GROUNDS[name], report)
+            field, ground = self.studio.films[place], style.GROUNDS[name]
+            return task, self.studio.film(field, ground, lambda part: self.progress.add(_FILM * part))
         said, places = "", None
         for ground in self.grounds:
             said, places = self.picture(self.studio.pictures[place], style.GROUNDS[ground], places)

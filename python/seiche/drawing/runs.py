@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import typing
 
 import numpy as np
@@ -10,12 +9,16 @@ import numpy as np
 from . import colours, curves, maps, names
 
 if typing.TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _FEWEST_TIMES = 8  # of a map over time
 _MOST_STATES = 20000  # of a curve over time: more are not seen, and take long to read
 _MOST_BARS = 4000  # more are a blot
 _WIDTH, _HEIGHT = 3.4, 2.4  # inches, as in seiche.mplstyle
+
+
+Mesh = tuple[np.ndarray, np.ndarray, np.ndarray]  # places of points, of supports, both ends of every bar
 
 
 class Picture(typing.NamedTuple):
@@ -39,12 +42,8 @@ class Solution:
         rows = min([self._file[name].shape[0] for name in ("t", *self.fields)])
         self.t = self._file["t"][:rows]
         shape = self._file[self.fields[0]].shape[1:]
-        is_numbered = "point" in self._file
-        self.axes = (
-            [(name, self._file[name][:]) for name in (["point"] if is_numbered else ["x", "y", "z"][: len(shape)])]
-            if shape
-            else []
-        )
+        places = [] if not shape else ["point"] if "point" in self._file else ["x", "y", "z"][: len(shape)]
+        self.axes = [(name, self._file[name][:]) for name in places]
         self.points = int(np.prod(shape))
 
     @property
@@ -65,11 +64,7 @@ class Solution:
         while begin < len(times):
             end = int(np.searchsorted(times, times[begin] + most))
             slab = data[times[begin] : times[end - 1] + 1]
-            states.append(
-                slab[times[begin:end] - times[begin]][..., ::every].copy()
-                if every > 1
-                else slab[times[begin:end] - times[begin]]
-            )
+            states.append(np.ascontiguousarray(slab[times[begin:end] - times[begin]][..., ::every]))
             begin = end
         return np.concatenate(states)
 
@@ -84,7 +79,7 @@ class Solution:
     def field(self, name: str, times: np.ndarray) -> curves.Field:
         return curves.Field(name, self.meaning(name), self.values(name, times).reshape(len(times), -1))
 
-    def mesh(self) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    def mesh(self) -> Mesh | None:
         """Of points that bars join: places of points and of supports in the plane, and both ends of every bar."""
         if not self.is_numbered or "mesh/bars" not in self._file:
             return None
@@ -95,14 +90,11 @@ class Solution:
         return places[0], places[1], np.asarray(self._file["mesh/bars"]).astype(int)
 
 
-def _on_axes(draw: typing.Callable[..., typing.Any], figure: "Figure") -> str:
-    return draw(figure.subplots()) or ""
-
-
-def _curves(
-    stem: str, what: str, caption: str, draw: typing.Callable[..., typing.Any], height: float = _HEIGHT / _WIDTH
+def on_axes(
+    stem: str, what: str, caption: str, draw: typing.Callable[["Axes"], str | None], height: float = _HEIGHT / _WIDTH
 ) -> Picture:
-    return Picture(stem, what, caption, functools.partial(_on_axes, draw), height)
+    """A picture that is drawn on one pair of axes."""
+    return Picture(stem, what, caption, lambda figure: draw(figure.subplots()) or "", height)
 
 
 def energies(history: typing.Mapping[str, typing.Any]) -> list[Picture]:
@@ -113,36 +105,33 @@ def energies(history: typing.Mapping[str, typing.Any]) -> list[Picture]:
     )
     causes = {label: tuple(np.array(values, float) for values in curve) for label, curve in history["causes"]}
     assert H is not None
-    pictures = [_curves("energy", "energy", "The energy H = ½zᵀMz + V(z)", lambda ax: curves.energy(ax, H, modified))]
+    pictures = [on_axes("energy", "energy", "The energy H = ½zᵀMz + V(z)", lambda ax: curves.energy(ax, H, modified))]
     if causes and len(H[0]):
         caption = (
             "Where the change of H since the start comes from: the sum over all steps of each part of the ledger, and the change itself "
             "as a thin line. Parts below a thousandth of it are left out."
         )
-        pictures.append(_curves("ledger", "ledger", caption, lambda ax: curves.ledger(ax, H, causes)))
+        pictures.append(on_axes("ledger", "ledger", caption, lambda ax: curves.ledger(ax, H, causes)))
     return pictures
 
 
-def _bars(solution: Solution) -> list[Picture]:
-    mesh = solution.mesh()
-    if mesh is None or not 0 < len(mesh[2]) <= _MOST_BARS or len(solution.fields) < 2:
+def _bars(solution: Solution, mesh: Mesh) -> list[Picture]:
+    places, supports, ends = mesh
+    if not 0 < len(ends) <= _MOST_BARS or len(solution.fields) < 2:
         return []
-    chosen = np.unique([0, len(solution.t) - 1])
+    chosen = curves.spread(len(solution.t), 2)
     moved = np.stack([solution.field(name, chosen).values for name in solution.fields[:2]], axis=-1)
-    factor = curves.magnification(
-        float(np.abs(moved).max(initial=0)), float(np.ptp(np.concatenate(mesh[:2]), axis=0).max())
-    )
+    extent = np.ptp(np.concatenate([places, supports]), axis=0)
+    factor = curves.magnification(float(np.abs(moved).max(initial=0)), float(extent.max()))
     what = "bars" + (f", displacements × {factor:g}" if factor != 1 else "")
     caption = "The bars at the first and the last time, and at rest." + (
         f" Displacements are drawn {factor:g} times as large as they are." if factor != 1 else ""
     )
 
-    def draw(figure: "Figure") -> str:
-        curves.bars(figure.subplots(), *mesh, solution.t[chosen], moved)
-        return ""
+    def draw(ax: "Axes") -> None:
+        curves.bars(ax, places, supports, ends, solution.t[chosen], factor * moved)
 
-    extent = np.ptp(np.concatenate(mesh[:2]), axis=0)
-    return [Picture("bars", what, caption, draw, min(1.5, 0.4 + float(extent[1] / (extent[0] or 1.0))))]
+    return [on_axes("bars", what, caption, draw, min(1.5, 0.4 + float(extent[1] / (extent[0] or 1.0))))]
 
 
 def _space_time(solution: Solution, name: str, look: colours.Look) -> Picture:
@@ -159,12 +148,12 @@ def _space_time(solution: Solution, name: str, look: colours.Look) -> Picture:
     def draw(ax: typing.Any) -> None:
         maps.space_time(ax, solution.t[chosen], (place, x), values, scale, solution.label(name))
 
-    return _curves(f"space_time_{name}", f"{names.in_text(name)} in space and time", caption, draw)
+    return on_axes(f"space_time_{name}", f"{names.in_text(name)} in space and time", caption, draw)
 
 
 def _planes(solution: Solution, name: str, look: colours.Look, is_box: bool) -> Picture:
     """Of a plane four times; of a box its middle planes at the first and the last time."""
-    chosen = np.unique([0, len(solution.t) - 1]) if is_box else curves.spread(len(solution.t), 4)
+    chosen = curves.spread(len(solution.t), 2 if is_box else 4)
     pairs = ((0, 1), (0, 2), (1, 2)) if is_box else ((0, 1),)
     panels = [(solution.plane(name, k, a, b), a, b, solution.t[k]) for a, b in pairs for k in chosen]
     scales = colours.scales_of([picture for (_, _, picture), *_ in panels], look)
@@ -217,7 +206,7 @@ def _profiles(solution: Solution, name: str) -> Picture:
     chosen = curves.spread(len(solution.t), 5)
     field = solution.field(name, chosen)
     caption = f"{names.in_text(name)} at {len(chosen)} times; the first and the last are drawn thicker."
-    return _curves(
+    return on_axes(
         f"profiles_{name}",
         f"{names.in_text(name)} at some times",
         caption,
@@ -229,7 +218,7 @@ def _few_points(solution: Solution) -> list[Picture]:
     chosen = curves.spread(len(solution.t), _MOST_STATES)
     fields = [solution.field(name, chosen) for name in solution.fields]
     t = solution.t[chosen]
-    pictures = [_curves("fields", "solution", "Every field over time.", lambda ax: curves.over_time(ax, t, fields))]
+    pictures = [on_axes("fields", "solution", "Every field over time.", lambda ax: curves.over_time(ax, t, fields))]
     # Each coordinate with its momentum, which stands half of the fields behind it; of an odd number neighbours.
     apart = len(fields) // 2 if len(fields) % 2 == 0 else 1
     for across, up in zip(fields, fields[apart:]):
@@ -239,7 +228,7 @@ def _few_points(solution: Solution) -> list[Picture]:
             said = curves.portrait(ax, across, up)
             return said + (" A smaller output.snapshot_every or snapshot_interval leaves more states." if said else "")
 
-        pictures.append(_curves(f"portrait_{across.name}_{up.name}", "phase portrait", caption, draw))
+        pictures.append(on_axes(f"portrait_{across.name}_{up.name}", "phase portrait", caption, draw))
     return pictures
 
 
@@ -248,7 +237,10 @@ def pictures_of(solution: Solution, history: typing.Mapping[str, typing.Any], lo
     pictures = energies(history)
     if not len(solution.t):
         return pictures
-    pictures += _bars(solution)
+    # Points that bars join are in no order that a map or a curve could show.
+    mesh = solution.mesh()
+    if mesh is not None:
+        pictures += _bars(solution, mesh)
     dimension = len(solution.axes)
     few = dimension == 0 or (solution.is_numbered and solution.points <= curves.FEW_POINTS)
     over_time = (
@@ -257,15 +249,13 @@ def pictures_of(solution: Solution, history: typing.Mapping[str, typing.Any], lo
         and len(solution.t) >= _FEWEST_TIMES
         and solution.t[-1] > solution.t[0]
     )
-    # Points that bars join are in no order that a map or a curve could show.
-    is_mesh = solution.mesh() is not None
     for name in solution.fields:
-        if over_time and not is_mesh:
+        if over_time and mesh is None:
             pictures.append(_space_time(solution, name, look))
         if dimension >= 2:
             pictures.append(_planes(solution, name, look, dimension == 3))
     if few:
         pictures += _few_points(solution)
-    elif dimension == 1 and not is_mesh:
+    elif dimension == 1 and mesh is None:
         pictures += [_profiles(solution, name) for name in solution.fields]
     return pictures

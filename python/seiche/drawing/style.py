@@ -35,8 +35,8 @@ SHAPES = {
 
 _WARNING = "#D0402F"
 
-# Perceptually uniform, from both sides of a centre on a light ground and on a dark one. Crameri, Nature Communications 11
-# (2020) 5444.
+# Perceptually uniform, from both sides of a centre on a light ground and on a dark one. Crameri, Nature Communications
+# 11 (2020) 5444.
 _VIK = (
     "#001261",
     "#033E7D",
