@@ -41,7 +41,7 @@ const std::map<std::string, Folders> may_include = {
     {"study",
      {"core", "law", "potential", "damping", "method", "backend", "problem", "output", "run", "simulation", "config",
       "ensemble"}},
-    {"figure", {"core", "output", "study"}},
+    {"figure", {"core", "output", "study", "config", "formula"}},  // the page of a run shows its case as formulas
     {"driver",
      {"core", "law", "method", "backend", "problem", "run", "output", "simulation", "config", "ensemble", "study",
       "figure"}},
