@@ -86,12 +86,19 @@ Curve upper_envelope(const Curve& curve) {
 }
 
 std::string step_text(double h) {
+  const auto power = [](int base, int exponent) {
+    constexpr std::string_view digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = fmt::format("{}{}", base, exponent < 0 ? "⁻" : "");
+    for (const char c : std::to_string(std::abs(exponent))) text += digits[c - '0'];
+    return text;
+  };
   int exponent = 0;
-  if (!(h > 0) || std::frexp(h, &exponent) != 0.5) return fmt::format("{:g}", h);
-  constexpr std::string_view digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 1 ? "2⁻" : "2";
-  for (const char c : std::to_string(std::abs(exponent - 1))) text += digits[c - '0'];
-  return text;
+  if (h > 0 && std::frexp(h, &exponent) == 0.5) return power(2, exponent - 1);
+  const std::string text = fmt::format("{:g}", h);
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return text;
+  const std::string power_of_ten = power(10, std::stoi(text.substr(e + 1)));
+  return text.starts_with("1e") ? power_of_ten : text.substr(0, e) + "·" + power_of_ten;
 }
 
 }  // namespace seiche

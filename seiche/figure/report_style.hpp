@@ -87,6 +87,10 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace
 
 // What the report of a single run adds.
 inline constexpr std::string_view run_report_style = R"css(
+.equation { overflow-x: auto; margin: .2rem 0 1.4rem; font-size: 1.1rem; }
+.equation math[display="block"] { text-align: left; margin: .5rem 0; width: max-content; }
+.equation .matrix { border: solid; border-width: 0 1.5px; border-radius: .7em; padding: 0 .1em; }
+.equation p { margin: .5rem 0; font-size: 1rem; color: var(--soft); }
 .on-dark { display: none; }
 @media (prefers-color-scheme: dark) {
   .on-dark { display: block; } .on-light { display: none; } }

@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/figure/curves.hpp>
+#include <seiche/figure/equation.hpp>
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/report_figure.hpp>
 #include <seiche/figure/report_style.hpp>
@@ -48,17 +49,30 @@ std::string steps_text(const RunFiles& run) {
                             : fmt::format("Steps of size h = {}", step_text(run.spec.h));
 }
 
+std::string version(const RunFiles& run, const std::string& of) {
+  const auto found = run.versions.find(of);
+  return found == run.versions.end() ? "" : found->second;
+}
+
+// " Finished on 2026-11-26 at 12:40 UTC, by Seiche 0.1.0."
+std::string finished_text(const RunFiles& run) {
+  constexpr std::size_t date = 10, minute = 16;  // characters of 2026-11-26T12:40:33Z up to their end
+  if (run.finished.size() < minute) return "";
+  return html_escaped(fmt::format(" Finished on {} at {} UTC, by Seiche {}.", run.finished.substr(0, date),
+                                  run.finished.substr(date + 1, minute - date - 1), version(run, "seiche")));
+}
+
 std::string head(const RunFiles& run) {
   const std::string title = fmt::format("{} by {}", run_name(run), method_label(run.method));
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{4}\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n<style>{1}{2}</style>\n"
-      "</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p class=\"of\">{3}</p>\n",
-      html_escaped(title), report_style, run_report_style, html_text(run.equation), report_mark);
+      "</head>\n<body>\n<main>\n<h1>{0}</h1>\n{3}",
+      html_escaped(title), report_style, run_report_style, equation_html(run.spec), report_mark);
   std::string sentence = run.message;
   if (!sentence.empty()) sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-  text += fmt::format("<p>{} {}</p>\n<p>{}. {}, backend {}.</p>\n", status_mark(run), law_mark(run),
-                      html_text(sentence), html_text(steps_text(run)), html_escaped(run.backend));
+  text += fmt::format("<p>{} {}</p>\n<p>{}. {}, backend {}.{}</p>\n", status_mark(run), law_mark(run),
+                      html_text(sentence), html_text(steps_text(run)), html_escaped(run.backend), finished_text(run));
   return text;
 }
 
@@ -152,6 +166,28 @@ std::string pictures_section(const RunFiles& run, const RunPictures& pictures, c
   return text;
 }
 
+std::string parameters(const RunFiles& run) {
+  const std::string rows = parameter_rows(run.spec);
+  return rows.empty()
+             ? ""
+             : "<h2 id=\"parameters\">Parameters</h2>\n<div class=\"scroll\"><table class=\"narrow\"><thead><tr>"
+               "<th scope=\"col\">Name</th><th scope=\"col\">Value</th><th scope=\"col\">Meaning</th></tr></thead>\n"
+               "<tbody>\n" +
+                   rows + "</tbody></table></div>\n";
+}
+
+std::string citation(const RunFiles& run) {
+  const std::string number = version(run, "seiche");
+  const std::string year = run.finished.substr(0, 4);
+  return fmt::format(
+      "<h2 id=\"cite\">To cite</h2>\n<p>The program, the method ({}) and the equation ({}). Figures of the width of a "
+      "column, as PDF without a title: <code>seiche plot --journal DIR</code>.</p>\n<pre><code>@software{{seiche,\n"
+      "  title   = {{Seiche: energy-stable integrators for damped Hamiltonian systems}},\n  author  = {{{{The Seiche "
+      "authors}}}},\n  version = {{{}}},\n  year    = {{{}}},\n  note    = {{commit {}}}\n}}</code></pre>\n",
+      html_text(run.method_reference), html_text(run.reference), html_escaped(number), html_escaped(year),
+      html_escaped(version(run, "git")));
+}
+
 std::string table_row(const std::string& name, const std::string& value) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", html_escaped(name), value);
 }
@@ -186,7 +222,9 @@ void write_run_report(const RunFiles& run, const EnergyHistory& history, const R
   file.write(pictures_section(run, pictures, no_pictures_because));
   file.write(ledger(run, history));
   file.write(certificate(run));
+  file.write(parameters(run));
   file.write(origin(run));
+  file.write(citation(run));
   file.write("</main>\n</body>\n</html>\n");
   file.commit();
 }

@@ -1,9 +1,11 @@
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/summary.hpp>
 
+#include <fmt/chrono.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <ctime>
 
 namespace seiche {
 namespace {
@@ -63,6 +65,7 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                     {"widened", report.widened},
                     {"halved", report.halved}}},
                   {"wall_seconds", number(report.wall_seconds)},
+                  {"finished", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
                   {"versions", versions}};
   if (run.threads > 0) summary["threads"] = run.threads;
   if (!run.hashes.empty()) summary["sha256"] = run.hashes;

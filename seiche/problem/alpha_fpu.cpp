@@ -57,6 +57,7 @@ Problem alpha_fpu(const AlphaFpu& options) {
 ProblemEntry alpha_fpu_entry() {
   using P = AlphaFpu;
   return ProblemRows<P>({.name = "alpha_fpu",
+                         .title = "α-FPU equation",
                          .equation = "u_tt − βu_xxt − (1 + εu_xᵏ)u_xx + m²u + γu_t = 0, u = 0 at both ends",
                          .reference = "Li, Li, Shang, Xu, Example 2; Macías-Díaz (2009)",
                          .fields = {"u", "v"},

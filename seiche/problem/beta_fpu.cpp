@@ -20,6 +20,7 @@ Problem beta_fpu(const BetaFpu& options) {
 ProblemEntry beta_fpu_entry() {
   using P = BetaFpu;
   return ProblemRows<P>({.name = "beta_fpu",
+                         .title = "β-FPUT lattice",
                          .equation =
                              "ü_j = d_j − d_{j−1} + β(d_j³ − d_{j−1}³) − γu̇_j + ν(ḋ_j − ḋ_{j−1}), d_j = u_{j+1} − u_j",
                          .reference = "Fermi, Pasta, Ulam, Tsingou, report LA-1940 (1955); Ford (1992)",

@@ -65,6 +65,7 @@ Problem burgers(const Burgers& options) {
 ProblemEntry burgers_entry() {
   using P = Burgers;
   return ProblemRows<P>({.name = "burgers",
+                         .title = "Burgers and Korteweg–de Vries equations",
                          .equation = "u_t + αuu_x + εu_xxx − νu_xx + γu = 0, periodic, with H = ½∫u²",
                          .reference = "Burgers (1948); Korteweg, de Vries (1895)",
                          .fields = {"u"},

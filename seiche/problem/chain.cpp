@@ -60,6 +60,7 @@ ProblemEntry chain_entry() {
   using P = Chain;
   return ProblemRows<P>(
              {.name = "chain",
+              .title = "Chain of masses",
               .equation = "mü_j = k(d_j − d_{j−1}) + k₃(d_j³ − d_{j−1}³) − gu_j − g₃u_j³ − mγu̇_j + mν(ḋ_j − ḋ_{j−1}), "
                           "d_j = u_{j+1} − u_j",
               .reference = "Li, Li, Shang, Xu, section 1; Born, von Kármán (1912)",

@@ -27,6 +27,7 @@ Problem gkdv(const Gkdv& options) {
 ProblemEntry gkdv_entry() {
   using P = Gkdv;
   return ProblemRows<P>({.name = "gkdv",
+                         .title = "Generalised Korteweg–de Vries equation",
                          .equation = "u_t + εu_xxx + ∂_x(σu^{k+1}) + μu = 0, periodic",
                          .reference = "Li, Li, Shang, Xu, Example 3; Ali et al. (2017)",
                          .fields = {"u"},

@@ -34,6 +34,7 @@ Problem klein_gordon(const KleinGordon& options) {
 ProblemEntry klein_gordon_entry() {
   using P = KleinGordon;
   return ProblemRows<P>({.name = "klein_gordon",
+                         .title = "Klein–Gordon equation",
                          .equation = "u_tt + γu_t − κΔu + ω²u + αu³ = 0",
                          .reference = "Li, Li, Shang, Xu, Example 1; Côte et al. (2021)",
                          .fields = {"u", "v"},

@@ -118,6 +118,7 @@ Problem from_graph(const NetworkCase& c) {
 ProblemEntry network_entry() {
   using P = NetworkCase;
   return ProblemRows<P>({.name = "network",
+                         .title = "Oscillators on a graph",
                          .equation = "ü_i + γu̇_i + ω²u_i + κΣ_j w_ij(u_i − u_j) + αu_i³ = 0",
                          .reference = "Newman and Watts (1999) for the graph",
                          .fields = {"u", "v"},

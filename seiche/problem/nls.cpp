@@ -46,6 +46,7 @@ Problem nls(const Nls& options) {
 ProblemEntry nls_entry() {
   using P = Nls;
   return ProblemRows<P>({.name = "nls",
+                         .title = "Nonlinear Schrödinger equation",
                          .equation = "iψ_t + ½Δψ + κ|ψ|²ψ = −iγψ, ψ = p + iq",
                          .reference = "Zakharov, Shabat (1972); with damping: Fibich (2001)",
                          .fields = {"p", "q"},

@@ -27,6 +27,7 @@ Problem oscillator(const Oscillator& options) {
 ProblemEntry oscillator_entry() {
   using P = Oscillator;
   return ProblemRows<P>({.name = "oscillator",
+                         .title = "Duffing oscillator",
                          .equation = "q̈ + γq̇ + ω²q + αq³ = 0",
                          .reference = "Duffing (1918)",
                          .fields = {"q", "p"},

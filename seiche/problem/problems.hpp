@@ -14,8 +14,9 @@ namespace seiche {
 
 struct ProblemEntry {
   std::string name;
-  std::string equation;   // in Unicode
-  std::string reference;  // where it comes from
+  std::string title = {};  // what people call it: "Klein–Gordon equation"; "" of one that is written down
+  std::string equation;    // in Unicode
+  std::string reference;   // where it comes from
   std::vector<std::string> fields;
   std::vector<std::string> meanings = {};  // of the fields, in their order: "displacement"
   std::vector<Parameter> parameters = {};

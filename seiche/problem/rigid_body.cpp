@@ -48,6 +48,7 @@ ProblemEntry rigid_body_entry() {
     return [axis, name](P& p, const ParameterValues& v) { p.inertia[axis] = v.real(name); };
   };
   return ProblemRows<P>({.name = "rigid_body",
+                         .title = "Free rigid body",
                          .equation = "L̇ = L × I⁻¹L − γL",
                          .reference = "Euler (1765)",
                          .fields = {"l1", "l2", "l3"},

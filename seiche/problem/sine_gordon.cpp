@@ -33,6 +33,7 @@ Problem sine_gordon(const SineGordon& options) {
 ProblemEntry sine_gordon_entry() {
   using P = SineGordon;
   return ProblemRows<P>({.name = "sine_gordon",
+                         .title = "Sine-Gordon equation",
                          .equation = "u_tt + γu_t − κΔu + α sin u = 0",
                          .reference = "Ablowitz, Kaup, Newell, Segur (1973); with friction: McLaughlin, Scott (1978)",
                          .fields = {"u", "v"},

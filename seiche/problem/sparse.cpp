@@ -91,6 +91,7 @@ Problem from_files(const SparseCase& c) {
 ProblemEntry sparse_entry() {
   using P = SparseCase;
   return ProblemRows<P>({.name = "sparse",
+                         .title = "Sparse system",
                          .equation = "ż = S∇H(z) − Dz,  H = ½zᵀMz + a₃/3 Σu³ + a₄/4 Σu⁴",
                          .reference = "Matrix Market files: Boisvert, Pozo, Remington, NISTIR 5935 (1996)",
                          .fields = {"u", "v"},

@@ -99,6 +99,7 @@ Problem truss(const Truss& options) {
 ProblemEntry truss_entry() {
   using P = Truss;
   return ProblemRows<P>({.name = "truss",
+                         .title = "Truss",
                          .equation = "m ü = −Σ_bars n (EA/ℓ e + a₃e² + a₄e³ + c ė) − γ m u̇,  e = n·(u_b − u_a)",
                          .reference = "Argyris and Mlejnek, Dynamics of Structures (1991)",
                          .fields = {"x", "y", "px", "py"},

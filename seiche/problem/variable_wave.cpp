@@ -130,6 +130,7 @@ ProblemEntry variable_wave_entry() {
   Parameter discretisation = discretisation_parameter();
   discretisation.choices = {"fd2"};  // a higher order is lost where c jumps
   return ProblemRows<P>({.name = "wave",
+                         .title = "Wave equation in a layered medium",
                          .equation = "u_tt + γu_t = ∇·(c(x)²∇u) − m²u − αu³",
                          .reference = "LeVeque, Finite Volume Methods for Hyperbolic Problems (2002), ch. 9",
                          .fields = {"u", "v"},

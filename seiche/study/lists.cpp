@@ -48,6 +48,7 @@ std::string problems_json() {
           {{"name", parameter.name}, {"default", parameter.default_value}, {"meaning", parameter.meaning}});
     }
     list.push_back({{"name", problem.name},
+                    {"title", problem.title},
                     {"equation", problem.equation},
                     {"reference", problem.reference},
                     {"fields", problem.fields},

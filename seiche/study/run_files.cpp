@@ -74,6 +74,7 @@ RunFiles read_run(const std::filesystem::path& directory) {
   if (run.spec.ensemble)
     throw Error("{} holds an ensemble, which leaves statistics and no solution", directory.string());
   const ProblemEntry& problem = problem_entry(run.spec);
+  run.title = problem.title;
   run.equation = problem.equation;
   run.reference = problem.reference;
   run.method_reference = find_method(run.spec.method).reference;
@@ -92,6 +93,7 @@ RunFiles read_run(const std::filesystem::path& directory) {
   for (const auto& [name, count] : counts.items())
     if (count.is_number_integer()) run.counts.emplace_back(name, count.get<std::int64_t>());
   run.wall_seconds = number(summary, "wall_seconds");
+  run.finished = text(summary, "finished");
   const Json versions = member(summary, "versions");
   for (const auto& [name, version] : versions.items())
     if (version.is_string()) run.versions[name] = version;
@@ -100,7 +102,7 @@ RunFiles read_run(const std::filesystem::path& directory) {
 }
 
 std::string run_name(const RunFiles& run) {
-  if (run.problem != "custom") return run.problem;
+  if (!run.title.empty()) return run.title;
   const std::filesystem::path folder = std::filesystem::absolute(run.directory / "").lexically_normal().parent_path();
   return folder.filename().empty() ? run.problem : folder.filename().string();
 }

@@ -25,7 +25,7 @@ struct RunFiles {
   std::filesystem::path directory;
   RunSpec spec;
   std::string case_text;
-  std::string equation, reference, method_reference;  // of the problem and the method
+  std::string title, equation, reference, method_reference;  // of the problem and the method
 
   std::string status, message, problem, method, backend;
   std::int64_t steps = 0;
@@ -35,6 +35,7 @@ struct RunFiles {
   std::string law;                                           // "holds", "violated", "not promised", "not tested"
   std::vector<std::pair<std::string, std::int64_t>> counts;  // in the order of the file
   double wall_seconds = 0.0;
+  std::string finished;  // 2026-11-26T12:40:33Z; "" where the file has none
   std::map<std::string, std::string> versions;
   std::vector<HypothesisFound> hypotheses;
   bool promised = false;
@@ -44,7 +45,7 @@ struct RunFiles {
 // Throws Error where `directory` is not that of a single finished run, saying what is missing.
 RunFiles read_run(const std::filesystem::path& directory);
 
-// What titles call the run: its problem, or its folder where the problem was written down and has no name of its own.
+// What titles call the run: the title of its problem, or its folder where the problem was written down and has none.
 std::string run_name(const RunFiles& run);
 
 // Below every title of a run that is not what was asked for: "failed at t = 3.2", "the energy law is violated"; else

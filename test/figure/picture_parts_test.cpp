@@ -1,4 +1,5 @@
 // Parts of pictures and pages by themselves: styles of methods, text and numbers in HTML.
+#include <seiche/figure/curves.hpp>
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/style.hpp>
 #include <seiche/method/methods.hpp>
@@ -51,6 +52,14 @@ TEST(MethodStyle, ASchemeAsPrintedIsGreyAndDottedInWhateverCompany) {
     EXPECT_EQ(line.dash, Dash::dotted);
   }
   EXPECT_EQ(curve_line("SEILM, V transported, Newton", 1, 0).colour, method_line("seilm").colour);
+}
+
+TEST(StepText, IsAPowerOfTwoWhereItIsOneAndHasItsExponentRaised) {
+  EXPECT_EQ(step_text(0.00390625), "2⁻⁸");
+  EXPECT_EQ(step_text(2), "2¹");
+  EXPECT_EQ(step_text(0.05), "0.05");
+  EXPECT_EQ(step_text(1e-8), "10⁻⁸");
+  EXPECT_EQ(step_text(2.5e-7), "2.5·10⁻⁷");
 }
 
 TEST(Html, TextIsEscapedNumbersAreSetAndBytesAreEncoded) {

@@ -87,10 +87,13 @@ TEST_F(RunReports, WhatHardlyChangesIsDrawnAsItsChange) {
 TEST_F(RunReports, ARunLeavesAReportThatNeedsNothingBesideIt) {
   run("klein_gordon");
   const std::string page = report();
-  for (const char* text : {"<h1>klein_gordon by SEISAV</h1>", "u_tt + γu_t", "Reached t = 0.5 in 16 steps",
-                           "the energy law holds", "sym(S) ⪯ 0", "by structure", "verified with margin", "Ledger",
-                           "half step before the Hamiltonian step", "all together", "seiche plot",
-                           "name = &quot;klein_gordon&quot;", "seiche run case.toml", "eigen", "Li, Li, Shang"}) {
+  for (const char* text :
+       {"<h1>Klein–Gordon equation by SEISAV</h1>",
+        "<mi>γ</mi><msub><mrow><mi>u</mi></mrow><mrow><mi>t</mi></mrow></msub>", "Finished on 20",
+        "<code>omega_squared</code></th><td>0.2</td>", "@software{seiche", "Reached t = 0.5 in 16 steps",
+        "the energy law holds", "sym(S) ⪯ 0", "by structure", "verified with margin", "Ledger",
+        "half step before the Hamiltonian step", "all together", "seiche plot", "name = &quot;klein_gordon&quot;",
+        "seiche run case.toml", "eigen", "Li, Li, Shang"}) {
     EXPECT_THAT(page, HasSubstr(text));
   }
   for (const char* foreign : {"http:", "https:", "src=\"//", "@import", "url(", "<link", "<script", "<iframe"})
@@ -125,8 +128,8 @@ TEST_F(RunReports, AWrittenProblemIsCalledAsItsFolder) {
   EXPECT_EQ(files.problem, "custom");
   files.directory = folder / "figures/../";
   EXPECT_EQ(run_name(files), "anharmonic");
-  files.problem = "oscillator";
-  EXPECT_EQ(run_name(files), "oscillator");
+  files.title = "Duffing oscillator";
+  EXPECT_EQ(run_name(files), "Duffing oscillator");
 }
 
 TEST_F(RunReports, WithoutPythonTheRunSucceedsAndTheReportSaysWhatIsMissing) {

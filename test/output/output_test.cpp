@@ -262,7 +262,7 @@ TEST(Summary, HasTheKeysOfTheInterfaceInTheirOrder) {
   std::vector<std::string> keys;
   for (const auto& item : json.items()) keys.push_back(item.key());
   EXPECT_EQ(keys, (std::vector<std::string>{"status", "message", "problem", "method", "backend", "h", "steps", "t",
-                                            "energy", "counts", "wall_seconds", "versions"}));
+                                            "energy", "counts", "wall_seconds", "finished", "versions"}));
   EXPECT_EQ(
       json["energy"].dump(),
       R"({"initial":0.0,"final":0.0,"max_increase":0.0,"modified":{"initial":0.0,"final":0.0,"max_increase":0.0},)"
