@@ -114,7 +114,7 @@ or better, and stands in `verification/references.json`. The program only meets 
         results += "\n".join(f"| {r.system} | {r.method} | {r.check} | {r.expected} | {r.got} | {r.note.replace('|', '/')} |" for r in wrong) + "\n"
     results += """
 ```sh
-make verify                             # all of it, some minutes on two cores
+make verify                             # all of it, half an hour on two cores
 make verify VERIFY="--only morse"       # one system; --quick, --json, --check order,law, --page FILE
 make verify VERIFY=--references         # compute the references anew
 ```
