@@ -66,7 +66,8 @@ class Look {
   Expression at_origin(const Expression& e) const {
     GiNaC::exmap zero;
     for (const GiNaC::realsymbol& u : fields_) zero[u] = 0;
-    return e.subs(zero).expand();
+    const Expression there = e.subs(zero);  // of the place alone, and not always small
+    return most_terms_multiplied_out(there) > most_terms ? there : there.expand();
   }
 
   bool at_rest(const Expression& e) const {
