@@ -13,17 +13,25 @@
 namespace seiche {
 namespace {
 
+// The number that a short decimal, such as -0.125, says.
+GiNaC::numeric exactly(std::string decimal) {
+  const std::size_t point = decimal.find('.');
+  if (point == std::string::npos) return GiNaC::numeric(decimal.c_str());
+  const auto places = static_cast<long>(decimal.size() - point - 1);
+  decimal.erase(point, 1);
+  return GiNaC::numeric(decimal.c_str()) / GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(places));
+}
+
 // A decimal where it says the number exactly, else a fraction.
 std::string text_of_number(const GiNaC::numeric& x) {
   std::ostringstream exact;
   exact << x;
   if (x.is_integer() || !x.is_rational()) return exact.str();
-  std::string decimal = fmt::format("{}", x.to_double());
-  GiNaC::numeric denominator = x.denom();
-  for (const int prime : {2, 5})
-    while (GiNaC::irem(denominator, prime).is_zero()) denominator = GiNaC::iquo(denominator, prime);
-  const bool is_short = decimal.size() <= 12 && decimal.find('e') == std::string::npos;
-  if (denominator.is_equal(1) && is_short) return decimal;
+  const std::string decimal = fmt::format("{}", x.to_double());
+  constexpr std::size_t longest_decimal = 12;
+  const bool is_short =
+      decimal.size() <= longest_decimal && decimal.find_first_not_of("-.0123456789") == std::string::npos;
+  if (is_short && exactly(decimal).is_equal(x)) return decimal;
   constexpr std::size_t longest = 24;  // an irrational number written as a double
   return exact.str().size() <= longest ? exact.str() : decimal;
 }
