@@ -29,7 +29,7 @@ paper: build  ## the paper's examples, figures and claims: out/paper/report.html
 docs: build  ## this project's pages, their gallery drawn anew: build/docs/index.html
 	@bash scripts/install-deps --docs
 	@/usr/bin/python3 docs/site/build.py build/release/seiche
-	@echo "Open build/docs/index.html; for its search, python3 -m http.server -d build/docs"
+	@echo "Open build/docs/index.html"
 
 test:  ## build and run all tests
 	@bash scripts/install-deps --python

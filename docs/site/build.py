@@ -18,9 +18,9 @@ SOURCE = SITE.parents[1]
 PAGES = SOURCE / "build/docs_pages"
 VERIFICATION_ROWS = SOURCE / "build/verification_rows.md"  # of the last whole run of `make verify`, minutes long
 NO_ROWS = "# Verification: every row\n\n`make verify` writes the rows; it had not run where these pages were made.\n"
-JQUERY = pathlib.Path("/usr/share/javascript/jquery/jquery.min.js")  # Debian's pages of the theme ask for it by another name
 sys.dont_write_bytecode = True
-sys.path[:0] = [str(SOURCE / "test/documentation")]
+sys.path[:0] = [str(SOURCE / "test/documentation"), str(SITE)]
+import check_site  # noqa: E402
 import run_blocks  # noqa: E402
 
 
@@ -34,35 +34,29 @@ def both_grounds(run, name, picture):
         shutil.copy(run / f"figures/{name}{ground}.png", picture.with_stem(picture.stem + ground))
 
 
+def dark(path):
+    """The picture for dark ground, which stands beside that for light."""
+    path = pathlib.PurePosixPath(path)
+    return path.with_stem(path.stem + "_dark")
+
+
 def shown(path, alt):
-    """A picture in HTML that is dark where the page is; PATH is from the page."""
-    dark = pathlib.PurePosixPath(path)
-    dark = dark.with_stem(dark.stem + "_dark")
-    return (f'<picture><source media="(prefers-color-scheme: dark)" srcset="{dark}">'
-            f'<img src="{path}" alt="{html.escape(alt)}"></picture>')
+    """Both pictures in HTML, of which the page shows one; PATH is from the page."""
+    return "".join(f'<img class="on-{ground}" src="{file}" alt="{html.escape(alt)}" loading="lazy">'
+                   for ground, file in (("light", path), ("dark", dark(path))))
 
 
 def switch_pictures(pages):
     """Every ![alt](picture.png) on the pages in this folder becomes a picture for both grounds, which must be there."""
     for page in pages.rglob("*.md"):
         def switched(marker):
-            for name in re.findall(r'(?:srcset|src)="([^"]+)"', shown(marker.group(2), "")):
+            for name in (marker.group(2), dark(marker.group(2))):
                 if not (page.parent / name).is_file():
                     sys.exit(f"{page}: there is no {name}")
             return shown(marker.group(2), marker.group(1))
 
         text = page.read_text(encoding="utf-8")
         page.write_text(re.sub(r"!\[([^\]]*)\]\(([^)\s]+\.png)\)", switched, text), encoding="utf-8")
-
-
-def code_style():
-    """Colours of code on light and on dark ground."""
-    def style(name):
-        return subprocess.run([sys.executable, "-m", "pygments", "-S", name, "-f", "html", "-a", ".codehilite"],
-                              capture_output=True, text=True, check=True).stdout
-
-    dark = "(prefers-color-scheme: dark)"
-    return f"@media not all and {dark} {{\n{style('default')}}}\n@media {dark} {{\n{style('native')}}}\n"
 
 
 def play(page, program, work):
@@ -149,16 +143,18 @@ def add_project():
 def main():
     program = pathlib.Path(sys.argv[1]).resolve()
     shutil.rmtree(PAGES, ignore_errors=True)
-    shutil.copytree(SITE, PAGES, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+    shutil.copytree(SITE, PAGES, ignore=shutil.ignore_patterns("*.py", "__pycache__", "overrides"))
     show_files()
     add_project()
     subprocess.run([sys.executable, SITE / "reference.py", program, PAGES / "reference"], check=True)
     add_first_run(program)
     add_gallery(program)
     switch_pictures(PAGES)
-    shutil.copy(JQUERY, PAGES / "js/jquery-3.6.0.min.js")
-    (PAGES / "code.css").write_text(code_style(), encoding="utf-8")
-    sys.exit(subprocess.run(["mkdocs", "build", "--clean", "-f", SOURCE / "docs/mkdocs.yml"]).returncode)  # it says what is wrong
+    if subprocess.run(["mkdocs", "build", "--clean", "-q", "-f", SOURCE / "docs/mkdocs.yml"]).returncode != 0:
+        sys.exit(1)  # it has said what is wrong
+    (SOURCE / "build/docs/reference").mkdir(exist_ok=True)
+    subprocess.run(["doxygen", "docs/Doxyfile"], cwd=SOURCE, check=True)
+    check_site.check(SOURCE / "build/docs")
 
 
 if __name__ == "__main__":

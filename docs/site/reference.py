@@ -4,11 +4,13 @@
 Nothing is written twice: methods, problems and backends are those of `seiche list --json`, keys with their defaults, meanings and
 bounds are the comments of `seiche new`, options those of `--help`, exit codes the line of docs/site/overview.md.
 """
+import ast
 import json
 import pathlib
 import re
 import subprocess
 import sys
+import unicodedata
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CUSTOM = "Explained in [your own potential](../tutorials/your_own_potential.md). What `seiche new custom` prints:\n\n"
@@ -83,6 +85,17 @@ def escape(text):
     return re.sub(r"([|*_])", r"\\\1", text).replace("<", "&lt;")
 
 
+def tex(equation):
+    """Of an equation in Unicode as the program prints it, which KaTeX reads but for indices of several letters, and words."""
+    text = re.sub(r"_([A-Za-z]{2,})", lambda match: "_{" + (r"\text{%s}" if len(match[1]) > 3 else "%s") % match[1] + "}", equation)
+    text = re.sub(r"(?<![\w{\\])(sin|cos|exp)(?!\w)", r"\\\1", text)
+    text = re.sub(r"(?<![\w{\\])((?:at|by|with|and|both|ends|periodic|formulas)(?: (?:at|by|with|and|both|ends|formulas))*)(?!\w)",
+                  r"\\text{ \1 }", text)
+    for accent, command in (("\u0307", "dot"), ("\u0308", "ddot")):
+        text = re.sub(rf"([A-Za-z]){accent}", rf"\\{command} \1", unicodedata.normalize("NFD", text))
+    return unicodedata.normalize("NFC", text).replace(",  ", ",\\quad ").replace("Σ", r"\sum ")
+
+
 def methods(program):
     entries = json.loads(ask(program, "list", "methods", "--json"))
     columns = ("order", "law", "closure", "propagator", "composition", "projection", "reference")
@@ -98,7 +111,8 @@ def problems(program):
     for problem in json.loads(ask(program, "list", "problems", "--json")):
         case = ask(program, "new", problem["name"])
         keys = [key for key in keys_of(case)["problem"] if key[0] not in ("name", "friction", "force")]
-        text += f"## {problem['name']}\n\n`{problem['equation']}`\n\nSource: {problem['reference']}. "
+        text += f"## {problem['title'] or 'Your own'}: `{problem['name']}`\n\n$$\n{tex(problem['equation'])}\n$$\n\n"
+        text += f"Source: {problem['reference']}. "
         text += f"Fields {', '.join(map(code, problem['fields']))}; "
         text += f"initial states {', '.join(map(code, problem['initial']))}, a file, or formulas.\n\n"
         if problem["name"] == "custom":  # its comments go on from line to line
@@ -146,10 +160,53 @@ def commands(program):
     return text
 
 
+PYTHON = ("# Python\n\n`import seiche`, after `make python` or `pip install .`. Arrays are NumPy's; states are one row each, "
+          "z = (field 0 at all points, field 1 at all points, …). [From Python](../tutorials/python.md) shows how these are used.\n\n")
+PYTHON_PARTS = {"State an equation": ["problem", "load", "Problem", "Case"],
+                "Solve it": ["solve", "Result", "DenseOutput", "Status", "SeicheWarning"],
+                "Many at once": ["solve_ensemble", "EnsembleResult"],
+                "Runs that leave files": ["run", "resume", "CaseRun"],
+                "Judge": ["check", "spectrum", "converge"],
+                "Pictures": ["plot"]}
+LISTS = ["methods", "problems", "backends"]  # compiled: what their docstrings say is said here
+
+
+def python(_):
+    """Of the docstrings in python/seiche. Ends the build where a public name is on no part of the page."""
+    tree = ast.parse((SOURCE / "python/seiche/__init__.py").read_text(encoding="utf-8"))
+    public = next(ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign))
+    shown = [name for names in PYTHON_PARTS.values() for name in names] + LISTS + ["__version__"]
+    if set(shown) != set(public):
+        sys.exit(f"reference.py: {set(shown) ^ set(public)} is public and not on the page, or the other way round")
+    text = PYTHON
+    for title, names in PYTHON_PARTS.items():
+        text += f"## {title}\n\n" + "".join(f"::: seiche.{name}\n\n" for name in names)
+    return text + ("## Lists\n\n`seiche.methods()`, `seiche.problems()` and `seiche.backends()` return what `seiche list … --json` "
+                   "prints, as lists of dictionaries; `seiche.__version__` is a string.\n")
+
+
+HEADERS = {"simulation/solve.hpp": "a whole run, with events and dense output: start here", "simulation/simulation.hpp": "steps of your own",
+           "core/problem.hpp": "an equation by its parts", "config/custom/custom_problem.hpp": "an equation by formulas",
+           "problem/problems.hpp": "the list of problems", "config/case/case_file.hpp": "a case file",
+           "driver/run_case.hpp": "the folder that its run leaves", "simulation/certificate.hpp": "what is proved before a run",
+           "ensemble/ensemble.hpp": "many members at once", "output/solution_reader.hpp": "reading `solution.h5`"}
+
+
+def cpp(_):
+    """The way into what doxygen makes of the headers (docs/Doxyfile)."""
+    rows = []
+    for header, meaning in HEADERS.items():
+        name = (SOURCE / "seiche" / header).name.replace("_", "__").replace(".", "_8")
+        rows.append([f'<a href="cpp/{name}.html"><code>seiche/{header}</code></a>', meaning])
+    return ("# C++\n\n`make install PREFIX=…`, then `find_package(Seiche)`; [As a C++ library](../tutorials/library.md) has the two files of a "
+            "program. `#include <seiche/seiche.hpp>` takes most of these at once.\n\n" + table(["header", "for"], rows)
+            + '<a href="cpp/index.html">Every header, class and function</a>, as their comments say it.\n')
+
+
 def main():
     program, directory = sys.argv[1], pathlib.Path(sys.argv[2])
     directory.mkdir(parents=True, exist_ok=True)
-    for page in (commands, case_file, problems, methods, backends):
+    for page in (commands, case_file, problems, methods, backends, python, cpp):
         (directory / f"{page.__name__}.md").write_text(page(program), encoding="utf-8")
 
 

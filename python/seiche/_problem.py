@@ -145,8 +145,10 @@ class Problem:
     arguments are the keys of a case file whose problem is named "custom" (`seiche new custom` prints one): fields, H or M and V, S, D,
     parameters, initial, and for a grid points, length, boundary, discretisation. They are checked by the same parser.
 
-    Parameters of a problem by parts
-    --------------------------------
+    By parts,
+
+    Parameters
+    ----------
     M : (n, n) array or scipy.sparse matrix
         Symmetric and positive semidefinite.
     S : (n, n) array or scipy.sparse matrix, optional

@@ -45,11 +45,14 @@ class Block:
 
 
 def blocks_of(text):
-    blocks, language, begin, lines, between = [], None, 0, [], 0
+    blocks, language, begin, lines, between, margin = [], None, 0, [], 0, ""
     for number, line in enumerate(text.splitlines(), 1):
-        if language is None and line.startswith("```"):
-            language, begin, lines = line[3:].strip(), number, []
-        elif language is not None and line.startswith("```"):
+        if language is None and line.lstrip(" ").startswith("```"):  # indented in a tab
+            margin = line[:line.index("`")]
+            language, begin, lines = line.strip()[3:].strip(), number, []
+            continue
+        line = line.removeprefix(margin) if language is not None else line
+        if language is not None and line.startswith("```"):
             just_before = len(blocks) - 1 if between < 4 else -1
             blocks.append(Block(language, begin, "".join(entry + "\n" for entry in lines), just_before))
             language, between = None, 0

@@ -4,6 +4,7 @@ its pictures for light and for dark ground."""
 import math
 import pathlib
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -18,6 +19,9 @@ SITE = run_blocks.SOURCE / "docs/site"
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(SITE), str(SITE / "gallery")]
 import build  # noqa: E402
+import check_site  # noqa: E402
+import hooks  # noqa: E402
+import reference  # noqa: E402
 
 
 class Pages(unittest.TestCase):
@@ -62,6 +66,11 @@ class Pages(unittest.TestCase):
         self.assertIn("is not closed", self.mistake("```sh\ntrue\n"))
         self.assertIn("No rule to make target", self.mistake("```sh\nmake papper\n```\n"))
 
+    def test_blocks_in_tabs_are_played_as_well(self):
+        tab = '=== "Shell"\n\n    ```sh\n    printf 5\n    ```\n\n    ```text\n    %d\n    ```\n'
+        self.play(tab % 5)
+        self.assertIn("5", self.mistake(tab % 6))
+
     def test_python_goes_on_with_the_blocks_above_and_is_left_out_without_the_package(self):
         page = "```python\nx = 1\nprint('first')\n```\n\n```python\nprint('x is', x)\n```\n\n```text\nx is {}\n```\n"
         self.assertEqual(self.play(page.format(2)), 0)
@@ -90,7 +99,7 @@ class Pages(unittest.TestCase):
         site = run_blocks.SOURCE / "docs/site"
         navigation = (run_blocks.SOURCE / "docs/mkdocs.yml").read_text(encoding="utf-8")
         for page in site.rglob("*.md"):
-            self.assertIn(f": {page.relative_to(site)}\n", navigation)
+            self.assertRegex(navigation, rf"[-:] {re.escape(str(page.relative_to(site)))}\n")
             if page.parent.name == "gallery" and page.stem != "index":
                 text = page.read_text(encoding="utf-8")
                 self.assertIn(f"<!-- file: cases/{page.stem}.toml -->", text)
@@ -100,6 +109,39 @@ class Pages(unittest.TestCase):
         decisions = run_blocks.SOURCE / "docs/decisions"
         index = (decisions / "README.md").read_text(encoding="utf-8")
         self.assertEqual(re.findall(r"\]\((\d{4}-[a-z-]+\.md)\)", index), sorted(page.name for page in decisions.glob("0*.md")))
+
+
+class Site(unittest.TestCase):
+    def site(self, pages):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        for name, text in pages.items():
+            (pathlib.Path(directory.name) / name).write_text(text, encoding="utf-8")
+        return pathlib.Path(directory.name)
+
+    def test_a_link_to_nowhere_and_one_to_no_place_are_found(self):
+        site = self.site({"a.html": '<a href="b.html">x</a><a href="b.html#there">x</a><a href="#here">x</a><p id="here">'
+                                    '<a href="https://example.org/no">x</a><img src="none.png"><a href="b.html#no">x</a>',
+                          "b.html": '<p id="there"><a href="c.html">x</a>'})
+        self.assertEqual(sorted(check_site.dead_links(site)),
+                         ["a.html: b.html#no has no such place", "a.html: none.png leads nowhere", "b.html: c.html leads nowhere"])
+
+    def test_formulas_become_mathml_and_those_that_are_none_end_the_build(self):
+        if shutil.which("node") is None or not pathlib.Path("/usr/share/nodejs/katex").exists():
+            self.skipTest("KaTeX is not installed")
+        page = types.SimpleNamespace(file=types.SimpleNamespace(src_path="page.md"))
+        text = '<p>a <span class="arithmatex">\\(x &lt; \\tfrac12\\)</span>, <code>$y$</code></p>'
+        made = hooks.on_page_content(text, page, None, None)
+        self.assertIn("<mfrac>", made)
+        self.assertIn("<code>$y$</code>", made)
+        self.assertNotIn("annotation", made)
+        with self.assertRaisesRegex(SystemExit, "page.md.*frac"):
+            hooks.on_page_content('<span class="arithmatex">\\(\\frac\\)</span>', page, None, None)
+
+    def test_equations_of_the_program_become_tex(self):
+        self.assertEqual(reference.tex("u_tt − βu_xxt + ∂_x(σu^{k+1}) = 0, periodic"),
+                         r"u_{tt} − βu_{xxt} + ∂_x(σu^{k+1}) = 0, \text{ periodic }")
+        self.assertEqual(reference.tex("ż = q̈ + α sin u"), r"\dot z = \ddot q + α \sin u")
 
 
 class Grounds(unittest.TestCase):
@@ -116,14 +158,8 @@ class Grounds(unittest.TestCase):
             (pages / "drawn/x_dark.png").touch()
             build.switch_pictures(pages)
             self.assertEqual(page.read_text(encoding="utf-8"),
-                             'before <picture><source media="(prefers-color-scheme: dark)" srcset="drawn/x_dark.png">'
-                             '<img src="drawn/x.png" alt="a &quot;b&quot; &amp; c"></picture> after\n')
-
-    def test_the_style_sheet_has_the_same_names_of_colours_on_both_grounds(self):
-        style = (SITE / "style.css").read_text(encoding="utf-8")
-        light, dark = (set(re.findall(r"(--[a-z-]+):", block)) for block in re.findall(r":root \{(.*?)\}", style, re.S))
-        self.assertEqual(light, dark)
-        self.assertEqual(light, set(re.findall(r"var\((--[a-z-]+)\)", style)))
+                             'before <img class="on-light" src="drawn/x.png" alt="a &quot;b&quot; &amp; c" loading="lazy">'
+                             '<img class="on-dark" src="drawn/x_dark.png" alt="a &quot;b&quot; &amp; c" loading="lazy"> after\n')
 
     def test_pictures_of_the_gallery_are_drawn_for_both_grounds(self):
         try:
