@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace seiche {
@@ -20,6 +21,16 @@ double terms_of_power(double m, double n) {
   constexpr double enough = 1e12;
   for (double k = 1; k <= n && m > 1 && terms < enough; ++k) terms *= (m - 1 + k) / k;
   return terms;
+}
+
+// The n of aᵇ = aⁿaᶜ where b is a sum that is not a number: then aⁿ is multiplied out.
+double whole_part(const Expression& exponent) {
+  if (most_terms_multiplied_out(exponent) > most_terms) return std::numeric_limits<double>::infinity();
+  double n = 0;
+  const Expression sum = exponent.expand();
+  for (std::size_t i = 0; GiNaC::is_a<GiNaC::add>(sum) && i < sum.nops(); ++i)
+    if (GiNaC::is_a<GiNaC::numeric>(sum.op(i))) n = std::abs(GiNaC::ex_to<GiNaC::numeric>(sum.op(i)).to_double());
+  return n;
 }
 
 // At most so many terms stand above and below the line of a common denominator.
@@ -45,6 +56,11 @@ Terms terms_of_quotient(const Expression& expression) {
     const double n = GiNaC::ex_to<GiNaC::numeric>(expression.op(1)).to_double();
     terms = {terms_of_power(base.above, std::abs(n)), terms_of_power(base.below, std::abs(n))};
     if (n < 0) std::swap(terms.above, terms.below);
+  } else if (GiNaC::is_a<GiNaC::power>(expression) && !GiNaC::is_a<GiNaC::numeric>(expression.op(1))) {
+    const double n = whole_part(expression.op(1));
+    const Terms base = terms_of_quotient(expression.op(0));
+    terms = {terms_of_power(base.above, n), terms_of_power(base.below, n)};
+    terms.above = std::max({terms.above, base.above, most_terms_multiplied_out(expression.op(1))});
   } else {
     for (const Expression& argument : expression)
       terms.above = std::max(terms.above, most_terms_multiplied_out(argument));
