@@ -80,7 +80,7 @@ struct RunReport {
   std::string remark_on_replaced() const;
   // More than one step in ten was replaced, or one by next to nothing: what has come out is no solution of the
   // equation.
-  bool lacks_solution() const { return replaced.lost_state || 10 * replaced.count > steps; }
+  bool lacks_solution() const { return replaced.lost_state || replaced.count > steps / 10; }
   void judge_replaced();                  // puts that remark into `message`; a run that lacks a solution has failed
   std::string remark_on_widened() const;  // where the energy interval was widened beyond its doubt; or ""
   std::string remark_on_halved() const;   // what it does not resolve of the rest; or ""

@@ -17,9 +17,11 @@ double bits_of_number(const Expression& number) {
 
 // C(n + m − 1, n): so many terms the n-th power of m terms has, or no fewer than 10¹².
 double terms_of_power(double m, double n) {
-  double terms = 1;
+  if (m <= 1 || n == 0) return 1;
   constexpr double enough = 1e12;
-  for (double k = 1; k <= n && m > 1 && terms < enough; ++k) terms *= (m - 1 + k) / k;
+  const double few = std::min(m - 1, n), many = std::max(m - 1, n);
+  double terms = 1;
+  for (double k = 1; k <= few && terms < enough; ++k) terms *= (many + k) / k;
   return terms;
 }
 

@@ -12,6 +12,8 @@
 #include <seiche/study/audit/audit.hpp>
 #include <seiche/study/recorded_energies.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <fstream>
 #include <span>
@@ -103,6 +105,25 @@ TEST_F(AuditOfRows, FindTheirColumnsByName) {
   rewrite_columns({"t", "H_modified"});
   EXPECT_THAT(error_of([&] { largest_increases(directory / "out", spec); }),
               testing::HasSubstr("no column H: its columns are t, H_modified"));
+}
+
+TEST_F(AuditOfRows, AreContradictedByASummaryThatIsDamaged) {
+  run("name = \"seisav\"\nh = \"1/64\"", "energy_every = 16\n");
+  const std::filesystem::path file = directory / "out/summary.json";
+  std::ifstream in(file);
+  const nlohmann::json whole = nlohmann::json::parse(in);
+  for (const char* key : {"initial", "final", "max_increase", "law"}) {
+    nlohmann::json damaged = whole;
+    damaged["energy"].erase(key);
+    std::ofstream(file) << damaged;
+    EXPECT_THAT(contradicted(), testing::Not(testing::IsEmpty())) << key;
+  }
+  for (const char* energy : {"[]", "5", "null", "{\"law\": 7}"}) {
+    nlohmann::json damaged = whole;
+    damaged["energy"] = nlohmann::json::parse(energy);
+    std::ofstream(file) << damaged;
+    EXPECT_THAT(contradicted(), testing::Not(testing::IsEmpty())) << energy;
+  }
 }
 
 }  // namespace TEST_FILE

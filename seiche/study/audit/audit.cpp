@@ -97,7 +97,7 @@ class Auditor {
         differences.push_back(
             fmt::format("{} = {:.17g} in case.toml and {:.17g} in summary.json", key, of_case, number(key)));
     };
-    const std::string method = summary_["method"].is_string() ? summary_["method"].get<std::string>() : "";
+    const std::string method = text("/method");
     if (method != spec_.method)
       differences.push_back(fmt::format("method = {} in case.toml and {} in summary.json", spec_.method, method));
     if (spec_.tolerance) {
@@ -249,11 +249,23 @@ class Auditor {
   }
 
   void summary() {
-    const Json& energy = summary_["energy"];
-    const auto number = [](const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); };
-    book_.compare("energy.initial of summary.json is the first H", H_.front(), number(energy["initial"]), 0);
-    book_.compare("energy.final of summary.json is the last H", H_.back(), number(energy["final"]), 0);
-    largest_rise(number(energy["max_increase"]));
+    const auto number = [this](const char* path) {
+      const Json value = in_summary(path);
+      return value.is_number() ? value.get<double>() : std::nan("");
+    };
+    book_.compare("energy.initial of summary.json is the first H", H_.front(), number("/energy/initial"), 0);
+    book_.compare("energy.final of summary.json is the last H", H_.back(), number("/energy/final"), 0);
+    largest_rise(number("/energy/max_increase"));
+  }
+
+  // Of summary.json, which may be damaged; null, or "", where there is no such thing.
+  Json in_summary(const char* path) const {
+    const Json::json_pointer place(path);
+    return summary_.contains(place) ? summary_.at(place) : Json();
+  }
+  std::string text(const char* path) const {
+    const Json value = in_summary(path);
+    return value.is_string() ? value.get<std::string>() : "";
   }
 
   // Between two rows of a file no step rises by more than the largest rise of a step.
@@ -273,7 +285,7 @@ class Auditor {
   // The energy that the law is about, with the tolerance of a run: 50ε of its terms for every step between two rows.
   void law() {
     const bool modified = find_method(spec_.method).kept_energy == "H_modified";
-    const std::string verdict = summary_["energy"]["law"];
+    const std::string verdict = text("/energy/law");
     const std::string claim = fmt::format("the law of {} {}", modified ? "the modified energy" : "H", verdict);
     if (modified && !energy_.has("H_modified"))
       return book_.add(claim, Verdict::contradicted,
