@@ -167,6 +167,7 @@ PYTHON_PARTS = {"State an equation": ["problem", "load", "Problem", "Case"],
                 "Many at once": ["solve_ensemble", "EnsembleResult"],
                 "Runs that leave files": ["run", "resume", "CaseRun"],
                 "Judge": ["check", "spectrum", "converge"],
+                "Measure": ["fit", "FitResult"],
                 "Pictures": ["plot"]}
 LISTS = ["methods", "problems", "backends"]  # compiled: what their docstrings say is said here
 

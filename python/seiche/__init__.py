@@ -9,7 +9,7 @@ energy law of the equation holds at every step, for any step size::
     result.y.shape, result.energy[-1], result.law
 
 `problem`, `load` and `Problem` state equations, `solve` and `solve_ensemble` integrate them, `run` leaves files as the program does, `check`, `spectrum` and
-`converge` judge them, `methods()`, `problems()` and `backends()` list what there is, and `seiche.plot` draws.
+`converge` judge them, `fit` finds their parameters from measurements, `methods()`, `problems()` and `backends()` list what there is, and `seiche.plot` draws.
 States are z = (field 0 at all points, field 1 at all points, …); units are those of the equation.
 """
 
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from ._core import __version__, backends, methods, problems
 from ._ensemble import EnsembleResult, solve_ensemble
+from ._fit import FitResult, fit
 from ._problem import Case, Problem, load, problem
 from ._result import DenseOutput, Result, SeicheWarning, Status
 from ._run import CaseRun, resume, run
@@ -31,6 +32,7 @@ __all__ = [
     "CaseRun",
     "DenseOutput",
     "EnsembleResult",
+    "FitResult",
     "Problem",
     "Result",
     "SeicheWarning",
@@ -39,6 +41,7 @@ __all__ = [
     "backends",
     "check",
     "converge",
+    "fit",
     "load",
     "methods",
     "plot",

@@ -1,0 +1,189 @@
+"""Parameters from measurements: found, with standard deviations that are true, and refused where data say nothing."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import seiche
+
+pytest.importorskip("scipy")
+
+
+def oscillator(gamma=0.1, k=1.0, q=1.0):
+    return seiche.Problem(
+        fields=["q", "p"],
+        H="p^2/2 + k*q^2/2",
+        parameters={"k": k, "gamma": gamma},
+        D={"p": "gamma"},
+        initial={"q": q, "p": 0},
+    )
+
+
+def exact(t, gamma=0.1, k=1.0, q=1.0):
+    w = np.sqrt(k - gamma**2 / 4)
+    return q * np.exp(-gamma * t / 2) * (np.cos(w * t) + gamma / (2 * w) * np.sin(w * t))
+
+
+T = np.linspace(0.2, 20, 100)
+
+
+def noise(seed, size=T.size, sigma=0.02):
+    return sigma * np.random.default_rng(seed).standard_normal(size)
+
+
+def test_exact_data_give_the_parameters_back():
+    found = seiche.fit(
+        oscillator(0.3, 0.8, 0.9), T, exact(T), {"gamma": (0.3, 0, 1), "k": (0.8, 0.1, 3), "initial.q": 0.9}, sigma=1e-6
+    )
+    assert found.success
+    for name, value in {"gamma": 0.1, "k": 1.0, "initial.q": 1.0}.items():
+        assert found.parameters[name] == pytest.approx(value, abs=1e-6)
+    assert "gamma" in repr(found) and "±" in repr(found)
+
+
+def test_standard_deviations_are_those_of_many_repetitions():
+    pulls, chi2 = [], []
+    for seed in range(40):
+        found = seiche.fit(
+            oscillator(0.12, 0.9), T, exact(T) + noise(seed), {"gamma": (0.12, 0, 1), "k": 0.9}, sigma=0.02
+        )
+        pulls.append(
+            [(found.parameters["gamma"] - 0.1) / found.std["gamma"], (found.parameters["k"] - 1) / found.std["k"]]
+        )
+        chi2.append(found.chi2)
+    pulls = np.array(pulls)
+    # Of 40 draws of N(0, 1) the mean is within 4/√40 of 0 and Σ² within [15, 80], but for one in some ten thousand.
+    assert (np.abs(pulls.mean(axis=0)) < 4 / np.sqrt(40)).all()
+    assert ((15 < (pulls**2).sum(axis=0)) & ((pulls**2).sum(axis=0) < 80)).all()
+    assert found.dof == 98 and abs(np.mean(chi2) - 98) < 4 * np.sqrt(2 * 98 / 40)
+
+
+def test_sigma_is_estimated_where_it_is_not_given():
+    given, estimated = (
+        seiche.fit(oscillator(0.2), T, exact(T) + noise(3), {"gamma": (0.2, 0, 1)}, sigma=sigma)
+        for sigma in (0.02, None)
+    )
+    assert estimated.sigma[0][0] == pytest.approx(0.02, rel=0.25)
+    assert estimated.p_value is None and 0 < given.p_value < 1
+    assert estimated.parameters["gamma"] == pytest.approx(given.parameters["gamma"], abs=1e-6)
+    assert estimated.std["gamma"] == pytest.approx(given.std["gamma"] * estimated.sigma[0][0] / 0.02, rel=1e-3)
+
+
+def test_several_records_share_parameters_and_keep_their_own():
+    t = [T, T[:60]]
+    data = [exact(T, q=1.0) + noise(1), exact(T[:60], q=2.0) + noise(2, 60)]
+    found = seiche.fit(
+        oscillator(0.2, q=1.5), t, data, {"gamma": (0.2, 0, 1), "initial.q[0]": 1.5, "initial.q[1]": 1.5}, sigma=0.02
+    )
+    assert found.parameters["initial.q[0]"] == pytest.approx(1.0, abs=5 * found.std["initial.q[0]"])
+    assert found.parameters["initial.q[1]"] == pytest.approx(2.0, abs=5 * found.std["initial.q[1]"])
+    assert [r.shape for r in found.residuals] == [(100,), (60,)]
+    assert len(found.results) == 2
+
+
+def test_a_function_observes_what_was_measured():
+    problem = oscillator(0.3)
+    fine = seiche.solve(oscillator(0.1), 20.0, method="egc8", tolerance=1e-12, t_eval=T)
+    data = np.array([fine.y[0] ** 2, fine.y[1]])
+    found = seiche.fit(problem, T, data, {"gamma": (0.3, 0, 1)}, lambda t, y: [y[0] ** 2, y[1]], sigma=1e-5)
+    assert found.parameters["gamma"] == pytest.approx(0.1, abs=1e-6)
+    assert found.residuals[0].shape == (2, 100)
+    found = seiche.fit(problem, T, fine.y[1], {"gamma": (0.3, 0, 1)}, "p", sigma=1e-5)
+    assert found.parameters["gamma"] == pytest.approx(0.1, abs=1e-6)
+
+
+def test_a_field_on_a_grid_and_a_parameter_of_a_case_file(tmp_path):
+    text = (
+        '[problem]\nname = "klein_gordon"\npoints = 16\nalpha = 1.0\ngamma = 0.3\n'
+        'initial = { u = "exp(-4*(x-1)^2)", v = "0" }\n[time]\nend = 4.0\n'
+    )
+    (tmp_path / "case.toml").write_text(text)
+    case = seiche.load(tmp_path / "case.toml")
+    t = np.linspace(0.5, 4, 8)
+    true = seiche.solve(seiche.load(tmp_path / "case.toml", **{"problem.gamma": 0.1}), method="egc6", h=0.01, t_eval=t)
+    found = seiche.fit(case, t, true.field("u").reshape(8, 16).T, {"gamma": (0.3, 0, 1)}, sigma=1e-5)
+    assert found.parameters["gamma"] == pytest.approx(0.1, abs=1e-5)
+
+
+def test_what_the_data_cannot_tell_is_said():
+    stated = seiche.Problem(
+        fields=["q", "p"], H="p^2/2 + q^2/2", parameters={"a": 0.1, "b": 0.1, "c": 1.0}, D={"p": "a + b"},
+        initial={"q": 1, "p": 0},
+    )  # fmt: skip
+    with pytest.warns(seiche.SeicheWarning):
+        found = seiche.fit(stated, T, exact(T) + noise(1), {"a": 0.1, "b": 0.1}, sigma=0.02)
+    assert "do not tell a and b apart" in found.message or "hardly tell" in found.message
+    assert found.parameters["a"] + found.parameters["b"] == pytest.approx(0.1, abs=0.02)
+    with pytest.warns(seiche.SeicheWarning, match="do not depend on initial.p"):
+        seiche.fit(oscillator(), T, T * 0 + 1, {"initial.p": 0.0}, observe=lambda t, y: 0 * y[0] + 1, sigma=1.0)
+
+
+def test_a_bound_that_was_reached_and_a_model_that_does_not_fit_are_said():
+    with pytest.warns(seiche.SeicheWarning) as said:
+        found = seiche.fit(oscillator(0.3), T, exact(T) + noise(1), {"gamma": (0.3, 0.2, 1)}, sigma=0.02)
+    assert found.parameters["gamma"] == pytest.approx(0.2, abs=1e-6)
+    assert "gamma ended at its bound 0.2" in found.message and "the model does not fit" in found.message
+    assert len(said) == 2
+    with pytest.warns(seiche.SeicheWarning, match="residuals are no noise"):
+        seiche.fit(oscillator(0.3), T, exact(T, k=1.1) + noise(1), {"gamma": (0.3, 0, 1)})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        seiche.fit(oscillator(0.3), T, exact(T) + noise(1), {"gamma": (0.3, 0, 1)})
+
+
+def test_steps_are_short_enough_for_the_noise():
+    coarse = seiche.fit(oscillator(0.2), T, exact(T) + noise(1), {"gamma": (0.2, 0, 1)}, sigma=0.02)
+    fine = seiche.fit(oscillator(0.2), T, exact(T) + noise(1), {"gamma": (0.2, 0, 1)}, sigma=0.02, h=0.01)
+    assert abs(coarse.parameters["gamma"] - fine.parameters["gamma"]) < 0.2 * fine.std["gamma"]
+    assert coarse.h > 0.05
+
+
+def test_a_picture_has_data_fit_and_band():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    found = seiche.fit(oscillator(0.2), T, exact(T) + noise(1), {"gamma": (0.2, 0, 1)}, sigma=0.02)
+    axes = found.plot()
+    measured, fitted = axes.get_lines()
+    assert np.allclose(fitted.get_ydata(), exact(T), atol=0.02)
+    assert np.allclose(measured.get_ydata() - fitted.get_ydata(), found.residuals[0])
+    assert len(axes.collections) == 1
+
+
+BAD = [
+    ((T, exact(T)), {}, "parameters must name"),
+    ((T, exact(T)), {"gamma": (0.1, 0)}, "must be a first guess, or"),
+    ((T, exact(T)), {"gamma": (2, 0, 1)}, "least ≤ guess ≤ most"),
+    ((T, exact(T)), {"gama": 0.1}, "did you mean 'gamma'"),
+    ((T, exact(T)), {"gamma[1]": 0.1}, "is of record 1, and there are 1"),
+    ((T, exact(T)[:-1]), {"gamma": 0.1}, "its last axis must have the 100 times"),
+    ((T[::-1], exact(T)), {"gamma": 0.1}, "t must ascend: t[1] = "),
+    ((T - 1, exact(T)), {"gamma": 0.1}, "before the run, which begins at 0"),
+    ((T, np.where(T > 19.9, np.nan, 1)), {"gamma": 0.1}, "data[99] is nan; leave out"),
+    ((T[:2], exact(T)[:2]), {"gamma": 0.1, "k": 1.0}, "2 measurements cannot determine 2 parameters"),
+    (([T, T], [exact(T)]), {"gamma": 0.1}, "data must be a list of as many"),
+    ((T, 0 * T), {"gamma": 0.1}, "data are all zero"),
+]
+
+
+@pytest.mark.parametrize("data, parameters, sentence", BAD, ids=lambda value: value if isinstance(value, str) else "")
+def test_bad_data_get_one_sentence(data, parameters, sentence):
+    with pytest.raises(ValueError) as refused:
+        seiche.fit(oscillator(), *data, parameters)
+    assert sentence in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_other_arguments_get_one_sentence():
+    for arguments, sentence in [
+        ({"observe": "x"}, "observe = 'x' is no field; custom has q, p"),
+        ({"sigma": 0.0}, "sigma must be finite and > 0"),
+        ({"observe": lambda t, y: y}, "observe returns the shape (2, 100); data have (1, 100)"),
+        ({"tolerance": 1e-6}, "fit chooses tolerance itself"),
+    ]:
+        with pytest.raises(ValueError) as refused:
+            seiche.fit(oscillator(), T, exact(T), {"gamma": 0.1}, **arguments)
+        assert sentence in str(refused.value)
+    parts = seiche.Problem(M=np.eye(2), z0=[1, 0])
+    with pytest.raises(ValueError, match="by formulas, or by its name"):
+        seiche.fit(parts, T, exact(T), {"gamma": 0.1})
