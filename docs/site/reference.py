@@ -164,6 +164,7 @@ PYTHON = ("# Python\n\n`import seiche`, after `make python` or `pip install .`. 
           "z = (field 0 at all points, field 1 at all points, …). [From Python](../tutorials/python.md) shows how these are used.\n\n")
 PYTHON_PARTS = {"State an equation": ["problem", "load", "Problem", "Case"],
                 "Solve it": ["solve", "Result", "DenseOutput", "Status", "SeicheWarning"],
+                "Step by step": ["Simulation", "StepError"],
                 "Many at once": ["solve_ensemble", "EnsembleResult"],
                 "Runs that leave files": ["run", "resume", "CaseRun"],
                 "Judge": ["check", "spectrum", "converge"],

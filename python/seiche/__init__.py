@@ -8,7 +8,7 @@ energy law of the equation holds at every step, for any step size::
     result = seiche.solve(wave, 50.0, method="seisav", h="1/64")
     result.y.shape, result.energy[-1], result.law
 
-`problem`, `load` and `Problem` state equations, `solve` and `solve_ensemble` integrate them, `run` leaves files as the program does, `check`, `spectrum` and
+`problem`, `load` and `Problem` state equations, `solve` and `solve_ensemble` integrate them, `Simulation` steps, `run` leaves files as the program does, `check`, `spectrum` and
 `converge` judge them, `fit` finds their parameters from measurements, `methods()`, `problems()` and `backends()` list what there is, and `seiche.plot` draws.
 States are z = (field 0 at all points, field 1 at all points, …); units are those of the equation.
 """
@@ -21,6 +21,7 @@ from ._fit import FitResult, fit
 from ._problem import Case, Problem, load, problem
 from ._result import DenseOutput, Result, SeicheWarning, Status
 from ._run import CaseRun, resume, run
+from ._simulation import Simulation, StepError
 from ._solve import solve
 from ._studies import check, converge, spectrum
 
@@ -36,7 +37,9 @@ __all__ = [
     "Problem",
     "Result",
     "SeicheWarning",
+    "Simulation",
     "Status",
+    "StepError",
     "__version__",
     "backends",
     "check",

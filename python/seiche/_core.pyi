@@ -68,6 +68,19 @@ class Solution:
     def report_json(self) -> str: ...
     def certificate_json(self) -> str: ...
 
+class Simulation:
+    t: float
+    steps: int
+    y: np.ndarray
+    H: float
+    modified: float
+    method: str
+    backend: str
+    replaced: int
+    def __init__(self, problem: Problem, case: Case, z0: np.ndarray | None, t: float, threads: int) -> None: ...
+    def step(self, h: float, count: int) -> str: ...
+    def set_state(self, y: np.ndarray, t: float) -> None: ...
+
 class Ensemble:
     t: np.ndarray
     running: np.ndarray

@@ -20,6 +20,7 @@ void bind_solve(py::module_& module);
 void bind_ensembles(py::module_& module);
 void bind_runs(py::module_& module);
 void bind_studies(py::module_& module);
+void bind_simulations(py::module_& module);
 void bind_lists(py::module_& module);
 
 // Numbers that `owner` keeps alive, without a copy; strides in numbers, none for C order.

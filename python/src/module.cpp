@@ -51,5 +51,6 @@ PYBIND11_MODULE(_core, module) {
   seiche::python::bind_ensembles(module);
   seiche::python::bind_runs(module);
   seiche::python::bind_studies(module);
+  seiche::python::bind_simulations(module);
   seiche::python::bind_lists(module);
 }
