@@ -177,14 +177,14 @@ def python(_):
     """Of the docstrings in python/seiche. Ends the build where a public name is on no part of the page."""
     tree = ast.parse((SOURCE / "python/seiche/__init__.py").read_text(encoding="utf-8"))
     public = next(ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign))
-    shown = [name for names in PYTHON_PARTS.values() for name in names] + LISTS + ["__version__"]
+    shown = [name for names in PYTHON_PARTS.values() for name in names] + LISTS + ["__version__", "__citation__"]
     if set(shown) != set(public):
         sys.exit(f"reference.py: {set(shown) ^ set(public)} is public and not on the page, or the other way round")
     text = PYTHON
     for title, names in PYTHON_PARTS.items():
         text += f"## {title}\n\n" + "".join(f"::: seiche.{name}\n\n" for name in names)
     return text + ("## Lists\n\n`seiche.methods()`, `seiche.problems()` and `seiche.backends()` return what `seiche list … --json` "
-                   "prints, as lists of dictionaries; `seiche.__version__` is a string.\n")
+                   "prints, as lists of dictionaries; `seiche.__version__` is a string, and `seiche.__citation__` what to cite, in BibTeX.\n")
 
 
 HEADERS = {"simulation/solve.hpp": "a whole run, with events and dense output: start here", "simulation/simulation.hpp": "steps of your own",

@@ -15,7 +15,7 @@ States are z = (field 0 at all points, field 1 at all points, …); units are th
 
 from typing import TYPE_CHECKING
 
-from ._core import __version__, backends, methods, problems
+from ._core import __citation__, __version__, backends, methods, problems
 from ._ensemble import EnsembleResult, solve_ensemble
 from ._fit import FitResult, fit
 from ._problem import Case, Problem, load, problem
@@ -40,6 +40,7 @@ __all__ = [
     "Simulation",
     "Status",
     "StepError",
+    "__citation__",
     "__version__",
     "backends",
     "check",

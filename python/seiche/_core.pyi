@@ -5,6 +5,7 @@ from typing import Any, Callable, Sequence
 import numpy as np
 
 __version__: str
+__citation__: str
 
 class Problem:
     @property

@@ -104,6 +104,15 @@ class Answer(dict):
         return "\n".join(f"{key:>{width}}: {shown(value)}" for key, value in self.items())
 
 
+    def _repr_html_(self) -> str:
+        """The same as a table, for notebooks."""
+        import html
+
+        rows = (line.partition(": ")[::2] for line in repr(self).replace("\n" + " " * (max(map(len, self), default=0) + 2), " ").splitlines())
+        cells = "".join(f"<tr><th>{key.strip()}</th><td style='text-align:left'>{html.escape(value)}</td></tr>" for key, value in rows)
+        return f"<table>{cells}</table>"
+
+
 def field_of(states: np.ndarray, problem: "Problem", name: str) -> np.ndarray:
     """One field of states, (count, size), on the grid: of shape (count, points along each axis); a view."""
     names = problem.fields

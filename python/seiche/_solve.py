@@ -44,6 +44,15 @@ def _event(function: Callable) -> tuple:
     )
 
 
+def _of_scipy(theirs: str, ours: str, value: Any, options: dict[str, Any]) -> Any:
+    """What was given under our name or SciPy's, which `options` then has no more."""
+    if theirs not in options:
+        return value
+    if value is not None:
+        raise ValueError(f"{ours} and {theirs} are one argument: give one of them")
+    return options.pop(theirs)
+
+
 def solve(
     problem: Problem | Case | str,
     t_span: float | Sequence[float] | None = None,
@@ -75,7 +84,7 @@ def solve(
     t_span : float or (float, float)
         The end of the run, or start and end; by default that of the case, or of the problem's example.
     z0 : (size,) array
-        The state at the start, of any shape with so many numbers; by default that of the problem.
+        The state at the start, of any shape with so many numbers; by default that of the problem. Also as ``y0``.
     method : str
         One of `seiche.methods()`, or "auto"; by default "seisav", or that of the case.
     h : float or str
@@ -85,7 +94,7 @@ def solve(
         Instead of h: steps of variable size, which add an error of at most about this size per unit of time (max norm). Where damping
         lets errors fade this is about the error at the end; without damping they add up.
     h_max : float
-        With a tolerance: no step is longer.
+        With a tolerance: no step is longer. Also as ``max_step``.
     t_eval : (times,) array
         The times to record, ascending. They shorten no step but, with a tolerance, perhaps the first. By default all steps.
         A run that ends early also records where it did, whatever was asked for.
@@ -125,6 +134,7 @@ def solve(
     SeicheWarning
         Where steps were replaced, or H went where no solution takes it. ``message`` says so too.
     """
+    z0, h_max = _of_scipy("y0", "z0", z0, options), _of_scipy("max_step", "h_max", h_max, options)
     refuse_other_names(options)
     given = as_problem(problem) if isinstance(problem, str) else problem
     if isinstance(given, Case) and given._core.is_ensemble:

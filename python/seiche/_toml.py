@@ -5,13 +5,25 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 from typing import Any, Mapping
 
 import numpy as np
 
 
+# SymPy's names of what formulas have.
+_OF_SYMPY = {"Abs": "abs", "Max": "max", "Min": "min", "Heaviside": "step", "E": "exp(1)", "**": "^"}
+
+
+def formula_of(expression: Any) -> str:
+    """A SymPy expression as a formula of case files."""
+    return re.sub(r"\b(?:Abs|Max|Min|Heaviside|E)\b|\*\*", lambda name: _OF_SYMPY[name[0]], str(expression))
+
+
 def toml(value: Any) -> str:
-    """The value as TOML: numbers, texts, paths, lists and dictionaries of them."""
+    """The value as TOML: numbers, texts, paths, expressions of SymPy, lists and dictionaries of them."""
+    if hasattr(value, "free_symbols"):
+        return json.dumps(formula_of(value))
     if isinstance(value, (np.generic, np.ndarray)):
         value = value.tolist()
     if isinstance(value, bool):

@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <seiche/figure/style.hpp>
 #include <seiche/method/methods.hpp>
+#include <seiche/output/citation.hpp>
 #include <seiche/study/lists.hpp>
 
 #include <map>
@@ -30,6 +31,7 @@ std::map<std::string, Style> method_styles() {
 }  // namespace
 
 void bind_lists(py::module_& module) {
+  module.attr("__citation__") = citation();
   module.def(
       "methods", [] { return parsed(methods_json()); },
       "Every method: name, closure, propagator, composition, order, the energy that never grows, projection, reference.");

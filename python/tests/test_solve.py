@@ -256,3 +256,15 @@ def test_what_there_is():
     assert {"dense", "modal", "sparse"} <= {b["name"] for b in seiche.backends()}
     law = seiche.check("klein_gordon", t_end=10.0, method="seisav")["law"]
     assert law["promised"]
+
+
+def test_names_of_scipy_are_taken():
+    ours = seiche.solve("oscillator", 2.0, [0.5, 0.1], tolerance=1e-6, h_max=0.05)
+    theirs = seiche.solve("oscillator", 2.0, y0=[0.5, 0.1], tolerance=1e-6, max_step=0.05)
+    assert np.array_equal(ours.y, theirs.y) and ours.steps >= 40
+
+
+def test_a_result_is_a_table_in_notebooks():
+    shown = seiche.solve("oscillator", 1.0)._repr_html_()
+    assert shown.startswith("<table><tr><th>t</th>") and "array of shape" in shown
+    assert shown.count("<tr>") == len(seiche.solve("oscillator", 1.0))

@@ -6,6 +6,7 @@
 #include <seiche/figure/report_style.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/figure/style.hpp>
+#include <seiche/output/citation.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/run_folder.hpp>
 #include <seiche/study/run_files.hpp>
@@ -176,16 +177,13 @@ std::string parameters(const RunFiles& run) {
                    rows + "</tbody></table></div>\n";
 }
 
-std::string citation(const RunFiles& run) {
-  const std::string number = version(run, "seiche");
-  const std::string year = run.finished.substr(0, 4);
+std::string to_cite(const RunFiles& run) {
+  const std::string year = run.finished.substr(0, run.finished.find('-'));
   return fmt::format(
       "<h2 id=\"cite\">To cite</h2>\n<p>The program, the method ({}) and the equation ({}). Figures of the width of a "
-      "column, as PDF without a title: <code>seiche plot --journal DIR</code>.</p>\n<pre><code>@software{{seiche,\n"
-      "  title   = {{Seiche: energy-stable integrators for damped Hamiltonian systems}},\n  author  = {{{{The Seiche "
-      "authors}}}},\n  version = {{{}}},\n  year    = {{{}}},\n  note    = {{commit {}}}\n}}</code></pre>\n",
-      html_text(run.method_reference), html_text(run.reference), html_escaped(number), html_escaped(year),
-      html_escaped(version(run, "git")));
+      "column, as PDF without a title: <code>seiche plot --journal DIR</code>.</p>\n<pre><code>{}</code></pre>\n",
+      html_text(run.method_reference), html_text(run.reference),
+      html_escaped(software_citation(version(run, "seiche"), version(run, "git"), year)));
 }
 
 std::string table_row(const std::string& name, const std::string& value) {
@@ -224,7 +222,7 @@ void write_run_report(const RunFiles& run, const EnergyHistory& history, const R
   file.write(certificate(run));
   file.write(parameters(run));
   file.write(origin(run));
-  file.write(citation(run));
+  file.write(to_cite(run));
   file.write("</main>\n</body>\n</html>\n");
   file.commit();
 }
