@@ -32,6 +32,27 @@ foreach(command IN ITEMS "${consumer}" "${program};--version")
   endif()
 endforeach()
 
+# What bash completes, as a user who types a tab sees it.
+find_program(bash bash REQUIRED)
+foreach(typed IN ITEMS "seiche re;recover resume" "seiche run --thr;--threads" "seiche new kl;klein_gordon"
+    "seiche run x --set method.name=egc8;method.name=egc8")
+  list(GET typed 0 words)
+  list(GET typed 1 wanted)
+  execute_process(COMMAND "${bash}" -c "PATH='${prefix}/bin':$PATH; source '${prefix}/share/bash-completion/completions/seiche'
+    COMP_WORDS=(${words}); COMP_CWORD=$((\${#COMP_WORDS[@]} - 1)); _seiche; sort <<<\"$(printf '%s\\n' \"\${COMPREPLY[@]}\")\" | xargs"
+    OUTPUT_VARIABLE completed OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT completed STREQUAL wanted)
+    message(FATAL_ERROR "'${words}' is completed to '${completed}' and not to '${wanted}'")
+  endif()
+endforeach()
+find_program(help2man help2man)
+if(help2man)
+  file(READ "${prefix}/share/man/man1/seiche.1" manual)
+  if(NOT manual MATCHES "energy\\\\-stable integrators" OR NOT manual MATCHES "recover")
+    message(FATAL_ERROR "the manual does not say what seiche is, or not its commands")
+  endif()
+endif()
+
 # The loader takes an empty entry of a search path for the current folder.
 find_program(readelf readelf)
 if(readelf)
