@@ -103,13 +103,30 @@ bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols
   return degree <= highest_degree * std::max(used, 1) && terms <= most_terms && degree * bits <= most_bits;
 }
 
+bool has_endless_power(const Expression& expression) {
+  for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+    if (!GiNaC::is_a<GiNaC::power>(*part)) continue;
+    const Expression exponent = part->op(1);
+    if (!exponent.info(GiNaC::info_flags::rational)) return true;
+    const auto& n = GiNaC::ex_to<GiNaC::numeric>(exponent);
+    if (abs(n.numer()) > most_terms || n.denom() > most_terms) return true;
+  }
+  return false;
+}
+
+Expression at_origin(const Expression& expression, const GiNaC::exmap& origin) {
+  if (has_endless_power(expression)) return expression;
+  const Expression there = expression.subs(origin);  // of the place alone, and not always small
+  return most_terms_multiplied_out(there) > most_terms ? there : there.expand();
+}
+
 bool has_shifted_power(const Expression& expression, const GiNaC::lst& symbols) {
   GiNaC::exmap origin;
   for (const Expression& symbol : symbols) origin[symbol] = 0;
   const auto is_shifted = [&](const Expression& base) {
-    if (!GiNaC::is_a<GiNaC::add>(base) || base.subs(origin).expand().is_zero()) return false;
+    if (!GiNaC::is_a<GiNaC::add>(base) || at_origin(base, origin).is_zero()) return false;
     return std::any_of(symbols.begin(), symbols.end(), [&](const Expression& symbol) {
-      return !base.diff(GiNaC::ex_to<GiNaC::symbol>(symbol)).subs(origin).expand().is_zero();
+      return !at_origin(base.diff(GiNaC::ex_to<GiNaC::symbol>(symbol)), origin).is_zero();
     });
   };
   for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part)

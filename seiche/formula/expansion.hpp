@@ -14,6 +14,13 @@ inline constexpr double most_bits = 20'000;  // of a number whose powers still t
 double most_terms_multiplied_out(const Expression& expression);
 inline constexpr double most_terms = 2000;  // that are multiplied out in milliseconds
 
+// True where an exponent is no number, or one so large or so fine that powers of numbers, or common factors, take
+// minutes.
+bool has_endless_power(const Expression& expression);
+
+// Where these symbols are 0, multiplied out if that takes milliseconds; else the expression itself, or as it is there.
+Expression at_origin(const Expression& expression, const GiNaC::exmap& origin);
+
 // True for a polynomial in `symbols` that can be multiplied out, with all symbols `beside` them, in some
 // milliseconds.
 bool is_small_polynomial(const Expression& expression, const GiNaC::lst& symbols, const Symbols& beside);

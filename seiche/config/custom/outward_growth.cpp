@@ -66,8 +66,7 @@ class Look {
   Expression at_origin(const Expression& e) const {
     GiNaC::exmap zero;
     for (const GiNaC::realsymbol& u : fields_) zero[u] = 0;
-    const Expression there = e.subs(zero);  // of the place alone, and not always small
-    return most_terms_multiplied_out(there) > most_terms ? there : there.expand();
+    return seiche::at_origin(e, zero);
   }
 
   bool at_rest(const Expression& e) const {
@@ -164,7 +163,7 @@ class Look {
   // Σ aᵢⱼuᵢuⱼ/b with coefficients in other symbols, as the kinetic energy of a double pendulum: then u·∇ is twice it.
   // Not negative where that holds with every |aᵢⱼ| as large, and every aᵢᵢ as small, as their bounds allow.
   bool is_nonnegative_form(const Expression& e) const {
-    if (is_number(e) || most_terms_multiplied_out(e) > most_terms) return false;
+    if (is_number(e) || has_endless_power(e) || most_terms_multiplied_out(e) > most_terms) return false;
     const Expression quotient = e.normal().numer_denom();
     const std::optional<Bounds> below = bounds(quotient.op(1));
     if (!below || names_field(quotient.op(1)) || !(below->least > 0 || below->most < 0)) return false;
