@@ -1,7 +1,7 @@
 """Looks at the built site as its readers meet it: from the disk, in a browser.
 
-Every link and anchor leads somewhere. With Chromium, on a wide and a narrow screen: no page reports an error, no page is wider than
-the screen, formulas have a size, and the search finds a word.
+Every link and anchor leads somewhere, and no formula has kept its dollars. With Chromium, on a wide and a narrow
+screen: no page reports an error or is wider than the screen, formulas have a size, and the search finds a word.
 """
 import html.parser
 import pathlib
@@ -11,18 +11,27 @@ import time
 import urllib.parse
 
 WIDTHS = (1200, 390)  # px
+VERBATIM = ("code", "pre", "script", "style", "math")
 
 
 class Page(html.parser.HTMLParser):
     def __init__(self, path):
         super().__init__()
-        self.links, self.anchors = [], set()
+        self.links, self.anchors, self.dollars, self.verbatim = [], set(), [], 0
         self.feed(path.read_text(encoding="utf-8"))
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
         self.anchors |= {attributes[name] for name in ("id", "name") if attributes.get(name)}
-        self.links += [attributes[name] for name in ("href", "src") if attributes.get(name)]
+        self.links += [attributes[name] for name in ("href", "src", "poster", "data") if attributes.get(name)]
+        self.verbatim += tag in VERBATIM
+
+    def handle_endtag(self, tag):
+        self.verbatim -= tag in VERBATIM
+
+    def handle_data(self, data):
+        if "$" in data and not self.verbatim:
+            self.dollars.append(data.strip())
 
 
 def dead_links(site):
@@ -30,6 +39,7 @@ def dead_links(site):
     paths = [path for path in site.rglob("*.html") if "reference/cpp/" not in path.as_posix()]
     pages = {path: Page(path) for path in paths if path.name != "404.html"}
     for path, page in pages.items():
+        yield from (f"{path.relative_to(site)}: a dollar in the text: {text!r}" for text in page.dollars)
         for link in page.links:
             address = urllib.parse.urlsplit(link)
             if address.scheme or address.netloc:
@@ -38,9 +48,9 @@ def dead_links(site):
             if target.is_dir():
                 target /= "index.html"
             anchor = urllib.parse.unquote(address.fragment)
-            if not target.is_file():
+            if not target.is_file() or not target.is_relative_to(site.resolve()):
                 yield f"{path.relative_to(site)}: {link} leads nowhere"
-            elif anchor and target in pages and not anchor.startswith("only-") and anchor not in pages[target].anchors:
+            elif anchor and target in pages and anchor not in pages[target].anchors:
                 yield f"{path.relative_to(site)}: {link} has no such place"
 
 
@@ -66,7 +76,7 @@ def open_browser():
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    service = selenium.webdriver.chrome.service.Service("/usr/bin/chromedriver")
+    service = selenium.webdriver.chrome.service.Service(shutil.which("chromedriver"))
     browser = selenium.webdriver.Chrome(options=options, service=service)
     browser.set_page_load_timeout(120)
     return browser

@@ -12,7 +12,12 @@ const katex = require("katex");
 const formulas = JSON.parse(require("fs").readFileSync(0, "utf8"));
 const set = ([text, displayMode]) =>
   katex.renderToString(text, { displayMode, output: "mathml", strict: "ignore", trust: false });
-console.log(JSON.stringify(formulas.map(set)));
+try {
+  console.log(JSON.stringify(formulas.map(set)));
+} catch (error) {
+  console.error(error.message);
+  process.exit(1);
+}
 """
 
 
@@ -32,7 +37,7 @@ def mathml(formulas):
     made = subprocess.run(["node", "-e", KATEX], input=json.dumps(formulas), capture_output=True, text=True,
                           env={**os.environ, "NODE_PATH": "/usr/share/nodejs"})
     if made.returncode != 0:
-        raise SystemExit(next((line for line in made.stderr.splitlines() if "Error" in line), made.stderr))
+        raise SystemExit(made.stderr.strip()[-500:])
     without_source = re.compile(r"<annotation.*?</annotation>", re.DOTALL)  # the search would find it
     return [ACCENTED.sub(one_character, without_source.sub("", text)) for text in json.loads(made.stdout)]
 

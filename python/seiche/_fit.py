@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
 
 import numpy as np
 
+from ._core import methods
 from ._problem import Case, Problem, as_problem, make_problem, override, parse_keywords, real_array
 from ._result import Answer, Result, SeicheWarning
 from ._solve import solve
@@ -19,9 +20,12 @@ if TYPE_CHECKING:
 
 Observation = Callable[[np.ndarray, np.ndarray], Any]
 
-_MANY = 1e6  # standard deviations: where the run failed, far from every measurement
 _UNLIKELY = 1e-3
 _ALIKE = 0.999  # a correlation of two parameters that the data hardly tell apart
+_UNKNOWN = 1e-6  # of the largest singular value: a direction in which the data do not change
+_MOST_STEPS = 100_000  # of a run, where h is not given
+_EXACT = 1e-10  # of the size of data: no smaller error is asked for
+_NO_NUMBERS = ("name", "fields", "H", "M", "V", "S", "D", "points", "boundary", "discretisation", "dealias", "initial")
 
 
 class FitResult(Answer):
@@ -34,6 +38,7 @@ class FitResult(Answer):
     correlations : (parameters, parameters) array
         In the order of ``parameters``.
     covariance : (parameters, parameters) array
+        NaN for what the data do not tell, where std is infinite.
     residuals : list of arrays
         Measurement minus solution, of each record, in its shape.
     sigma : list of arrays
@@ -49,7 +54,7 @@ class FitResult(Answer):
     results : list of Result
         The solution with these values at the times of each record.
     h : float
-        The step size of all runs; halving it moves the solution by less than a tenth of sigma.
+        The step size of all runs. Unless ``message`` says otherwise, halving it moves no solution by more than a tenth of sigma.
     nfev : int
         Sets of parameters that were tried, without those for derivatives.
     """
@@ -104,6 +109,8 @@ class _Record:
             points = result.y.shape[0] // len(result.problem.fields)
             return result.y[self.field * points : (self.field + 1) * points]
         seen = np.atleast_2d(real_array("what observe returns", self.function(result.t, result.y)))
+        if not np.isfinite(seen).all():
+            raise ValueError("observe returns a value that is no finite number")
         if seen.shape != self.data.shape:
             raise ValueError(f"observe returns the shape {seen.shape}; data have {self.data.shape}, times last")
         return seen
@@ -177,7 +184,10 @@ def _records(problem: Any, t: Any, data: Any, observe: Any, sigma: Any) -> list[
             raise ValueError(f"{name} has {len(value)} entries for {count} records")
         return list(value)
 
-    parts = zip(of_each("problem", problem), t, data, of_each("observe", observe), of_each("sigma", sigma))
+    spreads = of_each("sigma", sigma)
+    if 0 < sum(one is None for one in spreads) < count:
+        raise ValueError("sigma must be given for all records, or for none")
+    parts = zip(of_each("problem", problem), t, data, of_each("observe", observe), spreads)
     return [_record(one, f"[{k}]", *rest) for k, (one, *rest) in enumerate(parts)]
 
 
@@ -193,25 +203,36 @@ class _Parameter:
     def key(self) -> str:
         return "problem." + self.name.split("[")[0]
 
+    @property
+    def size(self) -> float:
+        """What its changes are compared with."""
+        width = self.high - self.low
+        return abs(self.start) or (1e-2 * width if math.isfinite(width) else 1.0)
+
 
 def _parameters(given: Mapping[str, Any], records: int) -> list[_Parameter]:
     if not isinstance(given, Mapping) or not given:
         raise ValueError('parameters must name what is looked for: {"gamma": (0.1, 0, 1)}, its first guess and its bounds')
-    found = []
+    found: list[_Parameter] = []
     for name, value in given.items():
+        only = re.fullmatch(r"([\w.]+)(?:\[(\d+)\])?", str(name))
+        if only is None:
+            raise ValueError(f"parameters: {name!r} is no name; write gamma, initial.q, or initial.q[0] of one record alone")
+        if only[1] in _NO_NUMBERS or only[1].startswith(("method.", "time.", "output.")):
+            raise ValueError(f"parameters: {only[1]} is no number of the problem")
         numbers = np.atleast_1d(real_array(f"parameters[{name!r}]", value))
         if numbers.shape not in ((1,), (3,)) or np.isnan(numbers).any():
             raise ValueError(f"parameters[{name!r}] = {value!r} must be a first guess, or (guess, least, most)")
         start, low, high = (numbers[0], -np.inf, np.inf) if numbers.size == 1 else numbers
         if not low < high or not low <= start <= high or not math.isfinite(start):
             raise ValueError(f"parameters[{name!r}] = {value!r}: least ≤ guess ≤ most, and least < most")
-        only = re.fullmatch(r"[\w.]+(?:\[(\d+)\])?", name)
-        if only is None:
-            raise ValueError(f"parameters: {name!r} is no name; write gamma, initial.q, or initial.q[0] of one record alone")
-        record = None if only[1] is None else int(only[1])
+        record = None if only[2] is None else int(only[2])
         if record is not None and record >= records:
             raise ValueError(f"parameters: {name!r} is of record {record}, and there are {records}")
-        found.append(_Parameter(name, float(start), float(low), float(high), record))
+        made = _Parameter(name, float(start), float(low), float(high), record)
+        if any(made.key == other.key and None in (record, other.record) for other in found):
+            raise ValueError(f"parameters: {only[1]} is one of all records, or one of each, and not both")
+        found.append(made)
     return found
 
 
@@ -220,7 +241,13 @@ class _Model:
 
     def __init__(self, records: list[_Record], parameters: list[_Parameter], options: dict[str, Any]):
         self.records, self.parameters, self.options = records, parameters, options
+        # Where sigma is not given residuals are in units of the data's size.
+        self.unit = 1.0 if records[0].sigma is not None else max(float(np.abs(r.data).max()) for r in records)
         self.failure = ""
+        self.far: float | None = None  # residuals where runs fail, larger than all of the first guess
+
+    def sigma(self, record: _Record) -> np.ndarray:
+        return np.full(record.data.shape, self.unit) if record.sigma is None else record.sigma
 
     def problem(self, k: int, x: np.ndarray) -> Problem | Case:
         changes = [override(p.key, float(value)) for p, value in zip(self.parameters, x) if p.record in (None, k)]
@@ -228,7 +255,11 @@ class _Model:
         if isinstance(given, Case):
             return Case(given._file, [*given._overrides, *changes], given._written)
         if given._text is None:
+            if given._file is not None:
+                raise ValueError("the problem of a case file: give the case itself")
             raise ValueError("a problem by parts has no parameters to change: state it by formulas, or by its name")
+        if not given._has_initial:
+            raise ValueError("the initial state is missing: give initial to seiche.Problem, of which initial.… are parts")
         made = Problem.__new__(Problem)
         made._core = make_problem(parse_keywords(given._text, changes))
         made._text, made._has_initial = given._text, given._has_initial
@@ -238,42 +269,81 @@ class _Model:
         record = self.records[k]
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SeicheWarning)  # of tried values; `fit` looks at the last ones itself
-            return solve(self.problem(k, x), (record.start, record.t[-1]), t_eval=record.t, **(self.options | options))
+            result = solve(self.problem(k, x), (record.start, record.t[-1]), t_eval=record.t, **(self.options | options))
+        if result.status == "interrupted":
+            raise KeyboardInterrupt
+        return result
 
     def observed(self, x: np.ndarray, **options: Any) -> list[np.ndarray] | None:
-        """Of each record; None where a run failed, and `failure` says why."""
+        """Of each record; None where a run failed, and `failure` says why. Of the first guess a refusal is raised."""
         seen = []
         for k, record in enumerate(self.records):
-            result = self.run(k, x, **options)
-            if result.status == "interrupted":
-                raise KeyboardInterrupt
-            if not result.success or result.y.shape[1] != record.t.size:
-                self.failure = result.message
+            try:
+                result = self.run(k, x, **options)
+                if not result.success or result.y.shape[1] != record.t.size:
+                    self.failure = result.message
+                    return None
+                seen.append(record.observe(result))
+            except ValueError as error:
+                if self.far is None:
+                    raise
+                self.failure = str(error)
                 return None
-            seen.append(record.observe(result))
         return seen
 
     def residuals(self, x: np.ndarray) -> np.ndarray:
         seen = self.observed(x)
         if seen is None:
-            return np.full(sum(record.data.size for record in self.records), _MANY)
-        return np.concatenate([((r.data - s) / _of(r.sigma)).ravel() for r, s in zip(self.records, seen)])
+            return np.full(sum(record.data.size for record in self.records), self.far)
+        return np.concatenate([((r.data - s) / self.sigma(r)).ravel() for r, s in zip(self.records, seen)])
 
+    def begin(self, x: np.ndarray) -> None:
+        """Raises ValueError where the first guess gives no solution."""
+        if self.observed(x) is None:
+            raise ValueError(f"the run with the first guess does not reach the end of the data: {self.failure}")
+        self.far = 10 * max(float(np.abs(self.residuals(x)).max()), 1.0)
 
-def _of(sigma: np.ndarray | None) -> Any:
-    return 1.0 if sigma is None else sigma
+    def jacobian(self, x: np.ndarray) -> np.ndarray:
+        """By differences to both sides, or to one at a bound and where runs fail."""
+        columns, here = [], None
+        for k, parameter in enumerate(self.parameters):
+            width = 1e-5 * max(abs(x[k]), parameter.size)
+            ends = []
+            for value in (x[k] - width, x[k] + width):
+                at = x.copy()
+                at[k] = value
+                inside = parameter.low <= value <= parameter.high
+                ends.append((value, self.observed(at)) if inside else (value, None))
+            if any(seen is None for _, seen in ends):
+                here = self.observed(x) if here is None else here
+                ends = [(value, seen) if seen is not None else (x[k], here) for value, seen in ends]
+            (low, below), (high, above) = ends
+            if below is None or above is None or high <= low:
+                columns.append(np.zeros(sum(record.data.size for record in self.records)))
+                continue
+            slopes = [(a - b) / (high - low) for a, b in zip(above, below)]
+            columns.append(np.concatenate([(-s / self.sigma(r)).ravel() for r, s in zip(self.records, slopes)]))
+        return np.array(columns).T
+
+    def error_of_steps(self, x: np.ndarray, spread: float) -> float:
+        """By how much halving the steps moves the solutions, in standard deviations of the measurements."""
+        seen, finer = self.observed(x), self.observed(x, h=self.options["h"] / 2)
+        if seen is None or finer is None:
+            return math.inf
+        size = max(float(np.abs(record.data).max()) for record in self.records)
+        least = [np.maximum(self.sigma(r) * spread, _EXACT * size) for r in self.records]
+        return max(float((np.abs(a - b) / s).max()) for a, b, s in zip(seen, finer, least))
 
 
 def _step_size(model: _Model, x: np.ndarray) -> float:
-    """So many steps of one size as a tolerance of a thousandth of the data's size takes."""
+    """As long as a run by a loose tolerance takes them; errors are looked at afterwards."""
     longest = max(range(len(model.records)), key=lambda k: model.records[k].t[-1] - model.records[k].start)
     record = model.records[longest]
-    scale = max(float(np.ptp(record.data)), float(np.abs(record.data).max()), 1e-300)
-    span = record.t[-1] - record.start
+    span = float(record.t[-1] - record.start)
+    start = as_problem(model.problem(longest, x)).z0
+    scale = float(np.abs(start).max()) or 1.0
     result = model.run(longest, x, tolerance=1e-4 * scale / span, h=None)
-    if not result.success:
-        raise ValueError(f"the run with the first guess does not reach the end of the data: {result.message}")
-    return float(span / max(result.steps, 4))
+    return span / max(result.steps, 4) if result.success else span / 1000
 
 
 def fit(
@@ -331,7 +401,7 @@ def fit(
     import scipy.optimize
     import scipy.stats
 
-    for name in ("t_eval", "events", "dense_output", "observer", "tolerance", "z0", "t_span", "ledger", "record_every"):
+    for name in ("t_eval", "events", "dense_output", "observer", "tolerance", "h_max", "z0", "t_span", "ledger", "record_every"):
         if name in options:
             raise ValueError(f"fit chooses {name} itself")
     if isinstance(problem, str):
@@ -341,87 +411,83 @@ def fit(
     count = sum(record.data.size for record in records)
     if count <= len(wanted):
         raise ValueError(f"{count} measurements cannot determine {len(wanted)} parameters: more of one than of the other are needed")
-    if sigma is None:
-        size = max(float(np.abs(record.data).max()) for record in records)
-        if size == 0:
-            raise ValueError("data are all zero, and sigma is not given: nothing says how large an error is")
+    if records[0].sigma is None and not any(record.data.any() for record in records):
+        raise ValueError("data are all zero, and sigma is not given: nothing says how large an error is")
     model = _Model(records, wanted, {"method": method, **options})
     x = np.array([p.start for p in wanted])
     model.options["h"] = _step_size(model, x) if h is None else h
-    for attempt in range(4):
-        if model.observed(x) is None:
-            raise ValueError(f"the run with the first guess does not reach the end of the data: {model.failure}")
+    model.begin(x)
+    order = next((m["order"] for m in methods() if m["name"] == method), 2)
+    bounds = [p.low for p in wanted], [p.high for p in wanted]
+    for attempt in range(6):
         found = scipy.optimize.least_squares(
-            model.residuals, x, bounds=([p.low for p in wanted], [p.high for p in wanted]), x_scale="jac",
-            diff_step=1e-6, xtol=1e-10, ftol=1e-12, gtol=1e-12,
-        )  # fmt: skip
+            model.residuals, x, model.jacobian, bounds, x_scale="jac", xtol=1e-10, ftol=1e-12, gtol=1e-12
+        )
         x = found.x
-        spread = _spread(found, count, len(wanted), sigma is None)
-        seen, finer = model.observed(x), None
-        if h is not None or seen is None:
+        if model.observed(x) is None:
+            raise ValueError(f"the search ended where runs fail: {model.failure}")
+        spread = 1.0 if records[0].sigma is not None else float(np.sqrt(2 * found.cost / (count - len(wanted))))
+        error = 0.0 if h is not None else model.error_of_steps(x, spread)
+        shortest = max(r.t[-1] - r.start for r in records) / _MOST_STEPS
+        if error <= 0.1 or attempt == 5 or model.options["h"] <= shortest:
             break
-        finer = model.observed(x, h=model.options["h"] / 2)
-        if finer is not None and all(
-            np.abs(a - b).max() <= 0.1 * np.min(_of(r.sigma) * spread) for a, b, r in zip(seen, finer, records)
-        ):
-            break
-        model.options["h"] /= 2
-    return _answer(model, found, spread, count, sigma is None, scipy.stats.chi2.sf)
+        model.options["h"] = max(model.options["h"] * min(max((0.05 / error) ** (1 / order), 1 / 16), 0.5), shortest)
+    return _answer(model, found, spread, error, count, scipy.stats.chi2.sf)
 
 
-def _spread(found: Any, count: int, parameters: int, estimated: bool) -> float:
-    """By what sigma is multiplied: 1 where it was given."""
-    size = float(np.sqrt(2 * found.cost / (count - parameters)))
-    return max(size, 1e-300) if estimated else 1.0
-
-
-def _answer(model: _Model, found: Any, spread: float, count: int, estimated: bool, chi2_above: Callable) -> FitResult:
+def _answer(model: _Model, found: Any, spread: float, error: float, count: int, chi2_above: Callable) -> FitResult:
     records, wanted, x = model.records, model.parameters, found.x
     names = [p.name for p in wanted]
-    J = found.jac / spread
+    estimated, exact = records[0].sigma is None, spread <= _EXACT
+    J = found.jac / (spread or 1)
     size = np.linalg.norm(J, axis=0)
-    scaled = J / np.where(size > 0, size, 1)
-    _, singular, V = np.linalg.svd(scaled, full_matrices=False)
-    known = singular > 1e-7 * singular[0]
+    _, singular, V = np.linalg.svd(J / np.where(size > 0, size, 1), full_matrices=False)
+    is_known = singular > _UNKNOWN * singular[0]
+    unknown = (size == 0) | (np.abs(V[~is_known]) > 0.1).any(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        inverse = (V.T[:, known] / singular[known] ** 2) @ V[known]
-        covariance = inverse / np.outer(size, size)
-        std = np.sqrt(np.diag(covariance))
+        covariance = (V.T[:, is_known] / singular[is_known] ** 2) @ V[is_known] / np.outer(size, size)
+        band = np.where(np.isfinite(covariance), covariance, 0)
+        covariance[unknown] = covariance[:, unknown] = np.nan
+        std = np.where(unknown, np.inf, np.sqrt(np.diag(covariance)))
         correlations = covariance / np.outer(std, std)
     results = [model.run(k, x) for k in range(len(records))]
     residuals = [record.data - record.observe(result) for record, result in zip(records, results)]
-    chi2, dof = 2 * float(found.cost) / spread**2, count - len(wanted)
+    dof = count - len(wanted)
+    chi2 = float(dof) if estimated else 2 * float(found.cost)
     p_value = None if estimated else float(chi2_above(chi2, dof))
-    remarks = _remarks(model, found, singular, V, size, correlations, p_value, chi2, dof, residuals, names)
-    for k in np.flatnonzero(~known):
-        std[np.abs(V[k]) > 0.1] = np.inf
-    std[size == 0] = np.inf
+    remarks = [] if found.status > 0 else [f"the search did not end: {found.message}"]
+    if error > 0.1:
+        remarks.append(f"steps of {model.options['h']:.3g} add errors of up to {error:.2g} sigma: give a smaller h")
+    remarks += _unclear(wanted, found, size, V[~is_known], unknown, correlations)
+    weighted = [r / model.sigma(record) for r, record in zip(residuals, records)]
+    remarks += _misfit(weighted, p_value, chi2 / dof, estimated and exact)
     for result in results:
-        remarks += [result.message] if result.status != "success" or result.law == "violated" else []
-    bands = []
-    at = 0
+        remarks += [result.message] if result.law == "violated" else []
+    bands, at = [], 0
     for record in records:
         part = J[at : at + record.data.size]
         at += record.data.size
-        variance = np.einsum("ij,jk,ik->i", part, np.nan_to_num(covariance), part)
-        bands.append(np.sqrt(np.maximum(variance, 0)).reshape(record.data.shape) * _of(record.sigma) * spread)
-    said = f"{found.nfev} sets of parameters tried; χ² = {chi2:.4g} with {dof} degrees of freedom"
+        variance = np.einsum("ij,jk,ik->i", part, band, part)
+        bands.append(np.sqrt(np.maximum(variance, 0)).reshape(record.data.shape) * model.sigma(record) * spread)
+    said = f"{found.nfev} sets of parameters tried; "
     if estimated:
-        said = f"{found.nfev} sets of parameters tried; standard deviation of the residuals {spread:.3g}"
+        said += f"standard deviation of the residuals {spread * model.unit:.3g}"
+    else:
+        said += f"χ² = {chi2:.4g} with {dof} degrees of freedom"
     result = FitResult(
         parameters=dict(zip(names, map(float, x))),
         std=dict(zip(names, map(float, std))),
         correlations=correlations,
         covariance=covariance,
         residuals=[r.reshape(record.shape) for r, record in zip(residuals, records)],
-        sigma=[np.broadcast_to(_of(record.sigma) * spread, record.data.shape).reshape(record.shape) for record in records],
+        sigma=[(model.sigma(record) * spread).reshape(record.shape) for record in records],
         chi2=chi2,
         dof=dof,
         p_value=p_value,
         success=bool(found.status > 0),
         message="; ".join([said, *remarks]),
         results=results,
-        h=float(model.options["h"]) if not isinstance(model.options["h"], str) else results[0].report["h"],
+        h=results[0].report["h"],
         nfev=int(found.nfev),
     )
     object.__setattr__(result, "_records", records)
@@ -431,39 +497,40 @@ def _answer(model: _Model, found: Any, spread: float, count: int, estimated: boo
     return result
 
 
-def _remarks(
-    model: _Model, found: Any, singular: np.ndarray, V: np.ndarray, size: np.ndarray, correlations: np.ndarray,
-    p_value: float | None, chi2: float, dof: int, residuals: list[np.ndarray], names: list[str],
-) -> list[str]:  # fmt: skip
-    """What one should know before these numbers are believed."""
-    said = [] if found.status > 0 else [f"the search did not end: {found.message}"]
-    for k, parameter in enumerate(model.parameters):
+def _unclear(
+    wanted: list[_Parameter], found: Any, size: np.ndarray, free: np.ndarray, unknown: np.ndarray, correlations: np.ndarray
+) -> list[str]:
+    """Which parameters the data, or the bounds, do not determine. `free`: directions in which the data do not change."""
+    said = []
+    for k, parameter in enumerate(wanted):
         if size[k] == 0:
-            said.append(f"the data do not depend on {names[k]}")
+            said.append(f"the data do not depend on {parameter.name}")
         elif found.active_mask[k] != 0:
-            bound = parameter.low if found.active_mask[k] < 0 else parameter.high
-            said.append(f"{names[k]} ended at its bound {bound:g}")
-    alike = {
-        tuple(sorted((i, j)))
-        for i in range(len(names))
-        for j in range(i)
-        if abs(correlations[i, j]) > _ALIKE and size[i] > 0 and size[j] > 0
-    }
-    for i, j in sorted(alike):
-        said.append(f"the data hardly tell {names[i]} from {names[j]}: their correlation is {correlations[i, j]:.5f}")
-    for k in np.flatnonzero(singular <= 1e-7 * singular[0]):
-        part = [name for name, weight, norm in zip(names, V[k], size) if abs(weight) > 0.1 and norm > 0]
+            said.append(f"{parameter.name} ended at its bound {parameter.low if found.active_mask[k] < 0 else parameter.high:g}")
+    for direction in free:
+        part = [p.name for p, weight, norm in zip(wanted, direction, size) if abs(weight) > 0.1 and norm > 0]
         if len(part) > 1:
-            said.append(f"the data do not tell {' and '.join(part)} apart: only a combination of them is known")
-    if p_value is not None and p_value < _UNLIKELY:
-        said.append(f"the model does not fit: noise makes χ²/dof = {chi2 / dof:.3g} with probability {p_value:.1e}")
-    elif p_value is not None and p_value > 1 - _UNLIKELY:
-        said.append(f"residuals are smaller than sigma says: χ²/dof = {chi2 / dof:.3g}")
-    pairs = [(r[:, 1:].ravel(), r[:, :-1].ravel()) for r in residuals]
-    next_, last = (np.concatenate(part) for part in zip(*pairs))
-    power = float(np.sum(next_**2) + np.sum(last**2)) / 2
-    if last.size >= 20 and power > 0 and (p_value is None or _UNLIKELY <= p_value <= 1 - _UNLIKELY):
-        correlation = float(np.sum(next_ * last)) / power
-        if correlation > 5 / math.sqrt(last.size):
-            said.append(f"residuals are no noise: neighbours in time are correlated by {correlation:.2f}, so the model misses something")
+            said.append(f"the data do not tell {', '.join(part[:-1])} and {part[-1]} apart: only a combination of them is known")
+    for i in range(len(wanted)):
+        for j in range(i):
+            if not (unknown[i] or unknown[j]) and abs(correlations[i, j]) > _ALIKE:
+                pair = f"{wanted[j].name} from {wanted[i].name}"
+                said.append(f"the data hardly tell {pair}: their correlation is {correlations[i, j]:.6g}")
     return said
+
+
+def _misfit(weighted: list[np.ndarray], p_value: float | None, ratio: float, exact: bool) -> list[str]:
+    """Whether residuals, in standard deviations, look like noise."""
+    if p_value is not None and p_value < _UNLIKELY:
+        return [f"the model does not fit: noise makes χ²/dof = {ratio:.3g} with probability {p_value:.1e}"]
+    if p_value is not None and p_value > 1 - _UNLIKELY:
+        return [f"residuals are smaller than sigma says: χ²/dof = {ratio:.3g}"]
+    later = np.concatenate([r[:, 1:].ravel() for r in weighted])
+    before = np.concatenate([r[:, :-1].ravel() for r in weighted])
+    power = float(np.sum(later**2) + np.sum(before**2)) / 2
+    if exact or later.size < 20 or power == 0:
+        return []
+    correlation = float(np.sum(later * before)) / power
+    if correlation <= 5 / math.sqrt(later.size):
+        return []
+    return [f"residuals are no noise: neighbours in time are correlated by {correlation:.2f}, so the model misses something"]

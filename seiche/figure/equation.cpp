@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -17,21 +16,19 @@ namespace {
 std::string printed(std::string_view text) { return mathml_part(text, Notation::printed); }
 
 std::string line(const std::string& left, const std::string& right) {
-  constexpr std::size_t most = 50'000;  // bytes of MathML, some thousand characters of a formula
+  constexpr std::size_t most = 50'000;  // bytes of MathML
   const std::string shown = right.size() > most ? "<mtext>as in the case below</mtext>" : right;
   return fmt::format("<math display=\"block\"><mrow>{}<mo>=</mo>{}</mrow></math>\n", left, shown);
 }
 
-// The energy is that of a point, and H the integral over the axes that there are.
-std::string energy(const std::string& formula, std::size_t axes) {
+// The energy is that of a point, and H the sum over all points.
+std::string energy(const std::string& formula, bool has_grid) {
   const std::string density = mathml_part(formula, Notation::case_file);
-  if (axes == 0) return density;
-  constexpr const char* differentials[] = {"dx", "dx dy", "dx dy dz"};
-  return fmt::format("<mo>∫</mo><mrow><mo>(</mo>{}<mo>)</mo></mrow><mspace width=\".2em\"/>{}", density,
-                     printed(differentials[axes - 1]));
+  if (!has_grid) return density;
+  return "<munder><mo>∑</mo><mtext>points</mtext></munder><mrow><mo>(</mo>" + density + "<mo>)</mo></mrow>";
 }
 
-std::string written_down(const CustomProblem& custom, std::size_t axes) {
+std::string written_down(const CustomProblem& custom, bool has_grid) {
   const std::vector<std::string> fields = field_names(custom);
   std::string z;
   for (const std::string& field : fields)
@@ -39,10 +36,10 @@ std::string written_down(const CustomProblem& custom, std::size_t axes) {
   std::string text = line(printed("ż"), printed(custom.D.empty() ? "S∇H(z)" : "S∇H(z) − Dz") + printed(",  z = ") +
                                             "<mo>(</mo>" + z + "<mo>)</mo>");
   if (custom.H.empty()) {
-    text += line(printed("H"), printed("½zᵀMz") + (custom.V.empty() ? "" : "<mo>+</mo>" + energy(custom.V, axes)));
+    text += line(printed("H"), printed("½zᵀMz") + (custom.V.empty() ? "" : "<mo>+</mo>" + energy(custom.V, has_grid)));
     if (!custom.M.empty()) text += line(printed("M"), mathml_matrix(custom.M));
   } else {
-    text += line(printed("H"), energy(custom.H, axes));
+    text += line(printed("H"), energy(custom.H, has_grid));
   }
   if (!custom.S.empty()) text += line(printed("S"), mathml_matrix(custom.S));
   if (!custom.D.empty()) text += line(printed("D"), mathml_matrix(custom.D));
@@ -64,16 +61,12 @@ std::string drives(const DriveSpec& spec) {
   return text;
 }
 
-// 0 where there is no place.
-std::size_t axes_of(const RunSpec& spec) {
-  if (spec.parameter_texts.find("length") == spec.parameter_texts.end()) return 0;
-  return std::max(spec.parameters.reals("length").size(), spec.parameters.integers("points").size());
-}
+bool has_grid(const RunSpec& spec) { return spec.parameter_texts.find("length") != spec.parameter_texts.end(); }
 
 }  // namespace
 
 std::string equation_html(const RunSpec& spec) {
-  const std::string equation = spec.custom ? written_down(*spec.custom, axes_of(spec))
+  const std::string equation = spec.custom ? written_down(*spec.custom, has_grid(spec))
                                            : fmt::format("<math display=\"block\"><mrow>{}</mrow></math>\n",
                                                          printed(problem_entry(spec).equation));
   return fmt::format("<div class=\"equation\">\n{}{}</div>\n", equation, drives(spec.drives));

@@ -8,11 +8,11 @@
 namespace seiche {
 
 // The equation of a problem of the list; of one written down z, H (or M and V), S and D as the user wrote them, each on
-// a line. Friction and forces of the case below. HTML with MathML; formulas of more than a thousand characters are left
-// to the case file.
+// a line. Friction and forces of the case below. HTML with MathML; formulas of some thousand characters are left to the
+// case file.
 std::string equation_html(const RunSpec& spec);
 
-// name, symbol, value as written and meaning of every parameter, as rows of a table.
+// Name, value as written and meaning of every parameter, as rows of a table.
 std::string parameter_rows(const RunSpec& spec);
 
 }  // namespace seiche

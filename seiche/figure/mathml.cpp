@@ -16,11 +16,13 @@ namespace {
 
 using Pair = std::pair<std::string_view, std::string_view>;
 
-constexpr std::array<Pair, 24> greek = {
-    {{"alpha", "α"}, {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"}, {"epsilon", "ε"}, {"zeta", "ζ"},
-     {"eta", "η"},   {"theta", "θ"}, {"iota", "ι"},  {"kappa", "κ"}, {"lambda", "λ"},  {"mu", "μ"},
-     {"nu", "ν"},    {"xi", "ξ"},    {"pi", "π"},    {"rho", "ρ"},   {"sigma", "σ"},   {"tau", "τ"},
-     {"phi", "φ"},   {"chi", "χ"},   {"psi", "ψ"},   {"omega", "ω"}, {"Omega", "Ω"},   {"laplacian", "Δ"}}};
+constexpr std::array<Pair, 33> greek = {
+    {{"alpha", "α"},  {"beta", "β"},  {"gamma", "γ"},    {"delta", "δ"}, {"epsilon", "ε"}, {"zeta", "ζ"},
+     {"eta", "η"},    {"theta", "θ"}, {"iota", "ι"},     {"kappa", "κ"}, {"lambda", "λ"},  {"mu", "μ"},
+     {"nu", "ν"},     {"xi", "ξ"},    {"pi", "π"},       {"rho", "ρ"},   {"sigma", "σ"},   {"tau", "τ"},
+     {"phi", "φ"},    {"chi", "χ"},   {"psi", "ψ"},      {"omega", "ω"}, {"Omega", "Ω"},   {"Gamma", "Γ"},
+     {"Delta", "Δ"},  {"Theta", "Θ"}, {"Lambda", "Λ"},   {"Sigma", "Σ"}, {"Phi", "Φ"},     {"Psi", "Ψ"},
+     {"varphi", "φ"}, {"Pi", "π"},    {"laplacian", "Δ"}}};
 constexpr std::array<Pair, 19> raised = {{{"⁰", "0"},
                                           {"¹", "1"},
                                           {"²", "2"},
@@ -99,6 +101,7 @@ std::string accented_letter(char letter, std::string_view accent) {
 // that is still to be put below it.
 struct Part {
   std::string element, inside = {}, below = {};
+  bool is_power = false;  // which needs parentheses before it is raised again
   const std::string& bare() const { return inside.empty() ? element : inside; }
 };
 
@@ -145,6 +148,9 @@ class Typesetter {
       }
       const std::string_view sign = take();
       out += op(sign == "-" ? "−" : sign);
+      skip_blanks();
+      if (!printed_ && !is_closing() && (rest_.front() == '-' || rest_.front() == '+'))
+        out += signed_in_parentheses().element;
       if (sign == "," && skip_blanks() > 1) out += "<mspace width=\"1em\"/>";
     }
     return out;
@@ -162,11 +168,22 @@ class Typesetter {
         take();
         skip_blanks();
         const bool number = !rest_.empty() && is_digit(rest_.front());
-        left = {left.element + (number ? op("·") : "<mo>&#x2062;</mo>") + factor().element};
+        left = {left.element + (number ? op("·") : "<mo>&#x2062;</mo>") + signed_in_parentheses().element};
       } else {
         left = {left.element + factor().element};
       }
     }
+  }
+
+  // Behind another factor, or a sign, a sign needs parentheses.
+  Part signed_in_parentheses() {
+    skip_blanks();
+    const bool has_sign = !rest_.empty() && (rest_.front() == '-' || rest_.front() == '+');
+    Part part = factor();
+    return has_sign ? in_parentheses(part.element) : part;
+  }
+  static Part in_parentheses(const std::string& element) {
+    return {tag("mrow", op("(") + element + op(")")), tag("mrow", element)};
   }
 
   // With its sign, index and power.
@@ -174,7 +191,7 @@ class Typesetter {
     skip_blanks();
     if (!rest_.empty() && (rest_.front() == '-' || rest_.front() == '+')) {
       const std::string sign = op(take() == "-" ? "−" : "+");
-      return {tag("mrow", sign + factor().element)};
+      return {tag("mrow", sign + signed_in_parentheses().element)};
     }
     Part base = primary();
     std::string below = std::move(base.below), above;
@@ -190,6 +207,7 @@ class Typesetter {
         above += small(raised);
       } else if (rest_.front() == '^' || rest_.starts_with("**")) {
         rest_.remove_prefix(rest_.front() == '^' ? 1 : 2);
+        if (base.is_power) base = in_parentheses(base.element);
         above += exponent();
       } else {
         break;
@@ -242,7 +260,7 @@ class Typesetter {
     if (c == '[') return group(']');
     if (c == '{') return group('}');
     if (c == '|') return {group('|').element};
-    if (is_digit(c) || c == '.') return {number()};
+    if (is_digit(c) || c == '.') return number();
     if (begins_name(c)) return printed_ ? printed_word() : name();
     const std::string_view character = take();
     if (const std::string_view parts = found(fractions, character); !parts.empty())
@@ -257,18 +275,18 @@ class Typesetter {
   }
 
   // 12, 0.5, 1e-3 as 10⁻³.
-  std::string number() {
+  Part number() {
     std::size_t size = std::min(rest_.find_first_not_of("0123456789."), rest_.size());
     const std::string mantissa(rest_.substr(0, size));
     rest_.remove_prefix(size);
-    if (rest_.size() < 2 || (rest_.front() != 'e' && rest_.front() != 'E')) return tag("mn", mantissa);
+    if (rest_.size() < 2 || (rest_.front() != 'e' && rest_.front() != 'E')) return {tag("mn", mantissa)};
     const std::size_t sign = rest_[1] == '-' || rest_[1] == '+' ? 2 : 1;
     size = std::min(rest_.find_first_not_of("0123456789", sign), rest_.size());
-    if (size == sign) return tag("mn", mantissa);
+    if (size == sign) return {tag("mn", mantissa)};
     const std::string power = tag("msup", "<mn>10</mn>" + tag("mrow", (rest_[1] == '-' ? op("−") : "") +
                                                                           tag("mn", rest_.substr(sign, size - sign))));
     rest_.remove_prefix(size);
-    return mantissa == "1" ? power : tag("mrow", tag("mn", mantissa) + op("·") + power);
+    return {mantissa == "1" ? power : tag("mrow", tag("mn", mantissa) + op("·") + power), {}, {}, true};
   }
 
   std::string_view word() {
@@ -328,7 +346,7 @@ class Typesetter {
     const std::size_t bar = whole.find('_', 1);
     std::string_view base = whole.substr(0, bar);
     std::string_view below = bar == std::string_view::npos ? std::string_view() : whole.substr(bar + 1);
-    if (below == "squared") return {tag("msup", base_symbol(base) + "<mn>2</mn>")};
+    if (whole == "omega_squared") return {tag("msup", "<mi>ω</mi><mn>2</mn>"), {}, {}, true};
     const std::size_t digits = base.find_last_not_of("0123456789") + 1;
     if (below.empty() && digits > 0 && digits < base.size()) {
       below = base.substr(digits);

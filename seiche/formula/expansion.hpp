@@ -14,7 +14,7 @@ inline constexpr double most_bits = 20'000;  // of a number whose powers still t
 double most_terms_multiplied_out(const Expression& expression);
 inline constexpr double most_terms = 2000;  // that are multiplied out in milliseconds
 
-// True where an exponent is no number, or one so large or so fine that powers of numbers, or common factors, take
+// True where an exponent is not a number, or one so large or so fine that powers of numbers, or common factors, take
 // minutes.
 bool has_endless_power(const Expression& expression);
 

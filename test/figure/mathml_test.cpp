@@ -56,6 +56,16 @@ TEST(MathMl, LeavesOutParenthesesThatAFractionOrARootReplaces) {
   EXPECT_EQ(text_of(from_case("(a + b)*c")), "(a+b)&#x2062;c") << "a factor keeps them";
 }
 
+TEST(MathMl, PutsASignBehindAFactorAndAPowerOfAPowerIntoParentheses) {
+  EXPECT_EQ(text_of(from_case("a*-b*q")), "a&#x2062;(−b)&#x2062;q");
+  EXPECT_EQ(text_of(from_case("a - -b + +c")), "a−(−b)+(+c)");
+  EXPECT_EQ(text_of(from_case("-x^2")), "−x2");
+  EXPECT_EQ(text_of(from_case("a/-b")), "a−b") << "a fraction";
+  EXPECT_EQ(text_of(from_case("1e3^2")), "(103)2");
+  EXPECT_EQ(text_of(from_case("omega_squared^2")), "(ω2)2");
+  EXPECT_EQ(text_of(from_case("2^3^x")), "23x") << "to the right, as formulas are read";
+}
+
 TEST(MathMl, PutsIndexAndPowerAboveEachOther) {
   const std::string both = "<msubsup><mrow><mi>u</mi></mrow><mrow><mi>x</mi></mrow><mrow><mn>2</mn></mrow></msubsup>";
   EXPECT_EQ(from_case("u_x^2"), both);
