@@ -23,7 +23,7 @@ std::string line(const std::string& left, const std::string& right) {
 
 // The energy is that of a point, and H the sum over all points.
 std::string energy(const std::string& formula, bool has_grid) {
-  const std::string density = mathml_part(formula, Notation::case_file);
+  std::string density = mathml_part(formula, Notation::case_file);
   if (!has_grid) return density;
   return "<munder><mo>∑</mo><mtext>points</mtext></munder><mrow><mo>(</mo>" + density + "<mo>)</mo></mrow>";
 }

@@ -233,7 +233,7 @@ class Typesetter {
     if (!rest_.empty() && rest_.front() == '{') return group('}').inside;
     std::size_t size = 0;
     while (size < rest_.size() && (is_letter(rest_[size]) || is_digit(rest_[size]))) ++size;
-    const std::string out = letters(rest_.substr(0, size));
+    std::string out = letters(rest_.substr(0, size));
     rest_.remove_prefix(size);
     return out;
   }

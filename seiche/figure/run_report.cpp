@@ -20,8 +20,6 @@
 namespace seiche {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string mark(const char* kind, const char* symbol, const std::string& text) {
   // The text variant of the symbol, where fonts also have a coloured picture.
   return fmt::format(R"(<span class="outcome {}"><span aria-hidden="true">{}&#xFE0E;</span> {}</span>)", kind, symbol,
