@@ -144,6 +144,7 @@ class Parser {
       program_.push_back({.kind = Kind::number, .number = constant->second});
       return {.begin = begin, .position = name.position, .degree = 0, .constant = true};
     }
+    if (name.text == "j" && has_index()) return index(name);
     if (name.text == "pi" || name.text == "Pi") {
       program_.push_back({.kind = Kind::number, .number = std::numbers::pi});
       return {.begin = begin, .position = name.position, .degree = 0, .constant = true};
@@ -151,6 +152,23 @@ class Parser {
     const FormulaFunction* function = find_formula_function(name.text);
     if (function == nullptr) throw unknown(name);
     return call(name, *function);
+  }
+
+  bool has_index() const {
+    return constants_.contains(index_before_line) &&
+           std::find(variables_.begin(), variables_.end(), "x") != variables_.end();
+  }
+
+  // j = x/dx + its value before the line
+  Part index(const FormulaToken& name) {
+    const std::size_t begin = program_.size();
+    const auto x = std::find(variables_.begin(), variables_.end(), "x");
+    program_.push_back({.kind = Kind::variable, .index = static_cast<int>(x - variables_.begin())});
+    program_.push_back({.kind = Kind::number, .number = constants_.at("dx")});
+    emit(Kind::divide);
+    program_.push_back({.kind = Kind::number, .number = constants_.at(index_before_line)});
+    emit(Kind::add);
+    return {.begin = begin, .position = name.position, .degree = 1, .constant = false};
   }
 
   Part call(const FormulaToken& name, const FormulaFunction& function) {
@@ -213,12 +231,14 @@ class Parser {
   // As j in u(j+1); a name that means something else makes a product of it.
   bool is_index(const FormulaToken& token) const {
     constexpr std::array<std::string_view, 4> letters = {"i", "j", "k", "n"};
-    return std::find(letters.begin(), letters.end(), token.text) != letters.end() && !is_known(token.text);
+    return std::find(letters.begin(), letters.end(), token.text) != letters.end() &&
+           (token.text == "j" || !is_known(token.text));
   }
 
   bool is_known(std::string_view name) const {
     return std::find(variables_.begin(), variables_.end(), name) != variables_.end() ||
-           constants_.contains(std::string(name)) || find_formula_function(name) != nullptr;
+           constants_.contains(std::string(name)) || (name == "j" && has_index()) ||
+           find_formula_function(name) != nullptr;
   }
 
   Error unknown(const FormulaToken& name) const {
@@ -228,7 +248,9 @@ class Parser {
                                        here));
     std::vector<std::string> names = variables_;
     std::erase(names, "");  // arguments that this formula has no name for
-    for (const auto& [constant, value] : constants_) names.push_back(constant);
+    for (const auto& [constant, value] : constants_)
+      if (constant != index_before_line) names.push_back(constant);
+    if (has_index()) names.emplace_back("j");
     names.emplace_back("pi");
     for (const FormulaFunction& function : formula_functions())
       if (may_vary(function)) names.emplace_back(function.name);

@@ -23,6 +23,9 @@ struct ParsedFormula {
 
 using FormulaConstants = std::map<std::string, double>;
 
+// Beside dx among the constants, this lets formulas on a line name j = x/dx + the number: that of a point, 1, 2, ….
+inline constexpr const char* index_before_line = "j at x = 0";
+
 enum class FunctionsAllowed { all, differentiable };  // of what varies: of numbers alone, min(eps, 1) is a number
 
 // `advice` is asked about all other names.

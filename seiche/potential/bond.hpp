@@ -12,15 +12,14 @@
 
 namespace seiche {
 
-// Periodic: N bonds between N unknowns. Dirichlet: N bonds, the first and last to an end where u = 0.
+// Between N unknowns: N bonds of a ring (periodic), N + 1 with the first and last to an end where u = 0 (Dirichlet), or
+// N − 1 with free ends (Neumann).
 template <PointPotential W>
 class BondPotential final : public PointwisePotential {
  public:
   BondPotential(W w, Boundary boundary) : w_(w), boundary_(boundary) {}
 
-  double value(std::span<const double> u) const override {
-    return sum_bond_values(w_, u.data(), u.size(), boundary_ == Boundary::periodic);
-  }
+  double value(std::span<const double> u) const override { return sum_bond_values(w_, u.data(), u.size(), boundary_); }
 
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
     if (u.empty()) return {};
@@ -37,11 +36,11 @@ class BondPotential final : public PointwisePotential {
   }
 
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override {
-    return bond_gradient(w_, 1, 1, u.data(), gradient.data(), u.size(), boundary_ == Boundary::periodic);
+    return bond_gradient(w_, 1, 1, u.data(), gradient.data(), u.size(), boundary_);
   }
 
   double value_and_gradient_in_place(double in, double out, std::span<double> values) const override {
-    return bond_gradient(w_, in, out, values.data(), values.data(), values.size(), boundary_ == Boundary::periodic);
+    return bond_gradient(w_, in, out, values.data(), values.data(), values.size(), boundary_);
   }
 
   void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override {
@@ -94,14 +93,14 @@ class BondPotential final : public PointwisePotential {
     for_ends(u, visit);
   }
 
-  // The one or two bonds that close the chain.
+  // The one or two bonds that close the chain, or none.
   template <class Visit>
   void for_ends(std::span<const double> u, const Visit& visit) const {
     const std::size_t n = u.size();
     if (n == 0) return;
     if (boundary_ == Boundary::periodic) {
       visit(n - 1, 0, u[0] - u[n - 1]);
-    } else {
+    } else if (boundary_ == Boundary::dirichlet) {
       visit(wall, 0, u[0]);
       visit(n - 1, wall, -u[n - 1]);
     }

@@ -1,19 +1,22 @@
-// Loops over the bonds of a chain: V = Σ_j W(u_{j+1} − u_j), between n points on a ring, or with both ends at u = 0.
+// Loops over the bonds of a chain: V = Σ_j W(u_{j+1} − u_j), between n points on a ring, with both ends at u = 0, or
+// with free ends.
 #pragma once
 
+#include <seiche/core/grid/grid.hpp>
 #include <seiche/potential/loops.hpp>
 
 namespace seiche {
 
-// Σ W over the bonds between the points and the one or two that close the chain.
+// Σ W over the bonds between the points, and the one or two that close the chain where its ends are not free.
 template <class W>
-SEICHE_MULTIVERSION double sum_bond_values(const W& w, const double* u, std::size_t n, bool is_ring) {
+SEICHE_MULTIVERSION double sum_bond_values(const W& w, const double* u, std::size_t n, Boundary boundary) {
   if (n == 0) return 0;
   const W local = w;
   const double between = sum_lanes<W>(
       n - 1, [&]<class X>(std::size_t j, const X&)
                  __attribute__((always_inline)) { return local.value(X(load<X>(u + j + 1) - load<X>(u + j))); });
-  if (is_ring) return between + local.value(u[0] - u[n - 1]);
+  if (boundary == Boundary::neumann) return between;
+  if (boundary == Boundary::periodic) return between + local.value(u[0] - u[n - 1]);
   return between + local.value(u[0]) + local.value(-u[n - 1]);
 }
 
@@ -21,15 +24,19 @@ SEICHE_MULTIVERSION double sum_bond_values(const W& w, const double* u, std::siz
 // and by the one after it, W'_{j−1} − W'_j, so that one slope goes from each point to the next.
 template <class W>
 SEICHE_MULTIVERSION double bond_gradient(const W& w, double in, double out, const double* u, double* gradient,
-                                         std::size_t n, bool is_ring) {
+                                         std::size_t n, Boundary boundary) {
   if (n == 0) return 0;
   const W local = w;
   const double last = in * u[n - 1];
-  const double closing = is_ring ? in * u[0] - last : in * u[0];  // the stretch of the bond before the first point
-  double value = local.value(closing);
-  double before = local.slope(closing);
-  const double after = is_ring ? before : local.slope(-last);
-  if (!is_ring) value += local.value(-last);
+  double value = 0, before = 0, after = 0;
+  if (boundary != Boundary::neumann) {
+    const bool is_ring = boundary == Boundary::periodic;
+    const double closing = is_ring ? in * u[0] - last : in * u[0];  // the stretch of the bond before the first point
+    value = local.value(closing);
+    before = local.slope(closing);
+    after = is_ring ? before : local.slope(-last);
+    if (!is_ring) value += local.value(-last);
+  }
   std::size_t j = 0;
   if constexpr (TakesLanes<W>) {
     Lanes slopes_before{}, sums{};

@@ -12,21 +12,40 @@ namespace {
 
 }  // namespace
 
+Index bond_count(Index rows, Boundary boundary) {
+  switch (boundary) {
+    case Boundary::periodic: return rows;
+    case Boundary::dirichlet: return rows + 1;
+    case Boundary::neumann: break;
+  }
+  return rows - 1;
+}
+
 SEICHE_MULTIVERSION void panel_stretches(const double* u, Index rows, Boundary boundary, double* stretch) {
-  const bool ring = boundary == Boundary::periodic;
   const PanelValues wall{};
   const double* last = u + (rows - 1) * panel_members;
-  subtract(u, ring ? last : wall.data(), stretch);
+  if (boundary != Boundary::neumann) {
+    subtract(u, boundary == Boundary::periodic ? last : wall.data(), stretch);
+    stretch += panel_members;
+  }
   for (Index j = 1; j < rows; ++j)
-    subtract(u + j * panel_members, u + (j - 1) * panel_members, stretch + j * panel_members);
-  if (!ring) subtract(wall.data(), last, stretch + rows * panel_members);
+    subtract(u + j * panel_members, u + (j - 1) * panel_members, stretch + (j - 1) * panel_members);
+  if (boundary == Boundary::dirichlet) subtract(wall.data(), last, stretch + (rows - 1) * panel_members);
 }
 
 SEICHE_MULTIVERSION void panel_pull(const double* tension, Index rows, Boundary boundary, double* gradient) {
-  const bool ring = boundary == Boundary::periodic;
-  for (Index j = 0; j < rows; ++j)
-    subtract(tension + j * panel_members, ring && j + 1 == rows ? tension : tension + (j + 1) * panel_members,
-             gradient + j * panel_members);
+  const PanelValues none{};
+  const auto bond = [&](Index j) { return tension + j * panel_members; };
+  for (Index j = 0; j < rows; ++j) {
+    const double *before = bond(j), *after = bond(j + 1);
+    if (boundary == Boundary::neumann) {
+      before = j == 0 ? none.data() : bond(j - 1);
+      after = j + 1 == rows ? none.data() : bond(j);
+    } else if (boundary == Boundary::periodic && j + 1 == rows) {
+      after = tension;
+    }
+    subtract(before, after, gradient + j * panel_members);
+  }
 }
 
 }  // namespace seiche

@@ -8,8 +8,10 @@
 
 namespace seiche {
 
-// The stretch of every bond, bonds × members: bond j ends at point j, and the last one, where there is no ring, at an
-// end where u = 0 like the first.
+// Bonds of a chain of `rows` points: as many on a ring, one more between ends where u = 0, one less between free ends.
+Index bond_count(Index rows, Boundary boundary);
+
+// The stretch of every bond, bonds × members, from left to right. On a ring the first one ends at point 0.
 void panel_stretches(const double* u, Index rows, Boundary boundary, double* stretch);
 
 // What bonds of these tensions do to the points at their ends.
@@ -21,7 +23,7 @@ class BondPanel final : public PanelPotential {
   BondPanel(const std::vector<W>& w, Index rows, Boundary boundary)
       : w_(w),
         rows_(rows),
-        bonds_(boundary == Boundary::periodic ? rows : rows + 1),
+        bonds_(bond_count(rows, boundary)),
         boundary_(boundary),
         a_(bonds_),
         b_(bonds_),

@@ -1,3 +1,4 @@
+#include <seiche/potential/bond_panel.hpp>
 #include <seiche/potential/on_bonds.hpp>
 
 #include <array>
@@ -9,8 +10,7 @@ namespace {
 // With B the differences, V = W(Bu): ∇V = Bᵀ∇W(Bu), and means and Taylor coefficients go the same way.
 class OnBonds final : public PointwisePotential {
  public:
-  OnBonds(std::shared_ptr<const PointwisePotential> w, Boundary boundary)
-      : w_(std::move(w)), is_ring_(boundary == Boundary::periodic) {}
+  OnBonds(std::shared_ptr<const PointwisePotential> w, Boundary boundary) : w_(std::move(w)), boundary_(boundary) {}
 
   double value(std::span<const double> u) const override { return w_->value(differences(u, 0)); }
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
@@ -34,8 +34,7 @@ class OnBonds final : public PointwisePotential {
     const std::span<const double> d = differences(u, 0);
     const std::span<double> of_slopes = row(2, d.size());
     w_->gradient_round_off(d, of_slopes);
-    const std::size_t n = u.size();
-    for (std::size_t j = 0; j < n; ++j) bounds[j] = of_slopes[j] + of_slopes[is_ring_ ? (j + 1) % n : j + 1];
+    at_points(of_slopes, bounds, [](double before, double after) { return before + after; });
   }
   int degree() const override { return w_->degree(); }
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
@@ -54,24 +53,36 @@ class OnBonds final : public PointwisePotential {
     return std::span(memory[which]).first(size);
   }
 
-  // Bond j ends at unknown j, and behind the last stands the one to the end of the chain.
+  // From left to right; on a ring the first one ends at unknown 0.
   std::span<const double> differences(std::span<const double> u, std::size_t which) const {
     const std::size_t n = u.size();
-    const std::span<double> d = row(which, is_ring_ ? n : n + 1);
-    d[0] = u[0] - (is_ring_ ? u[n - 1] : 0.0);
-    for (std::size_t j = 1; j < n; ++j) d[j] = u[j] - u[j - 1];
-    if (!is_ring_) d[n] = -u[n - 1];
+    const std::span<double> d = row(which, static_cast<std::size_t>(bond_count(static_cast<Index>(n), boundary_)));
+    std::size_t bond = 0;
+    if (boundary_ == Boundary::periodic) d[bond++] = u[0] - u[n - 1];
+    if (boundary_ == Boundary::dirichlet) d[bond++] = u[0];
+    for (std::size_t j = 1; j < n; ++j) d[bond++] = u[j] - u[j - 1];
+    if (boundary_ == Boundary::dirichlet) d[bond] = -u[n - 1];
     return d;
   }
 
   void pull(std::span<const double> slopes, std::span<double> gradient) const {
-    const std::size_t n = gradient.size();
-    for (std::size_t j = 0; j + 1 < n; ++j) gradient[j] = slopes[j] - slopes[j + 1];
-    gradient[n - 1] = slopes[n - 1] - (is_ring_ ? slopes[0] : slopes[n]);
+    at_points(slopes, gradient, [](double before, double after) { return before - after; });
+  }
+
+  // out_j = f(of the bond before j, of the one after it), 0 for a bond that is not there.
+  template <class F>
+  void at_points(std::span<const double> of_bonds, std::span<double> out, F f) const {
+    const std::size_t n = out.size();
+    if (boundary_ == Boundary::neumann) {
+      for (std::size_t j = 0; j < n; ++j) out[j] = f(j == 0 ? 0.0 : of_bonds[j - 1], j + 1 == n ? 0.0 : of_bonds[j]);
+      return;
+    }
+    for (std::size_t j = 0; j + 1 < n; ++j) out[j] = f(of_bonds[j], of_bonds[j + 1]);
+    out[n - 1] = f(of_bonds[n - 1], of_bonds[boundary_ == Boundary::periodic ? 0 : n]);
   }
 
   std::shared_ptr<const PointwisePotential> w_;
-  bool is_ring_;
+  Boundary boundary_;
 };
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace seiche {
 
 // Bonds as in potential/bond.hpp, which is faster where W is known at compile time: N of them between N unknowns of a
-// ring, and between fixed ends (Dirichlet) one more than unknowns.
+// ring, one more between fixed ends (Dirichlet), one less between free ends (Neumann).
 std::shared_ptr<const PointwisePotential> on_bonds(std::shared_ptr<const PointwisePotential> w, Boundary boundary);
 
 }  // namespace seiche

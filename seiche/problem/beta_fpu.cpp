@@ -30,7 +30,7 @@ ProblemEntry beta_fpu_entry() {
                          .default_end = 5000.0},
                         beta_fpu)
       .row(&P::points, {.name = "points",
-                        .meaning = "N, bonds; N − 1 masses between fixed ends, N on a ring",
+                        .meaning = "N, masses on a ring or with free ends; N − 1 between fixed ends",
                         .minimum = 2,
                         .maximum = most_intervals})
       .row(chain_boundary_parameter("dirichlet"),

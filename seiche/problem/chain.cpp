@@ -1,7 +1,7 @@
-#include <seiche/core/error.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/potential/sum.hpp>
 #include <seiche/problem/chain.hpp>
+#include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/wave.hpp>
 
@@ -13,15 +13,16 @@ namespace {
 
 Vector first_mode(const Grid& grid, double amplitude) {
   const GridAxis& axis = grid.axis(0);
-  const double turns = axis.boundary == Boundary::periodic ? 2 : 1;
-  return sample(grid, [&](double x) { return amplitude * std::sin(turns * std::numbers::pi * x / axis.length); });
+  const double wave_number = (axis.boundary == Boundary::periodic ? 2 : 1) * std::numbers::pi / axis.length;
+  return sample(grid, [&](double x) {
+    const double phase = wave_number * x;
+    return amplitude * (axis.boundary == Boundary::neumann ? std::cos(phase) : std::sin(phase));
+  });
 }
 
 }  // namespace
 
 Problem chain(const Chain& options) {
-  if (options.boundary == Boundary::neumann)
-    throw Error("a chain has periodic or dirichlet ends, not neumann: its bonds know no free end");
   const Grid grid = make_grid({.points = {options.points},
                                .length = {static_cast<double>(options.points)},  // Δx = 1
                                .boundary = {options.boundary}});
@@ -48,13 +49,11 @@ Parameter chain_boundary_parameter(const std::string& default_value) {
   return {.name = "boundary",
           .kind = ParameterKind::choice,
           .default_value = default_value,
-          .meaning = "fixed ends, or a ring",
-          .choices = {"dirichlet", "periodic"}};
+          .meaning = "fixed ends, a ring, or free ends",
+          .choices = {"dirichlet", "periodic", "neumann"}};
 }
 
-Boundary chain_boundary(const ParameterValues& values) {
-  return values.choice("boundary") == "periodic" ? Boundary::periodic : Boundary::dirichlet;
-}
+Boundary chain_boundary(const ParameterValues& values) { return boundary_named(values.choice("boundary")); }
 
 ProblemEntry chain_entry() {
   using P = Chain;
@@ -70,7 +69,7 @@ ProblemEntry chain_entry() {
               .default_end = 50.0},
              chain)
       .row(&P::points, {.name = "points",
-                        .meaning = "N, bonds; N masses on a ring, N − 1 between fixed ends",
+                        .meaning = "N, masses on a ring or with free ends; N − 1 between fixed ends",
                         .minimum = 2,
                         .maximum = most_intervals})
       .row(chain_boundary_parameter("dirichlet"),

@@ -12,8 +12,8 @@ namespace seiche {
 struct Chain {
   enum class Initial { kick, first_mode };
 
-  Index points = 32;                        // N bonds: N masses on a ring, N − 1 between fixed ends
-  Boundary boundary = Boundary::dirichlet;  // or periodic
+  Index points = 32;                        // N masses on a ring or with free ends, N − 1 between fixed ends
+  Boundary boundary = Boundary::dirichlet;  // fixed ends; periodic: a ring; neumann: free ends
   double mass = 1.0;                        // m
   double neighbour_spring = 1.0;            // k, ≥ 0
   double neighbour_cubic = 0.0;             // k₃
@@ -27,7 +27,7 @@ struct Chain {
 
 // z = (u, p) with p = mu̇, H = Σ p²/2m + ½uᵀ(gI − kR)u + Σ k₃d⁴/4 + g₃u⁴/4, S = [[0, I], [−I, 0]], D = diag(0, γI −
 // νR), with R the second difference. Starts at rest but for the middle mass (kick), or at rest in the first mode,
-// sin(πj/N) between fixed ends and sin(2πj/N) on a ring. Throws Error for a Neumann end, which the bonds do not know.
+// sin(πj/N) between fixed ends, sin(2πj/N) on a ring and cos(π(j − ½)/N) with free ends.
 Problem chain(const Chain& options = {});
 
 ProblemEntry chain_entry();

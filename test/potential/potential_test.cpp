@@ -12,6 +12,7 @@
 #include <seiche/potential/formula_potential.hpp>
 #include <seiche/potential/modulus.hpp>
 #include <seiche/potential/nodal.hpp>
+#include <seiche/potential/on_bonds.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/potential/sum.hpp>
 
@@ -291,36 +292,60 @@ TEST(Potential, AGradientInThePlaceOfItsArgumentIsTheSame) {
   });
 }
 
-// Lines of every length beside the eight points that are taken at a time.
+// On lines of every length beside the eight points that are taken at a time; W'(0) ≠ 0 pulls at free ends too.
 TEST(Potential, OfBondsIsTheSumOverBondsOnLinesOfAnyLength) {
-  const Polynomial<3> w{{0, 0.3, 0.5, 0.2}};
-  for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet}) {
-    const BondPotential<Polynomial<3>> V(w, boundary);
+  const Polynomial<3> w{{0.1, 0.3, 0.5, 0.2}};
+  const FormulaPointer W = compile_formula("0.1 + 0.3*d + 0.5*d^2 + 0.2*d^3", {"d"});
+  for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet, Boundary::neumann}) {
+    const auto V = std::make_shared<BondPotential<Polynomial<3>>>(w, boundary);
     for (std::size_t n = 1; n <= 27; ++n) {
-      std::vector<double> u(n), gradient(n), expected(n);
-      for (std::size_t j = 0; j < n; ++j) u[j] = std::sin(1.7 * static_cast<double>(j + 1));
+      SCOPED_TRACE(fmt::format("{} points, boundary {}", n, static_cast<int>(boundary)));
+      std::vector<double> u(n), b(n), gradient(n), mean(n), expected(n), expected_mean(n);
+      for (std::size_t j = 0; j < n; ++j) u[j] = std::sin(1.7 * static_cast<double>(j + 1)), b[j] = 0.5 * u[j] + 0.1;
       double sum = 0;
-      const auto bond = [&](double left, double right, double* at_left, double* at_right) {
-        sum += w.value(right - left);
-        if (at_left) *at_left -= w.slope(right - left);
-        if (at_right) *at_right += w.slope(right - left);
+      const auto bond = [&](std::size_t left, std::size_t right) {  // n: a wall
+        const auto stretch = [&](const std::vector<double>& z) {
+          return (right == n ? 0 : z[right]) - (left == n ? 0 : z[left]);
+        };
+        sum += w.value(stretch(u));
+        const double pull = w.slope(stretch(u)), mean_pull = w.mean_slope(stretch(u), stretch(b));
+        if (left < n) expected[left] -= pull, expected_mean[left] -= mean_pull;
+        if (right < n) expected[right] += pull, expected_mean[right] += mean_pull;
       };
-      for (std::size_t j = 0; j + 1 < n; ++j) bond(u[j], u[j + 1], &expected[j], &expected[j + 1]);
-      if (boundary == Boundary::periodic) {
-        bond(u[n - 1], u[0], &expected[n - 1], &expected[0]);
-      } else {
-        bond(0, u[0], nullptr, &expected[0]);
-        bond(u[n - 1], 0, &expected[n - 1], nullptr);
+      for (std::size_t j = 0; j + 1 < n; ++j) bond(j, j + 1);
+      if (boundary == Boundary::periodic) bond(n - 1, 0);
+      if (boundary == Boundary::dirichlet) bond(n, 0), bond(n - 1, n);
+      const double noise = 1e-14 * static_cast<double>(n + 1);
+      const auto is_expected = [&](const std::vector<double>& given, const std::vector<double>& wanted, double factor) {
+        for (std::size_t j = 0; j < n; ++j) EXPECT_NEAR(given[j], factor * wanted[j], 1e-13) << j;
+      };
+      const GridAxis axis{static_cast<Index>(n), 1.0, Boundary::periodic};
+      const auto by_formula =
+          on_bonds(formula_potential({.value = W, .gradient = {differentiate(*W, "d")}}, Grid{.axes = {axis}}),
+                   boundary);
+      for (const std::shared_ptr<const PointwisePotential>& each :
+           {std::shared_ptr<const PointwisePotential>(V), by_formula}) {
+        EXPECT_NEAR(each->value(u), sum, noise);
+        EXPECT_NEAR(each->value_and_magnitude(u).value, sum, noise);
+        EXPECT_NEAR(each->value_and_gradient(u, gradient), sum, noise);
+        is_expected(gradient, expected, 1);
+        each->mean_gradient(u, b, mean);
+        is_expected(mean, expected_mean, 1);
       }
-      EXPECT_NEAR(V.value(u), sum, 1e-14 * static_cast<double>(n + 1)) << n;
-      EXPECT_NEAR(V.value_and_gradient(u, gradient), sum, 1e-14 * static_cast<double>(n + 1)) << n;
-      std::vector<double> in_place(n);
-      for (std::size_t j = 0; j < n; ++j) in_place[j] = u[j] / 2;
-      EXPECT_NEAR(V.value_and_gradient_in_place(2, 3, in_place), sum, 1e-14 * static_cast<double>(n + 1)) << n;
-      for (std::size_t j = 0; j < n; ++j) {
-        EXPECT_NEAR(gradient[j], expected[j], 1e-14) << n << " " << j;
-        EXPECT_NEAR(in_place[j], 3 * expected[j], 1e-13) << n << " " << j;
-      }
+      for (std::size_t j = 0; j < n; ++j) gradient[j] = u[j] / 2;
+      EXPECT_NEAR(V->value_and_gradient_in_place(2, 3, gradient), sum, noise);
+      is_expected(gradient, expected, 3);
+      const std::vector<std::shared_ptr<const PointwisePotential>> members(panel_members, V);
+      const auto rows = static_cast<Index>(n);
+      const auto panel = V->for_members(members, rows);
+      Panel states(rows), slopes(rows);
+      for (Index j = 0; j < rows; ++j)
+        for (Index l = 0; l < panel_members; ++l) states(j, l) = u[static_cast<std::size_t>(j)];
+      PanelValues values{};
+      panel->value_and_gradient(states.row(0), slopes.row(0), values);
+      EXPECT_NEAR(values[1], sum, noise);
+      for (Index j = 0; j < rows; ++j) gradient[static_cast<std::size_t>(j)] = slopes(j, 1);
+      is_expected(gradient, expected, 1);
     }
   }
 }

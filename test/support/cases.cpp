@@ -119,6 +119,12 @@ std::vector<NamedProblem> chain_cases() {
                                 .neighbour_damping = 0.1,
                                 .gamma = constant_rate(0.05),
                                 .initial = Chain::Initial::first_mode})},
+          {"chain_free", chain({.points = 7,
+                                .boundary = Boundary::neumann,
+                                .neighbour_cubic = 0.5,
+                                .ground_spring = 0.1,
+                                .neighbour_damping = 0.1,
+                                .gamma = constant_rate(0.05)})},
           {"FPUT_beta", beta_fpu({.points = 10, .internal_friction = 0.02, .gamma = constant_rate(0.1)})}};
 }
 

@@ -95,6 +95,24 @@ def toda(ax, run):
     )
 
 
+def frenkel_kontorova(ax, run):
+    atoms, turns = run.u1.shape[1], 55  # of the ground, for so many atoms
+    phase = turns * np.arange(1, atoms + 1) / atoms
+    for number, (u, K) in enumerate(((run.u1[-1], 0.8), (run.u2[-1], 1.2))):
+        ax.plot(phase % 1, (phase + u) % 1, ".", markersize=3, color=ground_colour(ax, number), label=f"$K$ = {K}")
+    ax.set(
+        xlabel="where equal distances put an atom (mod 1)", ylabel="where it rests (mod 1)", xlim=(0, 1), ylim=(0, 1)
+    )
+    ax.legend(loc="upper left")
+
+
+def fput_load(ax, run):
+    masses = np.arange(1, run.v.shape[1] + 1)
+    over_place_and_time(
+        ax, run, run.v, masses, "velocity", place="mass", look=colours.Look(range=(-0.02, 0.02), centre=0.0)
+    )
+
+
 def whitham(ax, run):
     points = run.u.shape[1]
     x = 100 * np.arange(1, points + 1) / points
@@ -111,7 +129,19 @@ def henon_heiles(axes, run):
 
 DRAWN = {
     function.__name__: function
-    for function in (pendulum, duffing_section, beta_fpu, kdv_soliton, nls, network, toda, whitham, henon_heiles)
+    for function in (
+        pendulum,
+        duffing_section,
+        beta_fpu,
+        kdv_soliton,
+        nls,
+        network,
+        toda,
+        frenkel_kontorova,
+        fput_load,
+        whitham,
+        henon_heiles,
+    )
 }
 
 

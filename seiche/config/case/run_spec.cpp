@@ -5,6 +5,7 @@
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/core/text/shortened.hpp>
+#include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <algorithm>
@@ -76,7 +77,9 @@ const ProblemEntry& problem_entry(const RunSpec& spec) { return spec.entry ? *sp
 FormulaConstants formula_constants(const RunSpec& spec) {
   FormulaConstants constants;
   std::vector<double> lengths, intervals;  // along the axes, where there are any
+  Boundary boundary = Boundary::periodic;  // of the first
   for (const Parameter& p : problem_entry(spec).parameters) {
+    if (p.name == "boundary" && p.per_axis) boundary = boundary_named(spec.parameters.choices(p.name).front());
     if (p.kind != ParameterKind::real && p.kind != ParameterKind::integer) continue;
     const std::vector<double> numbers = spec.parameters.numbers(p);
     constants[p.name] = numbers.front();
@@ -89,6 +92,7 @@ FormulaConstants formula_constants(const RunSpec& spec) {
   };
   for (std::size_t a = 0; a < std::max(lengths.size(), intervals.size()); ++a)
     constants[spacing_names[a]] = of_axis(lengths, a) / of_axis(intervals, a);
+  if (!constants.contains(spacing_names[1])) constants[index_before_line] = index_at_origin(boundary);
   return constants;
 }
 

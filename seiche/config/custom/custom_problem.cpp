@@ -70,6 +70,7 @@ class Builder {
   FormulaConstants grid_constants() const {
     const GridAxis& first = p_.grid.axis(0);
     FormulaConstants constants = {{"length", first.length}, {"points", static_cast<double>(first.intervals)}};
+    if (axes_ == 1) constants[index_before_line] = index_at_origin(first.boundary);
     for (Index a = 0; a < axes_; ++a) constants[spacing_names[static_cast<std::size_t>(a)]] = p_.grid.axis(a).dx();
     return constants;
   }
@@ -149,17 +150,12 @@ class Builder {
     EnergySplit split = split_energy("problem.H", custom_.H, energy_names(), constants_, terms);
     p_.M = BlockStencil(fields());
     try {
-      for (const QuadraticTerm& term : split.quadratic) add_term(term);
+      for (const QuadraticTerm& term : split.quadratic) add_quadratic(term, p_.grid, discretisation(), p_.M);
     } catch (const Error& error) {
       throw Error("problem.H = \"{}\": {}", shortened(custom_.H), error.what());
     }
     set_potential(split);
     return split;
-  }
-
-  void add_term(const QuadraticTerm& term) {
-    if (term.a.kind == Factor::Kind::bond) require_bonds(p_.grid, p_.fields[static_cast<std::size_t>(term.a.field)]);
-    add_quadratic(term, p_.grid, discretisation(), p_.M);
   }
 
   void set_energy_given() {
@@ -215,10 +211,7 @@ class Builder {
   void set_potential(const EnergySplit& split) {
     std::vector<PlacedPotential> parts;
     for (const FieldFormula& f : split.per_point) parts.push_back({point_potential(f, p_.grid), f.field});
-    for (const FieldFormula& f : split.per_bond) {
-      require_bonds(p_.grid, p_.fields[static_cast<std::size_t>(f.field)]);
-      parts.push_back({bond_potential(f, p_.grid), f.field});
-    }
+    for (const FieldFormula& f : split.per_bond) parts.push_back({bond_potential(f, p_.grid), f.field});
     p_.potential = nullptr;
     p_.potential_field = 0;
     fields_of_V_.clear();

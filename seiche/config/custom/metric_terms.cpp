@@ -35,10 +35,4 @@ void add_quadratic(const QuadraticTerm& term, const Grid& grid, Discretisation d
   M(term.b.field, term.a.field) += term.coefficient * product(term.b, term.a, grid, discretisation);
 }
 
-void require_bonds(const Grid& grid, const std::string& field) {
-  if (grid.axis(0).boundary == Boundary::neumann)
-    throw Error("differences between neighbours (d{}) need a ring (periodic) or fixed ends (dirichlet), not neumann",
-                field);
-}
-
 }  // namespace seiche

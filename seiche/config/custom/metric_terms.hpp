@@ -5,15 +5,10 @@
 #include <seiche/core/grid/grid.hpp>
 #include <seiche/core/grid/stencil.hpp>
 
-#include <string>
-
 namespace seiche {
 
 // M ← M + what makes ½zᵀMz grow by the term. Throws Error for products that no difference is there for: of derivatives
 // along different axes, of bonds with points, and of odd order where ends are not periodic.
 void add_quadratic(const QuadraticTerm& term, const Grid& grid, Discretisation discretisation, BlockStencil& M);
-
-// Differences between neighbours need all of them: on a ring, or between fixed ends. Throws Error elsewhere.
-void require_bonds(const Grid& grid, const std::string& field);
 
 }  // namespace seiche

@@ -12,6 +12,9 @@ using Place = std::array<double, 3>;  // x, y, z; zero along axes that are not t
 
 enum class Boundary { periodic, dirichlet, neumann };
 
+// What j of x = jΔx is at x = 0, in the numbering of the next declaration.
+inline double index_at_origin(Boundary boundary) { return boundary == Boundary::neumann ? 0.5 : 0.0; }
+
 // `intervals` cells of width Δx = length / intervals. Unknowns sit at x = jΔx: j = 1 … N when periodic (x_N ≡ x_0),
 // j = 1 … N−1 where the field vanishes at both ends, and at the middles x = (j − ½)Δx, j = 1 … N, where its derivative
 // does: then the mirror lies half a cell outside, and differences stay symmetric.
@@ -23,7 +26,7 @@ struct GridAxis {
   double dx() const { return length / static_cast<double>(intervals); }
   Index unknowns() const { return boundary == Boundary::dirichlet ? intervals - 1 : intervals; }
   double x(Index i) const {  // of unknown i = 0, 1, …
-    return (static_cast<double>(i) + (boundary == Boundary::neumann ? 0.5 : 1.0)) * dx();
+    return (static_cast<double>(i) + 1 - index_at_origin(boundary)) * dx();
   }
 };
 

@@ -38,8 +38,7 @@ class Advisor {
     if (is_one_of(wave_numbers, name)) return of_wave_number(name) + or_parameter(name);
     if (is_one_of(operators, name)) return of_operator(name);
     if (name == "j" && c_.kind != Kind::initial)
-      return fmt::format("j, the number of a point, stands in initial only{}",
-                         c_.axes > 0 ? "; along a line it is x/dx, and x/dx + 1/2 where boundary = \"neumann\"" : "");
+      return c_.axes == 1 ? of_place(name) : "j, the number of a point, stands in formulas on a line and in initial";
     return "";
   }
 

@@ -15,11 +15,6 @@ T of_axis(const std::vector<T>& list, std::size_t axis) {
   return list.size() == 1 ? list.front() : list[axis];
 }
 
-Boundary boundary_named(const std::string& name) {
-  if (name == "dirichlet") return Boundary::dirichlet;
-  return name == "neumann" ? Boundary::neumann : Boundary::periodic;
-}
-
 // Before anything is allocated: what the leanest method takes for two fields (docs/performance.md). Simulation asks
 // again for the method at hand.
 void require_memory(const Grid& grid) {
@@ -105,6 +100,11 @@ std::vector<Parameter> grid_parameters(const std::string& default_points, const 
   parameters.push_back(discretisation_parameter());
   parameters.push_back(dealias_parameter());
   return parameters;
+}
+
+Boundary boundary_named(const std::string& name) {
+  if (name == "dirichlet") return Boundary::dirichlet;
+  return name == "neumann" ? Boundary::neumann : Boundary::periodic;
 }
 
 GridOptions axes_options(const ParameterValues& values) {

@@ -40,6 +40,7 @@ GridOptions grid_options(const ParameterValues& values);
 std::vector<Parameter> axes_parameters(const std::string& default_points, const std::string& default_length);
 std::vector<Parameter> axes_parameters(const GridOptions& defaults);
 GridOptions axes_options(const ParameterValues& values);
+Boundary boundary_named(const std::string& name);
 
 // Each of the others.
 Parameter discretisation_parameter();
