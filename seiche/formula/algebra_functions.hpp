@@ -1,4 +1,4 @@
-// The functions of formulas as computer algebra knows them. Hold algebra_mutex().
+// The functions of formulas as computer algebra knows them. Hold an AlgebraLock.
 #pragma once
 
 #include <seiche/formula/formula_expression.hpp>

@@ -25,14 +25,16 @@ double terms_of_power(double m, double n) {
   return terms;
 }
 
-// The n of aᵇ = aⁿaᶜ where b is a sum that is not a number: then aⁿ is multiplied out.
-double whole_part(const Expression& exponent) {
-  if (most_terms_multiplied_out(exponent) > most_terms) return std::numeric_limits<double>::infinity();
+// The n of aᵇ = aⁿaᶜ where b is a sum that is not a number: then aⁿ is multiplied out. Infinite where aⁿ has too many
+// digits.
+double whole_part(const Expression& base, const Expression& exponent) {
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  if (most_terms_multiplied_out(exponent) > most_terms) return endless;
   double n = 0;
   const Expression sum = exponent.expand();
   for (std::size_t i = 0; GiNaC::is_a<GiNaC::add>(sum) && i < sum.nops(); ++i)
     if (GiNaC::is_a<GiNaC::numeric>(sum.op(i))) n = std::abs(GiNaC::ex_to<GiNaC::numeric>(sum.op(i)).to_double());
-  return n;
+  return bits_of(base) * n > most_bits ? endless : n;
 }
 
 // At most so many terms stand above and below the line of a common denominator.
@@ -59,10 +61,11 @@ Terms terms_of_quotient(const Expression& expression) {
     terms = {terms_of_power(base.above, std::abs(n)), terms_of_power(base.below, std::abs(n))};
     if (n < 0) std::swap(terms.above, terms.below);
   } else if (GiNaC::is_a<GiNaC::power>(expression) && !GiNaC::is_a<GiNaC::numeric>(expression.op(1))) {
-    const double n = whole_part(expression.op(1));
+    const double n = whole_part(expression.op(0), expression.op(1));
     const Terms base = terms_of_quotient(expression.op(0));
     terms = {terms_of_power(base.above, n), terms_of_power(base.below, n)};
     terms.above = std::max({terms.above, base.above, most_terms_multiplied_out(expression.op(1))});
+    if (std::isinf(n)) terms.above = n;
   } else {
     for (const Expression& argument : expression)
       terms.above = std::max(terms.above, most_terms_multiplied_out(argument));

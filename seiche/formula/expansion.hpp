@@ -1,4 +1,4 @@
-// What may be multiplied out, and what stays as it was written. Hold algebra_mutex().
+// What may be multiplied out, and what stays as it was written. Hold an AlgebraLock.
 #pragma once
 
 #include <seiche/formula/formula_expression.hpp>

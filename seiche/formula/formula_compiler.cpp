@@ -36,7 +36,7 @@ class CompiledFormula final : public Formula {
 // c₀, c₁, … of a polynomial in one variable, or nothing where they do not fit a double.
 std::optional<std::vector<double>> coefficients(std::span<const Instruction> program,
                                                 const std::vector<std::string>& variables) {
-  const std::scoped_lock lock(algebra_mutex());
+  const AlgebraLock lock;
   const Symbols symbols = make_symbols(variables.empty() ? std::vector<std::string>{"x"} : variables);
   const Expression expanded = to_expression(program, symbols).expand();
   const int degree = expanded.degree(symbols[0]);
@@ -57,7 +57,7 @@ FormulaPointer make_formula(std::string text, std::vector<std::string> variables
 }
 
 FormulaProgram derivative_program(const CompiledFormula& formula, std::size_t variable) {
-  const std::scoped_lock lock(algebra_mutex());
+  const AlgebraLock lock;
   const Symbols symbols = make_symbols(formula.variables());
   FormulaProgram program;
   try {

@@ -6,6 +6,7 @@
 #include <seiche/formula/formula_expression.hpp>
 #include <seiche/formula/formula_parser.hpp>
 
+#include <cln/malloc.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -56,13 +57,26 @@ Expression power(const Expression& base, const Expression& exponent) {
   return GiNaC::power(base, exponent);  // not pow, which loses memory where it throws
 }
 
-}  // namespace
-
-// GiNaC counts references without atomics, also of objects that all expressions share.
 std::mutex& algebra_mutex() {
   static std::mutex mutex;
   return mutex;
 }
+
+thread_local bool numbers_are_bounded = false;  // CLN may serve others than this library
+
+}  // namespace
+
+AlgebraLock::AlgebraLock() : lock_(algebra_mutex()) {
+  static void* (*const allocate)(std::size_t) = cln::malloc_hook;
+  cln::malloc_hook = [](std::size_t size) {
+    if (numbers_are_bounded && size > largest)
+      throw Error("computer algebra meets exact numbers of more than {} digits", largest * 12 / 5);
+    return allocate(size);
+  };
+  numbers_are_bounded = true;
+}
+
+AlgebraLock::~AlgebraLock() { numbers_are_bounded = false; }
 
 Expression to_expression(std::span<const Instruction> program, const Symbols& symbols) {
   std::vector<Expression> stack;

@@ -1,4 +1,4 @@
-// Between programs and the expressions of computer algebra. Hold algebra_mutex() as long as an expression lives.
+// Between programs and the expressions of computer algebra. Hold an AlgebraLock as long as an expression lives.
 #pragma once
 
 #include <seiche/formula/formula_program.hpp>
@@ -16,7 +16,21 @@ namespace seiche {
 using Expression = GiNaC::ex;
 using Symbols = std::vector<GiNaC::realsymbol>;  // real, or the derivative of abs speaks of conjugates
 
-std::mutex& algebra_mutex();
+// One thread at a time: GiNaC counts references without atomics, also of objects that all expressions share. While it
+// is held, exact numbers of more than `largest` bytes throw Error, wherever algebra makes them.
+class AlgebraLock {
+ public:
+  static constexpr std::size_t largest = std::size_t{1} << 15U;
+
+  AlgebraLock();
+  ~AlgebraLock();
+  AlgebraLock(const AlgebraLock&) = delete;
+  AlgebraLock& operator=(const AlgebraLock&) = delete;
+
+ private:
+  std::scoped_lock<std::mutex> lock_;
+};
+
 Symbols make_symbols(const std::vector<std::string>& variables);
 
 // Numbers become the exact decimals that they were written as. Throws Error for functions without a derivative.

@@ -59,7 +59,7 @@ class Splitter {
 
   EnergySplit split(const FormulaConstants& constants) {
     const FormulaProgram program = parse(constants);
-    const std::scoped_lock lock(algebra_mutex());
+    const AlgebraLock lock;
     symbols_ = make_symbols(layout_.variables);
     for (std::size_t v = 0; v < symbols_.size(); ++v)
       if (v < layout_.fields || v >= layout_.first_factor()) active_.append(symbols_[v]);

@@ -41,7 +41,7 @@ class OperatorReader {
     const bool varies = names_variable(program, [&](std::size_t variable) { return variable >= constant; });
     if (varies && !names_operator) return {.stencil = {}, .rate = text_};  // no algebra is needed
     refuse_kinks(program, may_vary);
-    const std::scoped_lock lock(algebra_mutex());
+    const AlgebraLock lock;
     symbols_ = make_symbols(names);
     for (const GiNaC::realsymbol& symbol : symbols_) all_.append(symbol);
     try {
@@ -230,7 +230,7 @@ class OperatorReader {
 bool is_one_rate(const std::string& a, const std::string& b, const FormulaConstants& constants) {
   if (a == b) return true;
   const std::vector<std::string> names(place_names.begin(), place_names.end());
-  const std::scoped_lock lock(algebra_mutex());
+  const AlgebraLock lock;
   const Symbols symbols = make_symbols(names);
   GiNaC::lst all;
   for (const GiNaC::realsymbol& symbol : symbols) all.append(symbol);
