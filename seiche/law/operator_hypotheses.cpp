@@ -66,7 +66,7 @@ Hypothesis semidefinite(const Problem& problem, std::string name, const Semidefi
   std::string text = fmt::format("{}: the smallest eigenvalue{} is {:.6g}", meaning,
                                  has_modes(problem) ? " over all modes" : "", std::max(s.value, 0.0));
   if (s.zeros > 0 && has_modes(problem))
-    text += fmt::format("; {} vanish, the first at {}", s.zeros, text_of(s.first_zero, problem.grid));
+    text += fmt::format("; {} eigenvalues are 0, the first at {}", s.zeros, text_of(s.first_zero, problem.grid));
   else if (s.zeros > 0)  // the smallest of all then is one
     text += fmt::format("; it vanishes on {}", text_of(problem, s.vector));
   return {std::move(name), Grade::verified, std::move(text), std::max(s.value, 0.0)};
@@ -93,10 +93,9 @@ Hypothesis hypothesis_of_MD(const Problem& problem, const OperatorFindings& find
   std::vector<Hypothesis> parts;
   if (findings.MD_constant)
     parts.push_back(semidefinite(problem, name, *findings.MD_constant,
-                                 findings.MD_rate ? "the constant part of D by itself takes from ½zᵀMz"
-                                                  : "the constant part of D takes from ½zᵀMz"));
-  if (findings.MD_rate)
-    parts.push_back(semidefinite(problem, name, *findings.MD_rate, "the rate takes from ½zᵀMz where it is ≥ 0"));
+                                 findings.MD_rate ? "the constant part of D by itself damps ½zᵀMz"
+                                                  : "the constant part of D damps ½zᵀMz"));
+  if (findings.MD_rate) parts.push_back(semidefinite(problem, name, *findings.MD_rate, "γ ≥ 0 damps ½zᵀMz"));
   if (parts.empty()) return {name, Grade::by_structure, "there is no linear damping"};
   Hypothesis worst = parts.front();
   for (const Hypothesis& part : parts)

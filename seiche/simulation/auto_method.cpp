@@ -128,7 +128,7 @@ MethodChoice choose_method(const Problem& problem, const System& system, const M
       return choice;
     }
     choice.reason =
-        fmt::format("{} ({}): {}; kicks between exact linear flows cost least where damping acts on momenta alone",
+        fmt::format("{} ({}): {}; damping acts on momenta alone, where forces between exact linear flows cost least",
                     choice.method, accuracy, found);
     return choice;
   }

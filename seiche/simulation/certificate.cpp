@@ -153,12 +153,10 @@ Hypothesis hypothesis_of_margin(const Simulation& simulation) {
   const std::string name = "V + C > 0";
   const State& s = simulation.state();
   const double V = simulation.system().potential->value(s.z);
-  return {
-      name, Grade::verified,
-      fmt::format(
-          "at the start V + C = {:.6g} with C = {:.6g}; the guard of every step keeps it above a tenth of the energy",
-          V + s.shift, s.shift),
-      V + s.shift};
+  return {name, Grade::verified,
+          fmt::format("at the start V + C = {:.6g} with C = {:.6g}; every step keeps it above a tenth of the energy",
+                      V + s.shift, s.shift),
+          V + s.shift};
 }
 
 std::string theorem(const Problem& problem, const MethodEntry& method) {

@@ -134,7 +134,7 @@ ProblemEntry custom_entry(const CustomProblem& custom, bool has_grid) {
   ProblemEntry entry{
       .name = custom_name,
       .equation = "ż = S∇H(z) − Dz with H, S and D by formulas",
-      .reference = "written down in the case file",
+      .reference = "the case file, with your own H, S and D",
       .fields = field_names(custom),
       .parameters = has_grid ? grid_parameters("64", "1.0") : std::vector<Parameter>{},
       .presets = {"zero"},

@@ -1,5 +1,6 @@
 #include <seiche/config/custom/energy_split.hpp>
 #include <seiche/config/custom/outward_growth.hpp>
+#include <seiche/config/custom/written_summands.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/shortened.hpp>
@@ -58,7 +59,7 @@ class Splitter {
       : key_(std::move(key)), text_(std::move(text)), layout_(names), advice_(names.advice), quadratic_(quadratic) {}
 
   EnergySplit split(const FormulaConstants& constants) {
-    const FormulaProgram program = parse(constants);
+    const FormulaProgram program = parse(text_, constants);
     const AlgebraLock lock;
     symbols_ = make_symbols(layout_.variables);
     for (std::size_t v = 0; v < symbols_.size(); ++v)
@@ -68,7 +69,9 @@ class Splitter {
       sort(to_expression(program, symbols_));
       for (const Expression& term : summands(polynomial_)) place(term);
       for (const Expression& term : summands(as_written_)) place(term);
-      return result();
+      EnergySplit split = result();
+      if (quadratic_.found) show_as_written(split, constants);
+      return split;
     } catch (const Error& error) {
       const std::string_view said = error.what();
       throw said.starts_with(key_) ? error : Error("{} = \"{}\": {}", key_, shortened(text_), said);
@@ -78,9 +81,9 @@ class Splitter {
   }
 
  private:
-  FormulaProgram parse(const FormulaConstants& constants) const {
+  FormulaProgram parse(const std::string& text, const FormulaConstants& constants) const {
     try {
-      return parse_formula(text_, layout_.variables, constants, advice_, FunctionsAllowed::differentiable).program;
+      return parse_formula(text, layout_.variables, constants, advice_, FunctionsAllowed::differentiable).program;
     } catch (const Error& error) {
       throw Error("{}: {}", key_, error.what());
     }
@@ -91,11 +94,15 @@ class Splitter {
   void sort(const Expression& expression) {
     if (GiNaC::is_a<GiNaC::add>(expression)) {
       for (const Expression& term : expression) sort(term);
-    } else if (is_small_polynomial(expression, active_, symbols_) && !has_shifted_power(expression, active_)) {
+    } else if (multiplied_out(expression)) {
       polynomial_ += expression.expand();
     } else {
       as_written_ += expression;
     }
+  }
+
+  bool multiplied_out(const Expression& term) const {
+    return is_small_polynomial(term, active_, symbols_) && !has_shifted_power(term, active_);
   }
 
   static std::vector<Expression> summands(const Expression& sum) {
@@ -140,7 +147,7 @@ class Splitter {
     if (has_bond && (has_field || has_place || has_derivative))
       throw Error("{} = \"{}\": the term {} mixes a difference between neighbours with what belongs to one point", key_,
                   shortened(text_), shortened(text_of(term)));
-    if (square && quadratic_.found && (has_derivative || has_bond || !is_left(*square))) {
+    if (square && is_in_M(*square)) {
       split_.quadratic.push_back(*square);
       quadratic_sum_ += term;
     } else if (has_bond) {
@@ -150,9 +157,10 @@ class Splitter {
     }
   }
 
-  bool is_left(const QuadraticTerm& term) const {
+  bool is_in_M(const QuadraticTerm& term) const {
+    const bool is_of_values = term.a.kind == Factor::Kind::value && term.b.kind == Factor::Kind::value;
     const auto [i, j] = std::minmax(term.a.field, term.b.field);
-    return quadratic_.left_in_V.contains({i, j});
+    return quadratic_.found && !(is_of_values && quadratic_.left_in_V.contains({i, j}));
   }
 
   // c·a·b with a number c.
@@ -207,6 +215,25 @@ class Splitter {
       split_.per_bond.push_back(formula(bond_[f], of_bond, static_cast<Index>(f)));
     }
     return std::move(split_);
+  }
+
+  // In the user's own terms, where each of them belongs to one part as a whole.
+  void show_as_written(EnergySplit& split, const FormulaConstants& constants) const {
+    std::vector<WrittenSummand> in_M, in_V;
+    Expression sum_in_M = 0;
+    for (const WrittenSummand& written : written_summands(text_)) {
+      const Expression term = to_expression(parse(written.text, constants), symbols_);
+      const std::vector<Expression> parts = multiplied_out(term) ? summands(term.expand()) : std::vector{term};
+      const bool is_quadratic = std::all_of(parts.begin(), parts.end(), [&](const Expression& part) {
+        const std::optional<QuadraticTerm> square = as_quadratic(part);
+        return square && is_in_M(*square);
+      });
+      (is_quadratic ? in_M : in_V).push_back(written);
+      if (is_quadratic) sum_in_M += written.is_subtracted ? -term : term;
+    }
+    if (!(sum_in_M - quadratic_sum_).expand().is_zero()) return;
+    split.quadratic_text = sum_text(in_M);
+    if (split.left_out_text.empty()) split.rest_text = sum_text(in_V);
   }
 
   // Throws where it is no real number, as √−1.
