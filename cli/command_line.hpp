@@ -27,6 +27,7 @@ void add_plot(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
 void add_cite(CLI::App& app, Action& action);
+void add_schema(CLI::App& app, Action& action);
 
 void print_data(std::string_view text);     // to stdout; throws std::runtime_error where it cannot be written
 void print_note(std::string_view text);     // one line to stderr, after "seiche: "

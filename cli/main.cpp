@@ -91,6 +91,7 @@ ExitCode run_program(const std::vector<std::string>& given) {
   add_list(app, action);
   add_cite(app, action);
   add_new(app, action);
+  add_schema(app, action);
 
   if (arguments.empty()) {
     print_lines(app.help());

@@ -13,7 +13,11 @@ void add_new(CLI::App& app, Action& action) {
   command->add_option("PROBLEM", *problem, "Its name; see seiche list problems")->required();
   command->callback([problem, &action] {
     action = [problem] {
-      print_data(example_case(*problem));
+      const std::string text = example_case(*problem);  // first, since it refuses unknown names
+      print_data(
+          "#:schema seiche.schema.json\n# With what `seiche schema > seiche.schema.json` writes beside it, editors "
+          "that know TOML check and complete this file.\n\n" +
+          text);
       return success;
     };
   });

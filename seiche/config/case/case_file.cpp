@@ -2,7 +2,7 @@
 #include <seiche/config/case/case_keys.hpp>
 #include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/case/ensemble_case.hpp>
-#include <seiche/config/case/method_section.hpp>
+#include <seiche/config/case/key_rows.hpp>
 #include <seiche/config/case/problem_section.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/input_file.hpp>
@@ -18,19 +18,7 @@
 namespace seiche {
 namespace {
 
-// How many steps of h > 0 the interval > 0 between snapshots takes. Throws Error, with the nearest number of steps,
-// where it is no multiple of h: steps of one size come to no other times than theirs.
-std::int64_t steps_between_snapshots(const std::string& key, const CaseValue& interval, double h) {
-  constexpr double round_off = 1e-9;
-  const double time = read_number(key, interval);
-  const double every = std::max(1.0, std::round(time / h));
-  if (std::abs(time - every * h) > round_off * time)
-    throw Error("{} = {} is no multiple of h = {}: write snapshot_every = {}, for one every {}, or another h", key,
-                interval.shown(), h, every, every * h);
-  return static_cast<std::int64_t>(every);
-}
-
-// The sections in turn; those beside [problem] and [method] are read here.
+// The sections in turn.
 class Sections {
  public:
   explicit Sections(CaseReading& reading) : r_(reading), spec_(reading.spec) {}
@@ -40,10 +28,10 @@ class Sections {
     refuse_unknown();
     read_time();
     if (r_.problem != nullptr) read_problem_section(r_);
-    read_method_section(r_);
-    read_backend();
+    read_method();
+    read_section("backend");
     read_output();
-    read_checkpoint();
+    read_section("checkpoint");
     if (r_.problem != nullptr) read_ensemble();
   }
 
@@ -73,46 +61,31 @@ class Sections {
         return r_.complain(entry.value.order, entry.place, unknown_key(section.name, entry.key, r_.problem));
   }
 
-  void read_time() {
-    // Hypotheses of the energy law are looked at from t = 0 on.
-    r_.on("time", "start", [&](const std::string& key, const CaseValue& value) {
-      const double start = read_number(key, value);
-      if (start < 0)
-        throw Error("{} = {} must be ≥ 0: rather shift the formulas in t, so that the run begins at 0", key,
-                    value.shown());
-      spec_.t_start = start;
-    });
-    if (r_.problem != nullptr) spec_.t_end = spec_.t_start + r_.problem->default_end;
-    r_.on("time", "end", [&](const std::string& key, const CaseValue& value) {
-      const double end = read_number(key, value);
-      if (end <= spec_.t_start)
-        throw Error("{} = {} must be > {}", key, value.shown(),
-                    spec_.t_start == 0 ? "0" : fmt::format("time.start = {}", spec_.t_start));
-      spec_.t_end = end;
-    });
+  void read_row(const KeyRow& row) {
+    r_.on(row.section, row.name, [&](const std::string& key, const CaseValue& value) { row.read(r_, key, value); });
+  }
+  void read_section(const std::string& section) {
+    for (const KeyRow& row : key_rows())
+      if (row.section == section) read_row(row);
   }
 
-  void read_backend() {
-    r_.on("backend", "name", [&](const std::string&, const CaseValue& value) {
-      std::vector<std::string> names = backend_names();
-      if (std::find(names.begin(), names.end(), "auto") == names.end()) names.insert(names.begin(), "auto");
-      spec_.backend = read_name("backend", value, names);
-    });
-    r_.on("backend", "plan", [&](const std::string& key, const CaseValue& value) {
-      spec_.measure_plans = read_name(key, value, {"estimate", "measure"}) == "measure";
-    });
-    r_.on("backend", "exponential", [&](const std::string& key, const CaseValue& value) {
-      const bool lanczos = read_name(key, value, {"pade", "lanczos"}) == "lanczos";
-      spec_.sparse.exponential = lanczos ? ExponentialKind::lanczos : ExponentialKind::pade;
-    });
-    r_.on("backend", "pade_degree", [&](const std::string& key, const CaseValue& value) {
-      spec_.sparse.pade_degree = static_cast<int>(std::min(read_whole(key, value, 0), 1000L));
-      spec_.sparse.validate();
-    });
-    r_.on("backend", "lanczos_dimension", [&](const std::string& key, const CaseValue& value) {
-      spec_.sparse.lanczos_dimension = static_cast<int>(std::min(read_whole(key, value, 0), 1'000'000L));
-      spec_.sparse.validate();
-    });
+  void read_time() {
+    read_row(key_row("time", "start"));
+    if (r_.problem != nullptr) spec_.t_end = spec_.t_start + r_.problem->default_end;
+    read_row(key_row("time", "end"));
+  }
+
+  void read_method() {
+    if (r_.problem != nullptr) spec_.method = r_.problem->default_method;
+    read_section("method");
+    if (r_.gives("method", "h") || r_.problem == nullptr || r_.asks_for_tolerance()) return;
+    spec_.h = read_number("method.h", default_value(r_.problem->default_h));
+    spec_.h_is_default = spec_.h <= spec_.duration();
+    if (spec_.h_is_default) return;
+    spec_.h = spec_.duration();
+    spec_.notes.push_back(
+        fmt::format("method.h is not given and its default {} is more than the time of the run: h = {}",
+                    r_.problem->default_h, spec_.h));
   }
 
   // A step size typed wrong must not fill the disk.
@@ -133,49 +106,10 @@ class Sections {
     // Two problems of one's own are two, and neither takes the other's folder.
     const std::string stem = std::filesystem::path(r_.name).stem().string();
     spec_.output_directory = "out/" + (spec_.custom && !stem.empty() ? stem : spec_.problem);
-    r_.on("output", "directory", [&](const std::string& key, const CaseValue& value) {
-      spec_.output_directory = read_text(key, value);
-      if (spec_.output_directory.empty()) throw Error("{} must not be empty", key);
-    });
-    r_.on("output", "energy_every",
-          [&](const std::string& key, const CaseValue& value) { spec_.energy_every = read_whole(key, value, 1); });
-    refuse_endless_files();
-    r_.on("output", "snapshot_every",
-          [&](const std::string& key, const CaseValue& value) { spec_.snapshot_every = read_whole(key, value, 0); });
     for (const char* key : {"snapshot_every", "snapshot_interval"})
-      spec_.snapshots_given = spec_.snapshots_given || r_.table.value("output", key) != nullptr;
-    r_.on("output", "ledger", [&](const std::string& key, const CaseValue& value) {
-      spec_.ledger = read_name(key, value, {"off", "on"}) == "on";
-    });
-    r_.on("output", "report", [&](const std::string& key, const CaseValue& value) {
-      spec_.report = read_name(key, value, {"on", "off"}) == "on";
-    });
-    r_.on("output", "snapshot_interval", [&](const std::string& key, const CaseValue& value) {
-      const double interval = read_number(key, value);
-      if (interval < 0) throw Error("{} = {} must be ≥ 0", key, value.shown());
-      if (interval > 0 && spec_.duration() / interval > 1e7)
-        throw Error("{} = {} would make {:.3g} snapshots", key, value.shown(), spec_.duration() / interval);
-      if (interval == 0 || r_.asks_for_tolerance()) {
-        spec_.snapshot_interval = interval;
-      } else if (spec_.h > 0) {
-        spec_.snapshot_every = steps_between_snapshots(key, value, spec_.h);
-      }
-    });
-  }
-
-  void read_checkpoint() {
-    r_.on("checkpoint", "every_seconds", [&](const std::string& key, const CaseValue& value) {
-      spec_.checkpoint.every_seconds = read_number(key, value);
-      if (spec_.checkpoint.every_seconds < 0) throw Error("{} = {} must be ≥ 0", key, value.shown());
-    });
-    r_.on("checkpoint", "every_steps", [&](const std::string& key, const CaseValue& value) {
-      spec_.checkpoint.every_steps = read_whole(key, value, 0);
-    });
-    r_.on("checkpoint", "keep", [&](const std::string& key, const CaseValue& value) {
-      spec_.checkpoint.keep = read_whole(key, value, 1);
-      if (spec_.checkpoint.keep > 2)
-        throw Error("{} = {} must be 1 or 2: the newest checkpoint, and the one before it", key, value.shown());
-    });
+      spec_.snapshots_given = spec_.snapshots_given || r_.gives("output", key);
+    read_section("output");
+    refuse_endless_files();
   }
 
   void read_ensemble() {

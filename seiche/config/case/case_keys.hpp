@@ -1,4 +1,4 @@
-// Which sections and keys a case file may have, and what is said of others.
+// Which keys a case file may have, and what is said of others.
 #pragma once
 
 #include <seiche/core/error.hpp>
@@ -8,8 +8,6 @@
 #include <vector>
 
 namespace seiche {
-
-std::vector<std::string> case_sections();
 
 // Of one section; `problem` has its own, and null is a problem that is not known yet.
 std::vector<std::string> case_keys(const std::string& section, const ProblemEntry* problem);

@@ -77,14 +77,6 @@ bool may_vary(const Parameter& p) {
   return (p.kind == ParameterKind::real || p.kind == ParameterKind::rate) && !p.per_axis;
 }
 
-std::vector<std::string> ensemble_keys(const ProblemEntry* problem) {
-  std::vector<std::string> keys = {"members", "seed", "initial", "perturb_initial"};
-  if (problem == nullptr) return keys;
-  for (const Parameter& parameter : problem->parameters)
-    if (may_vary(parameter)) keys.push_back(parameter.name);
-  return keys;
-}
-
 void read_ensemble_key(EnsembleSpec& ensemble, const std::string& name, const CaseValue& value,
                        const ProblemEntry& problem, const std::filesystem::path& folder) {
   const std::string key = "ensemble." + name;

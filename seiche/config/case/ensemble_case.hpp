@@ -35,10 +35,8 @@ struct EnsembleSpec {
 // Is it one number, which [ensemble] may give every member anew?
 bool may_vary(const Parameter& parameter);
 
-// The keys of [ensemble]: its own, and the parameters of the problem that are one number.
-std::vector<std::string> ensemble_keys(const ProblemEntry* problem);
-
-// Reads the value of one of these keys. Throws Error with a sentence that names the key, the value and what is allowed.
+// Reads the value of a key of [ensemble]: one of its own, or a parameter of the problem that may vary. Throws Error
+// with a sentence that names the key, the value and what is allowed.
 void read_ensemble_key(EnsembleSpec& ensemble, const std::string& name, const CaseValue& value,
                        const ProblemEntry& problem, const std::filesystem::path& folder);
 

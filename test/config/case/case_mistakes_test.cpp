@@ -27,7 +27,8 @@ TEST(CaseFile, UnknownSectionsAndKeysAreRefusedWithTheNearestName) {
                     HasSubstr("problem, method, backend, time, output")));
   EXPECT_THAT(complaint(minimal + "[method]\nC = 1\nauxilary = \"frozen\"\n"),
               AllOf(StartsWith("x.toml:5:1: "), HasSubstr("'auxilary'; did you mean 'auxiliary'?"),
-                    HasSubstr("Allowed: name, h, tolerance, h_max, C, auxiliary, scalar_solver, law, linear")));
+                    HasSubstr(
+                        "Allowed: name, h, tolerance, h_max, C, auxiliary, scalar_solver, predictor, law, linear")));
   EXPECT_THAT(complaint(minimal + "kapa = 1\n"), AllOf(StartsWith("x.toml:3:1: "), HasSubstr("did you mean 'kappa'?")));
   EXPECT_THAT(complaint("h = 1\n" + minimal), HasSubstr("x.toml:1:1: the key 'h' stands outside every section; it "
                                                         "belongs into [method]"));

@@ -1,0 +1,130 @@
+// seiche schema: what editors need to check and complete case files, as a JSON Schema.
+#include "command_line.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <seiche/config/case/key_rows.hpp>
+#include <seiche/config/custom/custom_case.hpp>
+#include <seiche/version.hpp>
+
+#include <cmath>
+
+namespace seiche::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Numbers may be formulas in quotes, as in "1/256".
+Json number(const char* type, double minimum, bool minimum_excluded, double maximum) {
+  Json schema = {{"type", type}};
+  if (std::isfinite(minimum)) schema[minimum_excluded ? "exclusiveMinimum" : "minimum"] = minimum;
+  if (std::isfinite(maximum)) schema["maximum"] = maximum;
+  return {{"anyOf", {schema, {{"type", "string"}}}}};
+}
+
+Json value_of(const KeyRow& row) {
+  switch (row.kind) {
+    case KeyRow::Kind::choice: return {{"enum", row.choices}};
+    case KeyRow::Kind::text: return {{"type", "string"}};
+    case KeyRow::Kind::whole: return number("integer", row.minimum, row.minimum_excluded, row.maximum);
+    case KeyRow::Kind::number: break;
+  }
+  return number("number", row.minimum, row.minimum_excluded, row.maximum);
+}
+
+Json value_of(const Parameter& p) {
+  switch (p.kind) {
+    case ParameterKind::choice: return {{"enum", p.choices}};
+    case ParameterKind::matrix: return {{"type", "string"}};
+    case ParameterKind::integer: return number("integer", p.minimum, p.minimum_excluded, p.maximum);
+    case ParameterKind::rate:
+    case ParameterKind::real: break;
+  }
+  return number("number", p.minimum, p.minimum_excluded, p.maximum);
+}
+
+Json described(Json schema, const std::string& meaning) {
+  schema["description"] = meaning;
+  return schema;
+}
+
+Json table(Json keys) { return {{"type", "object"}, {"properties", std::move(keys)}, {"additionalProperties", false}}; }
+
+Json keys_of_problem(const ProblemEntry& problem) {
+  Json keys = {{"name", {{"const", problem.name}}}};
+  for (const Parameter& parameter : problem.parameters) {
+    Json one = value_of(parameter);
+    if (parameter.per_axis) one = {{"anyOf", {one, {{"type", "array"}, {"items", one}}}}};
+    if (!parameter.default_value.empty()) one["default"] = parameter.default_value;
+    keys[parameter.name] = described(std::move(one), parameter.meaning);
+  }
+  keys["initial"] = described({{"anyOf", {{{"enum", problem.presets}}, {{"type", "object"}}}}},
+                              "one of these, { file = … }, or a formula in x, y, z and j for every field");
+  keys["friction"] = described(Json::object(), "friction beyond D: a kind and its coefficients");
+  keys["force"] = described(Json::object(), "a force on fields, by formulas in t, x, y and z");
+  return keys;
+}
+
+// Numbers of one's own may stand beside the keys.
+Json custom_problem_table() {
+  Json keys = keys_of_problem(custom_in_list());
+  for (const std::string& key : custom_keys()) keys[key] = Json::object();
+  Json schema = table(std::move(keys));
+  schema["additionalProperties"] = {{"type", {"number", "string"}}};
+  return schema;
+}
+
+Json problem_section() {
+  Json schema = {{"type", "object"},
+                 {"required", {"name"}},
+                 {"properties", {{"name", {{"enum", all_problem_names()}}}}},
+                 {"allOf", Json::array()}};
+  for (const std::string& name : all_problem_names()) {
+    const Json is_named = {{"properties", {{"name", {{"const", name}}}}}};
+    schema["allOf"].push_back(
+        {{"if", is_named},
+         {"then", name == custom_name ? custom_problem_table() : table(keys_of_problem(find_problem(name)))}});
+  }
+  return schema;
+}
+
+Json section(const std::string& name) {
+  Json keys = Json::object();
+  for (const KeyRow& row : key_rows()) {
+    if (row.section != name) continue;
+    Json one = value_of(row);
+    if (row.is_default && !row.example.empty()) one["default"] = row.example;
+    keys[row.name] = described(std::move(one), row.meaning);
+  }
+  return table(std::move(keys));
+}
+
+Json schema_of_case_files() {
+  Json sections = {{"problem", problem_section()}};
+  for (const std::string& name : case_sections())
+    if (name != "problem") sections[name] = section(name);
+  Json& ensemble = sections["ensemble"];
+  ensemble["properties"]["initial"] = {{"type", "object"}, {"description", "{ files = […] }: a state for each member"}};
+  ensemble["additionalProperties"] = {{"type", "object"},
+                                      {"description", "{ from = …, to = … }, { uniform = […] } or { normal = […] }"}};
+  Json schema = table(std::move(sections));
+  Json whole = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                {"title", fmt::format("Case file of Seiche {}", version_number)},
+                {"required", {"problem"}}};
+  whole.update(schema);
+  return whole;
+}
+
+}  // namespace
+
+void add_schema(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of case files, for editors");
+  command->callback([&action] {
+    action = [] {
+      print_data(schema_of_case_files().dump(2) + "\n");
+      return success;
+    };
+  });
+}
+
+}  // namespace seiche::cli
