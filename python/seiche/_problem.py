@@ -52,7 +52,8 @@ def _unknown_argument(kind: str, name: str, nearest: str, allowed: Sequence[str]
         allowed = [_argument(f"method.{key}") for key in allowed]
     else:  # a problem's name is no keyword of it
         allowed = [key for key in allowed if key != "name"]
-    hint = f"; did you mean '{_argument(nearest)}'?" if nearest else "."
+    near = _argument(nearest)
+    hint = f"; did you mean '{near}'?" if near not in ("", name) else "."  # the same in another section is no help
     names = f" Allowed: {', '.join(allowed)}" if allowed else ""
     return f"unknown {'argument' if is_of_method else kind} '{name}'{hint}{names}"
 
@@ -178,6 +179,7 @@ class Problem:
 
     _core: _core.Problem
     _text: str | None = None  # the [problem] section it came from
+    _overrides: Sequence[str] = ()  # of its keys
     _has_initial: bool = True
     _file: str | None = None  # the case file it came from
     _remake: tuple = ()  # without a text: a function of this module and its arguments, for pickle
@@ -232,7 +234,7 @@ class Problem:
         self._remake = (_of_parts, parts)
 
     def __reduce__(self) -> tuple:
-        return self._remake if self._text is None else (_of_text, (self._text, self._has_initial))
+        return self._remake if self._text is None else (of_text, (self._text, self._has_initial, self._overrides))
 
     @classmethod
     def _of_case(cls, case: _core.Case, text: str | None) -> "Problem":
@@ -280,9 +282,9 @@ class Problem:
         return f"<seiche.Problem {self.name}: {', '.join(self.fields)}{points}>"
 
 
-def _of_text(text: str, has_initial: bool) -> Problem:
-    made = Problem._of_case(parse_keywords(text), text)
-    made._has_initial = has_initial
+def of_text(text: str, has_initial: bool, overrides: Sequence[str] = ()) -> Problem:
+    made = Problem._of_case(parse_keywords(text, overrides), text)
+    made._has_initial, made._overrides = has_initial, overrides
     return made
 
 
@@ -405,7 +407,7 @@ def run_case(given: "Problem | Case", options: Mapping[str, Any]) -> _core.Case:
     if isinstance(given, Case):
         return given._read(overrides)
     if given._text is not None:
-        return parse_keywords(given._text, overrides)
+        return parse_keywords(given._text, [*given._overrides, *overrides])
     # The parser wants the name of a problem; of what it knows about it, nothing is used.
     case = parse_keywords('[problem]\nname = "oscillator"\n', overrides)
     if options.get("h") is None and options.get("tolerance") is None:
