@@ -124,18 +124,38 @@ def solve(
     record_every: int,
     ledger: bool,
     threads: int,
+    progress: Callable[[float, float, int], Any] | None,
 ) -> Solution: ...
-def ensemble_of_case(case: Case, threads: int) -> Ensemble: ...
+def ensemble_of_case(
+    case: Case, threads: int, progress: Callable[[float, float, int], Any] | None
+) -> Ensemble: ...
 def ensemble_of_problems(
-    problems: list[Problem], initial: list[np.ndarray], case: Case, threads: int
+    problems: list[Problem],
+    initial: list[np.ndarray],
+    case: Case,
+    threads: int,
+    progress: Callable[[float, float, int], Any] | None,
 ) -> Ensemble: ...
 class CaseRun:
     summary: str
     notes: list[str]
     remarks: list[str]
 
-def run(case: Case, folder: str, threads: int, restart: bool, max_hours: float) -> CaseRun: ...
-def resume(folder: str, t_end: float | None, threads: int, max_hours: float) -> CaseRun: ...
+def run(
+    case: Case,
+    folder: str,
+    threads: int,
+    restart: bool,
+    max_hours: float,
+    progress: Callable[[float, float, int], Any] | None,
+) -> CaseRun: ...
+def resume(
+    folder: str,
+    t_end: float | None,
+    threads: int,
+    max_hours: float,
+    progress: Callable[[float, float, int], Any] | None,
+) -> CaseRun: ...
 def check(problem: Problem, case: Case) -> str: ...
 def spectrum(problem: Problem, case: Case) -> str: ...
 def converge(problem: Problem, methods: list[str], step_sizes: list[float], case: Case, timed: bool) -> str: ...

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
 import numpy as np
 
 from ._core import methods
 from ._problem import Case, Problem, as_problem
+from ._progress import Bar, Report, showing
 from ._records import EXACT, Model, Observation, Parameter, parameters_of, records_of
 from ._result import Answer, SeicheWarning
 
@@ -23,6 +24,7 @@ _MOST_STEPS = 100_000  # of a run, where h is not given
 _MOST_SEARCHES = 6  # with shorter and shorter steps
 _NEGLIGIBLE = 1e-3  # of a standard deviation: a search ends where its steps are smaller
 _FINEST = 1e-10  # of a parameter: what data without noise tell it to; runs have some 1e-13 of round-off
+_CHOSEN_HERE = "t_eval events dense_output observer tolerance h_max z0 t_span ledger record_every".split()
 
 
 class FitResult(Answer):
@@ -99,6 +101,7 @@ def fit(
     *,
     h: float | str | None = None,
     method: str = "egc4",
+    progress: bool | Report = False,
     **options: Any,
 ) -> FitResult:
     """Finds parameters of an equation, or of its initial state, from measurements of its solution: least squares.
@@ -129,6 +132,9 @@ def fit(
         Step size; by default one that leaves errors below a tenth of sigma.
     method : str
         By default "egc4".
+    progress : bool or function
+        True: a line on stderr. Or a function of (tried, chi2): how many sets of parameters were tried, and
+        Σ(residual/σ)² of the last; without sigma in units of the largest measurement.
     **options
         More of `solve`: backend, threads, law.
 
@@ -141,21 +147,7 @@ def fit(
     ValueError
         For data or parameters that make no sense, in one sentence.
     """
-    import scipy.optimize
-    import scipy.stats
-
-    for name in (
-        "t_eval",
-        "events",
-        "dense_output",
-        "observer",
-        "tolerance",
-        "h_max",
-        "z0",
-        "t_span",
-        "ledger",
-        "record_every",
-    ):
+    for name in _CHOSEN_HERE:
         if name in options:
             raise ValueError(f"fit chooses {name} itself")
     if isinstance(problem, str):
@@ -170,16 +162,27 @@ def fit(
         )
     if model.unit == 0:
         raise ValueError("data are all zero, and sigma is not given: nothing says how large an error is")
-    x = np.array([p.start for p in wanted])
+    with showing(progress, "(tried, chi2)", Bar.search) as model.tell:
+        result = _answer(model, *_search(model, dof, h))
+    for remark in result._remarks:
+        warnings.warn(remark, SeicheWarning, stacklevel=2)
+    return result
+
+
+def _search(model: Model, dof: int, h: float | str | None) -> tuple[Any, Any, float, float]:
+    """The least squares, the solutions there, the spread of the residuals, and the error of steps that are short enough."""
+    from scipy.optimize import least_squares
+
+    x = np.array([p.start for p in model.parameters])
     model.options["h"] = model.step_size(x) if h is None else h
     model.begin(x)
-    order = next((m["order"] for m in methods() if m["name"] == method), 2)
-    shortest = max(r.t[-1] - r.start for r in records) / _MOST_STEPS
-    low, high, size = (np.array([getattr(p, name) for p in wanted]) for name in ("low", "high", "size"))
+    order = next((m["order"] for m in methods() if m["name"] == model.options["method"]), 2)
+    shortest = max(r.t[-1] - r.start for r in model.records) / _MOST_STEPS
+    low, high, size = (np.array([getattr(p, name) for p in model.parameters]) for name in ("low", "high", "size"))
     for attempt in range(_MOST_SEARCHES):
         # In units of the parameters' sizes, since SciPy compares the length of a step with that of all of them together.
         # A step of _NEGLIGIBLE standard deviations changes χ², about dof, by _NEGLIGIBLE². Of slopes only zero ends it.
-        found = scipy.optimize.least_squares(
+        found = least_squares(
             lambda u: model.residuals(np.clip(u * size, low, high)),
             x / size,
             lambda u: model.jacobian(np.clip(u * size, low, high)) * size,
@@ -199,13 +202,12 @@ def fit(
             break
         model.options["h"] = max(model.options["h"] * min(max((0.05 / error) ** (1 / order), 1 / 16), 0.5), shortest)
     found.x, found.jac = x, found.jac / size
-    result = _answer(model, found, solved, spread, error, scipy.stats.chi2.sf)
-    for remark in result._remarks:
-        warnings.warn(remark, SeicheWarning, stacklevel=2)
-    return result
+    return found, solved, spread, error
 
 
-def _answer(model: Model, found: Any, solved: Any, spread: float, error: float, chi2_above: Callable) -> FitResult:
+def _answer(model: Model, found: Any, solved: Any, spread: float, error: float) -> FitResult:
+    import scipy.stats
+
     records, wanted = model.records, model.parameters
     results, seen = solved
     J = found.jac / (spread or 1)
@@ -221,7 +223,7 @@ def _answer(model: Model, found: Any, solved: Any, spread: float, error: float, 
         correlations = covariance / np.outer(std, std)
     dof = model.data.size - len(wanted)
     chi2 = float(dof) if model.is_estimated else 2 * float(found.cost)
-    p_value = None if model.is_estimated else float(chi2_above(chi2, dof))
+    p_value = None if model.is_estimated else float(scipy.stats.chi2.sf(chi2, dof))
     remarks = [] if found.status > 0 else [f"the search did not end: {found.message}"]
     if error > 0.1:
         remarks.append(f"steps of {model.options['h']:.3g} add errors of up to {error:.2g} sigma: give a smaller h")

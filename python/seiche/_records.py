@@ -11,6 +11,7 @@ from typing import Any, Callable, Mapping
 import numpy as np
 
 from ._problem import Case, Problem, as_problem, of_text, override, real_array
+from ._progress import Report
 from ._result import Result, SeicheWarning
 from ._solve import solve
 
@@ -196,6 +197,8 @@ class Model:
             [np.full(r.data.size, self.unit) if r.sigma is None else r.sigma.ravel() for r in records]
         )
         self.failure = ""
+        self.tried = 0
+        self.tell: Report | None = None
         self.far: float | None = None  # residuals where runs fail, larger than all of the first guess
 
     def parts(self, values: np.ndarray) -> list[np.ndarray]:
@@ -243,7 +246,11 @@ class Model:
 
     def residuals(self, x: np.ndarray) -> np.ndarray:
         solved = self.solved(x)
-        return np.full(self.data.size, self.far) if solved is None else (self.data - solved[1]) / self.sigma
+        weighted = np.full(self.data.size, self.far) if solved is None else (self.data - solved[1]) / self.sigma
+        self.tried += 1
+        if self.tell is not None:
+            self.tell(self.tried, float(weighted @ weighted))
+        return weighted
 
     def begin(self, x: np.ndarray) -> None:
         """Raises ValueError where the first guess gives no solution, or where what it gives is no number that can change."""

@@ -10,6 +10,7 @@ from typing import Any
 
 from . import _core
 from ._problem import Case, load, thread_count, truth
+from ._progress import Report, showing
 from ._result import Answer, SeicheWarning
 
 
@@ -27,6 +28,7 @@ def run(
     threads: int = 1,
     restart: bool = False,
     max_hours: float | None = None,
+    progress: bool | Report = False,
     **overrides: Any,
 ) -> CaseRun:
     """Run a case, or an ensemble, to the files that ``seiche run`` leaves.
@@ -38,6 +40,7 @@ def run(
     threads : over a large grid, or over the members of an ensemble; results do not depend on it
     restart : begin anew where the folder holds a run that did not finish, which is removed
     max_hours : write a checkpoint and stop after so much time; `resume` goes on from there
+    progress : True for a bar on stderr, with the time that is left; or a function of (t, t_end, steps)
     **overrides : keys of the case to replace: ``seiche.run("case.toml", **{"method.h": "1/64"})``
 
     Returns what ``summary.json`` holds, ``notes`` and ``folder``. A computation that fails is a status, with what was computed
@@ -50,12 +53,20 @@ def run(
     directory = os.fspath(case._core.output_directory if folder is None else folder)
     if not directory:
         raise ValueError("folder must not be empty")
-    done = _core.run(case._core, directory, thread_count(threads), truth("restart", restart), _hours(max_hours))
+    with showing(progress) as tell:
+        done = _core.run(case._core, directory, thread_count(threads), truth("restart", restart), _hours(max_hours), tell)
+        summary = json.loads(done.summary)
+        if tell is not None:
+            tell(summary["t"], case.t_end, summary["steps"])
     return _case_run(done, directory)
 
 
 def resume(
-    folder: str | os.PathLike, until: float | None = None, threads: int = 1, max_hours: float | None = None
+    folder: str | os.PathLike,
+    until: float | None = None,
+    threads: int = 1,
+    max_hours: float | None = None,
+    progress: bool | Report = False,
 ) -> CaseRun:
     """Go on with a run that was stopped or killed, from the newest checkpoint in its folder.
 
@@ -66,10 +77,13 @@ def resume(
     ----------
     folder : where `run`, or the program, left its files
     until : where to end, instead of the case's ``time.end``
+    progress : as of `run`
     """
     t_end = None if until is None else float(until)
     directory = os.fspath(folder)
-    return _case_run(_core.resume(directory, t_end, thread_count(threads), _hours(max_hours)), directory)
+    with showing(progress) as tell:
+        done = _core.resume(directory, t_end, thread_count(threads), _hours(max_hours), tell)
+    return _case_run(done, directory)
 
 
 def _hours(given: float | None) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count, truth, whole_number
+from ._progress import Report, showing
 from ._result import Result, SeicheWarning, result_of
 
 
@@ -70,6 +71,7 @@ def solve(
     ledger: bool | None = None,
     backend: str | None = None,
     threads: int = 1,
+    progress: bool | Report = False,
     **options: Any,
 ) -> Result:
     """Integrates a damped Hamiltonian system, in the manner of ``scipy.integrate.solve_ivp``.
@@ -116,6 +118,9 @@ def solve(
         One of `seiche.backends()`; by default "auto".
     threads : int
         For large grids. Results do not depend on it.
+    progress : bool or function
+        True: a bar on stderr, with the time that is left. Or a function of (t, t_end, steps), called ten times a second at
+        most, and at the end.
     **options
         C, auxiliary, scalar_solver, predictor, law, linear (of methods); plan, exponential, pade_degree, lanczos_dimension (of
         backends), with the values of case files.
@@ -168,20 +173,25 @@ def solve(
         raise ValueError("t_eval holds a time that is no finite number")
     functions = [] if events is None else list(events) if isinstance(events, (list, tuple)) else [events]
     with_ledger = case.ledger and times is None if ledger is None else ledger
-    solution = _core.solve(
-        stated._core,
-        case,
-        start,
-        end,
-        None if z0 is None else real_array("z0", z0).ravel(),
-        times,
-        [_event(function) for function in functions],
-        truth("dense_output", dense_output),
-        observer,
-        whole_number("record_every", record_every),
-        truth("ledger", with_ledger),
-        thread_count(threads),
-    )
+    with showing(progress) as tell:
+        solution = _core.solve(
+            stated._core,
+            case,
+            start,
+            end,
+            None if z0 is None else real_array("z0", z0).ravel(),
+            times,
+            [_event(function) for function in functions],
+            truth("dense_output", dense_output),
+            observer,
+            whole_number("record_every", record_every),
+            truth("ledger", with_ledger),
+            thread_count(threads),
+            tell,
+        )
+        if tell is not None:
+            has_reached = solution.status == "success" and not solution.ended_by_event
+            tell(end if has_reached else float(solution.t[-1]), end, solution.steps)
     for remark in solution.remarks:
         warnings.warn(remark, SeicheWarning, stacklevel=2)
     notes = [*case.notes, *stated.notes]
