@@ -10,6 +10,7 @@ energy law of the equation holds at every step, for any step size::
 
 `problem`, `load` and `Problem` state equations, `solve` and `solve_ensemble` integrate them, `Simulation` steps, `run` leaves files as the program does, `check`, `spectrum` and
 `converge` judge them, `fit` finds their parameters from measurements, `methods()`, `problems()` and `backends()` list what there is, and `seiche.plot` draws.
+What is to be known of a run, the notes of its result, is logged at INFO by ``logging.getLogger("seiche")``.
 States are z = (field 0 at all points, field 1 at all points, …); units are those of the equation.
 """
 

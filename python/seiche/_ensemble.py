@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count
 from ._progress import Report, showing
-from ._result import Answer, SeicheWarning, about_it, coordinates_of, field_of
+from ._result import Answer, about_it, coordinates_of, field_of, say
 from ._solve import _span
 
 if TYPE_CHECKING:
@@ -159,14 +158,13 @@ def solve_ensemble(
         if tell is not None and held.t.size:
             tell(held.t[-1], end, round((held.t[-1] - start) / case.h))
     remarks = {k: of_member for k, of_member in enumerate(held.remarks) if of_member}
-    if remarks:
-        first = min(remarks)
-        warnings.warn(
-            f"{len(remarks)} of {len(held.remarks)} members may be inaccurate, the first of them member {first}: "
-            + "; ".join(remarks[first]),
-            SeicheWarning,
-            stacklevel=2,
-        )
+    summed_up = [
+        f"{len(remarks)} of {len(held.remarks)} members may be inaccurate, the first of them member {first}: "
+        + "; ".join(remarks[first])
+        for first in list(remarks)[:1]
+    ]
+    reached = sum(status == "success" for status in held.status)
+    say([*case.notes, f"{reached} of {len(held.status)} members reached t = {end:g}"], summed_up)
     has_modified = any(m["name"] == case.method and m["law"] == "H_modified" for m in _core.methods())
     result = EnsembleResult(
         t=held.t,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import TYPE_CHECKING, Any, Mapping, Sequence
 
 import numpy as np
@@ -12,7 +11,7 @@ from ._core import methods
 from ._problem import Case, Problem, as_problem
 from ._progress import Bar, Report, showing
 from ._records import EXACT, Model, Observation, Parameter, parameters_of, records_of
-from ._result import Answer, SeicheWarning
+from ._result import Answer, say
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -164,8 +163,7 @@ def fit(
         raise ValueError("data are all zero, and sigma is not given: nothing says how large an error is")
     with showing(progress, "(tried, chi2)", Bar.search) as model.tell:
         result = _answer(model, *_search(model, dof, h))
-    for remark in result._remarks:
-        warnings.warn(remark, SeicheWarning, stacklevel=2)
+    say([result.message], result._remarks)
     return result
 
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-import warnings
 from typing import Any, Callable, Mapping
 
 import numpy as np
 
 from ._problem import Case, Problem, as_problem, of_text, override, real_array
 from ._progress import Report
-from ._result import Result, SeicheWarning
+from ._result import Result, quietly
 from ._solve import solve
 
 Observation = Callable[[np.ndarray, np.ndarray], Any]
@@ -216,8 +215,7 @@ class Model:
 
     def run(self, k: int, x: np.ndarray, **options: Any) -> Result:
         record = self.records[k]
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", SeicheWarning)  # of tried values; `fit` looks at the last ones itself
+        with quietly():  # `fit` looks at the last ones itself
             result = solve(
                 self.problem(k, x), (record.start, record.t[-1]), t_eval=record.t, **(self.options | options)
             )

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
+import contextvars
 import json
+import logging
 import textwrap
-from typing import TYPE_CHECKING, Any
+import warnings
+from typing import TYPE_CHECKING, Any, Iterator, Sequence
 
 import numpy as np
 
@@ -19,6 +23,30 @@ if TYPE_CHECKING:
 
 class SeicheWarning(UserWarning):
     """A computation came to its end, and what it left may be inaccurate: steps were replaced, or H went where no solution takes it."""
+
+
+_LOG = logging.getLogger("seiche")
+_is_quiet = contextvars.ContextVar("_is_quiet", default=False)
+
+
+def say(notes: Sequence[str], remarks: Sequence[str], stacklevel: int = 3) -> None:
+    """What there is to know of a run goes to the log, and what may make it inaccurate is a warning."""
+    if _is_quiet.get():
+        return
+    for note in notes:
+        _LOG.info("%s", note)
+    for remark in remarks:
+        warnings.warn(remark, SeicheWarning, stacklevel=stacklevel)
+
+
+@contextlib.contextmanager
+def quietly() -> Iterator[None]:
+    """Of runs that are only tried nothing is said."""
+    token = _is_quiet.set(True)
+    try:
+        yield
+    finally:
+        _is_quiet.reset(token)
 
 
 class Status(int):

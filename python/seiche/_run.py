@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 import os
 import pathlib
-import warnings
 from typing import Any
 
 from . import _core
 from ._problem import Case, load, thread_count, truth
 from ._progress import Report, showing
-from ._result import Answer, SeicheWarning
+from ._result import Answer, say
 
 
 class CaseRun(Answer):
@@ -95,6 +94,6 @@ def _hours(given: float | None) -> float:
 
 
 def _case_run(done: _core.CaseRun, directory: str) -> CaseRun:
-    for remark in done.remarks:
-        warnings.warn(remark, SeicheWarning, stacklevel=3)
-    return CaseRun(json.loads(done.summary), notes=done.notes, folder=pathlib.Path(directory))
+    summary = json.loads(done.summary)
+    say([*done.notes, f"{directory}: {summary['message']}"], done.remarks, stacklevel=4)
+    return CaseRun(summary, notes=done.notes, folder=pathlib.Path(directory))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numbers
-import warnings
 from typing import Any, Callable, Sequence
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count, truth, whole_number
 from ._progress import Report, showing
-from ._result import Result, SeicheWarning, result_of
+from ._result import Result, result_of, say
 
 
 def _span(t_span: Any, default_end: float | None, default_start: float = 0.0) -> tuple[float, float]:
@@ -192,12 +191,11 @@ def solve(
         if tell is not None:
             has_reached = solution.status == "success" and not solution.ended_by_event
             tell(end if has_reached else float(solution.t[-1]), end, solution.steps)
-    for remark in solution.remarks:
-        warnings.warn(remark, SeicheWarning, stacklevel=2)
     notes = [*case.notes, *stated.notes]
     if case.h_is_default:
         notes.insert(0, f"h is not given: steps of {case.h:g}, as in the problem's example")
     notes += solution.notes
     if solution.method_reason:
         notes.append(f'method = "auto": {solution.method_reason}')
+    say([*notes, f"{stated.name} by {solution.method}: {solution.message}"], solution.remarks)
     return result_of(solution, stated, notes=notes, has_events=events is not None, has_ledger=with_ledger)
