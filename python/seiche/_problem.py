@@ -403,7 +403,8 @@ def run_case(given: "Problem | Case", options: Mapping[str, Any]) -> _core.Case:
     for name, value in options.items():
         if callable(value):  # an observer or events, which a case does not take
             raise ValueError(f"unknown argument '{name}'")
-    overrides = [override(_SECTIONS.get(k, f"method.{k}"), v) for k, v in options.items() if v is not None]
+    keys = {name: name if "." in name else _SECTIONS.get(name, f"method.{name}") for name in options}
+    overrides = [override(keys[name], value) for name, value in options.items() if value is not None]
     if isinstance(given, Case):
         return given._read(overrides)
     if given._text is not None:

@@ -6,9 +6,10 @@ import contextlib
 import contextvars
 import json
 import logging
+import os
 import textwrap
 import warnings
-from typing import TYPE_CHECKING, Any, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
@@ -18,7 +19,9 @@ from ._problem import real_array
 if TYPE_CHECKING:
     import xarray
 
-    from ._problem import Problem
+    from ._problem import Case, Problem
+    from ._progress import Report
+    from ._run import CaseRun
 
 
 class SeicheWarning(UserWarning):
@@ -162,6 +165,17 @@ def coordinates_of(problem: "Problem") -> dict[str, tuple]:
     }
 
 
+class Asked(NamedTuple):
+    """What a run was asked for, to repeat it."""
+
+    problem: "Problem | Case"
+    options: dict[str, Any]  # of `run_case`
+    start: float
+    z0: Any
+    t_eval: np.ndarray | None
+    record_every: int
+
+
 class Result(Answer):
     """The solution and its energies, in the manner of ``scipy.integrate.solve_ivp``; keys are attributes too.
 
@@ -206,6 +220,33 @@ class Result(Answer):
     def field(self, name: str) -> np.ndarray:
         """One field on the grid, of shape (times, points along each axis); a view of y."""
         return field_of(self.y.T, self.problem, name)
+
+    def save(self, folder: str | os.PathLike, progress: bool | Report = False) -> "CaseRun":
+        """Leave the folder that ``seiche run`` leaves, for ``seiche audit``, ``plot`` and ``resume``.
+
+        The run is repeated there, from the case file that says the same: it takes as long as it took. What comes out is
+        compared with this result and must be the same to the bit. States are recorded as here, or, where ``t_eval`` is no
+        even sequence of steps, as case files do by default.
+
+        Parameters
+        ----------
+        folder : path
+        progress : bool or function
+            As of `seiche.run`.
+
+        Returns
+        -------
+        CaseRun
+
+        Raises
+        ------
+        ValueError
+            Where no case file can say this run: of Python functions, events, a problem by its parts, a run that did not
+            reach its end or began before t = 0.
+        """
+        from ._run import save
+
+        return save(self, folder, progress)
 
     def to_xarray(self) -> "xarray.Dataset":
         """The fields on their grid and the energies as an `xarray.Dataset`.

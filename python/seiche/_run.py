@@ -7,10 +7,12 @@ import os
 import pathlib
 from typing import Any
 
+import numpy as np
+
 from . import _core
-from ._problem import Case, load, thread_count, truth
+from ._problem import Case, Problem, load, real_array, run_case, thread_count, truth
 from ._progress import Report, showing
-from ._result import Answer, say
+from ._result import Answer, Result, quietly, say
 
 
 class CaseRun(Answer):
@@ -48,12 +50,16 @@ def run(
     if not isinstance(case, Case):
         case = load(case, **overrides)
     elif overrides:
-        raise ValueError(f"{', '.join(overrides)}: give keys to replace to seiche.load, or the name of the case file here")
+        raise ValueError(
+            f"{', '.join(overrides)}: give keys to replace to seiche.load, or the name of the case file here"
+        )
     directory = os.fspath(case._core.output_directory if folder is None else folder)
     if not directory:
         raise ValueError("folder must not be empty")
     with showing(progress) as tell:
-        done = _core.run(case._core, directory, thread_count(threads), truth("restart", restart), _hours(max_hours), tell)
+        done = _core.run(
+            case._core, directory, thread_count(threads), truth("restart", restart), _hours(max_hours), tell
+        )
         summary = json.loads(done.summary)
         if tell is not None:
             tell(summary["t"], case.t_end, summary["steps"])
@@ -83,6 +89,67 @@ def resume(
     with showing(progress) as tell:
         done = _core.resume(directory, t_end, thread_count(threads), _hours(max_hours), tell)
     return _case_run(done, directory)
+
+
+def _unsayable(result: Result) -> str:
+    """Why no case file can say what was run, or ""."""
+    given = result._asked.problem
+    if isinstance(given, Problem) and given._text is None:
+        parts = "is stated by its parts: state it by formulas, by its name, or by a case file"
+        return f"its problem {parts if given._file is None else 'is that of a case file: solve the case itself'}"
+    if result.t_events is not None:
+        return "its events are Python functions"
+    if result._asked.start < 0:
+        return f"it begins at t = {result._asked.start:g}, and cases at 0 or later"
+    return (
+        ""
+        if result.status == "success"
+        else f"it {'failed' if result.status == 'failed' else 'was interrupted'} at t = {result.report['t']:.6g}"
+    )
+
+
+def _records(result: Result) -> dict[str, Any]:
+    """Keys of [output] by which a run records what the result has, as far as there are such."""
+    asked, h = result._asked, result.report["h"]
+    if asked.t_eval is None:
+        return {
+            "energy_every": asked.record_every,
+            "output.snapshot_every": asked.record_every,
+            "output.snapshot_interval": 0,
+        }
+    steps = np.diff(np.append(asked.start, asked.t_eval[asked.t_eval > asked.start])) / (h or np.nan)
+    every = np.round(steps)
+    if steps.size == 0 or not (np.abs(steps - every[0]) < 1e-6).all() or every[0] < 1:
+        return {}
+    return {"output.snapshot_every": int(every[0]), "output.snapshot_interval": 0}
+
+
+def save(result: Result, folder: str | os.PathLike, progress: bool | Report) -> CaseRun:
+    """What `Result.save` does."""
+    reason = _unsayable(result)
+    if reason:
+        raise ValueError(f"no case file can say this run: {reason}")
+    asked, directory = result._asked, pathlib.Path(folder)
+    keys = asked.options | _records(result) | {"output.ledger": "off" if result.ledger is None else "on"}
+    if asked.z0 is not None:
+        directory.mkdir(parents=True, exist_ok=True)
+        file = directory.resolve() / "initial.txt"
+        file.write_text("".join(f"{value!r}\n" for value in real_array("z0", asked.z0).ravel().tolist()))
+        keys["problem.initial"] = {"file": file}
+    with showing(progress) as tell:
+        core = run_case(asked.problem, keys)
+        done = _core.run(core, os.fspath(directory), result.report["threads"], False, 0.0, tell)
+    with quietly():  # it was said of the result
+        written = _case_run(done, os.fspath(directory))
+    if written.success:
+        final = np.loadtxt(directory / "final.txt", ndmin=1)
+        same = all(written[key] == result.report[key] for key in ("t", "steps"))
+        same &= all(written["energy"][key] == result.report["energy"][key] for key in ("initial", "final"))
+        if not same or (result.t[-1] == written.t and not np.array_equal(final, result.y[:, -1])):
+            raise RuntimeError(
+                f"{directory} holds a run of the same case that differs from this result: do not take it for one"
+            )
+    return written
 
 
 def _hours(given: float | None) -> float:

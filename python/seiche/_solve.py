@@ -10,7 +10,7 @@ import numpy as np
 from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count, truth, whole_number
 from ._progress import Report, showing
-from ._result import Result, result_of, say
+from ._result import Asked, Result, result_of, say
 
 
 def _span(t_span: Any, default_end: float | None, default_start: float = 0.0) -> tuple[float, float]:
@@ -151,20 +151,17 @@ def solve(
     looked_at = max(start, 0.0)  # cases begin at 0 or later
     if z0 is None:
         require_start(stated, "seiche.solve")
-    case = run_case(
-        given,
-        {
-            "t_start": looked_at,
-            "t_end": looked_at + (end - start),
-            "method": method,
-            "backend": backend,
-            "h": h,
-            "tolerance": tolerance,
-            "h_max": h_max,
-            "energy_every": 10**12,  # no file is written, whose size the parser would guard
-        }
-        | options,
-    )
+    options |= {
+        "t_start": looked_at,
+        "t_end": looked_at + (end - start),
+        "method": method,
+        "backend": backend,
+        "h": h,
+        "tolerance": tolerance,
+        "h_max": h_max,
+    }
+    every = options.pop("energy_every", None)
+    case = run_case(given, options | {"energy_every": 10**12 if every is None else every})  # no file whose size is guarded
     times = None if t_eval is None else np.atleast_1d(real_array("t_eval", t_eval))
     if times is not None and times.size == 0:
         raise ValueError("t_eval is empty: give the times to record, or leave it out to record the steps")
@@ -198,4 +195,6 @@ def solve(
     if solution.method_reason:
         notes.append(f'method = "auto": {solution.method_reason}')
     say([*notes, f"{stated.name} by {solution.method}: {solution.message}"], solution.remarks)
-    return result_of(solution, stated, notes=notes, has_events=events is not None, has_ledger=with_ledger)
+    result = result_of(solution, stated, notes=notes, has_events=events is not None, has_ledger=with_ledger)
+    object.__setattr__(result, "_asked", Asked(given, options, start, z0, times, record_every))
+    return result
