@@ -76,7 +76,7 @@ def solve(
     """Integrates a damped Hamiltonian system, in the manner of ``scipy.integrate.solve_ivp``.
 
     The GIL is released while it steps, and taken for Python functions. Ctrl-C ends the run after the current step, and
-    what was computed is returned with the status "interrupted".
+    what was computed is returned with the status "interrupted", its last state whatever ``t_eval`` asked for.
 
     Parameters
     ----------
