@@ -139,6 +139,25 @@ def _no_right_hand_side(given: Any) -> TypeError:
     )
 
 
+_NO_FUNCTIONS = {
+    "H": 'is a formula in quotes, as in H="p^2/2 + q^4/4"; for Python functions give M, V and gradient',
+    "V": "as a Python function goes with matrices, M=…, V=…, gradient=…; with fields by their names it is a formula in quotes",
+    "M": "is a matrix, or by formulas a table; what is not quadratic belongs to V and gradient, or to H",
+    "S": "is a matrix, or by formulas a table",
+    "D": 'is a constant matrix, or by formulas a table, as in D={"p": "0.1*(1 + q^2)"}',
+    "gamma": 'is a number, or a formula of the time in quotes, as in gamma="0.1 + 0.05*sin(t)"',
+}
+
+
+def _refuse_functions(values: Mapping[str, Any]) -> None:
+    """Only V and gradient may be functions of Python. What is written for the others is said for each."""
+    for name, value in values.items():
+        inside = value.values() if isinstance(value, Mapping) else value if isinstance(value, (list, tuple)) else [value]
+        if any(callable(entry) and not hasattr(entry, "free_symbols") for entry in inside):  # of SymPy
+            instead = _NO_FUNCTIONS.get(name, "takes numbers and formulas in quotes, and no Python function")
+            raise TypeError(f"{name} {instead}")
+
+
 class Problem:
     """ż = S∇H(z) − Dz − γ(t)v with H(z) = ½zᵀMz + V(u), by its parts; or written down by formulas.
 
@@ -201,6 +220,7 @@ class Problem:
     ):
         if right_hand_side:
             raise _no_right_hand_side(right_hand_side[0])
+        _refuse_functions({"H": H, "M": M, "S": S, "D": D, "gamma": gamma})
         if isinstance(fields, numbers.Number) and not isinstance(fields, numbers.Integral):
             raise ValueError(f"fields = {fields!r} must be 1 or 2, or by formulas a list of names")
         if H is not None or not isinstance(fields, numbers.Integral):
@@ -345,6 +365,7 @@ def problem(name: str, **parameters: Any) -> Problem:
     `seiche.problems()` lists both. Numbers may be texts ("1/3"), a damping a formula ("0.1 + 0.05*sin(t)"), and
     ``initial`` a preset, ``{"file": "z0.txt"}`` or formulas ``{"u": "sin(pi*x)", "v": "0"}``.
     """
+    _refuse_functions(parameters)
     for key, value in parameters.items():
         if name != "custom" and (hasattr(value, "tocsc") or np.ndim(value) == 2):
             raise ValueError(f"{key} is a matrix: problems by name read matrices from files; seiche.Problem takes {key}")
