@@ -10,7 +10,7 @@ import numpy as np
 from ._core import methods
 from ._problem import Case, Problem, as_problem
 from ._progress import Bar, Report, showing
-from ._records import EXACT, Model, Observation, Parameter, parameters_of, records_of
+from ._records import EXACT, Model, Observation, Parameter, RunFailed, parameters_of, records_of
 from ._result import Answer, say
 
 if TYPE_CHECKING:
@@ -193,7 +193,7 @@ def _search(model: Model, dof: int, h: float | str | None) -> tuple[Any, Any, fl
         x = np.clip(found.x * size, low, high)
         solved = model.solved(x)
         if solved is None:
-            raise ValueError(f"the search ended where runs fail: {model.failure}")
+            raise RunFailed(f"the search ended where runs fail: {model.failure}")
         spread = math.sqrt(2 * found.cost / dof) if model.is_estimated else 1.0
         error = model.error_of_steps(x, solved[1], spread) if h is None else 0.0
         if error <= 0.1 or attempt == _MOST_SEARCHES - 1 or model.options["h"] <= shortest:

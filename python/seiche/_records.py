@@ -20,6 +20,10 @@ _WIDTH = 1e-5  # of differences, of a parameter's size
 EXACT = 1e-10  # of the size of data: no smaller error is asked for
 
 
+class RunFailed(ValueError):
+    """Not what was given makes no sense, but a run of it fails."""
+
+
 @dataclasses.dataclass
 class Record:
     """Measurements of one run, which begins at `start`."""
@@ -264,7 +268,7 @@ class Model:
                 raise refused[0]
         solved = self.solved(x)
         if solved is None:
-            raise ValueError(f"the run with the first guess does not reach the end of the data: {self.failure}")
+            raise RunFailed(f"the run with the first guess does not reach the end of the data: {self.failure}")
         self.far = 10 * max(float(np.abs((self.data - solved[1]) / self.sigma).max()), 1.0)
 
     def _sides(self, x: np.ndarray, k: int) -> list[np.ndarray]:
