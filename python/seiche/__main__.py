@@ -17,6 +17,7 @@ from . import __version__, fit
 from ._fit import FitResult
 from ._problem import Case
 from ._records import RunFailed
+from ._types import Array
 
 SUCCESS, FAILED, WRONG_USAGE, LAW_VIOLATED, INTERRUPTED = 0, 1, 2, 3, 130  # exit codes, those of the program
 
@@ -92,7 +93,7 @@ def _parameters(texts: Sequence[str]) -> dict[str, Any]:
     return found
 
 
-def _measurements(file: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _measurements(file: str) -> Array:
     """One row for each time. The first line may be a header, and lines that begin with # are comments."""
     try:
         text = pathlib.Path(file).read_text(encoding="utf-8-sig")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ._problem import Case, Problem, as_problem, real_array, refuse_other_names,
 from ._progress import Report, showing
 from ._result import Answer, about_it, coordinates_of, field_of, say
 from ._solve import _span
+from ._types import Array, ArrayLike, Backend, Method, ProblemName, Size
 
 if TYPE_CHECKING:
     import xarray
@@ -47,7 +48,7 @@ class EnsembleResult(Answer):
         That of the first member.
     """
 
-    def field(self, name: str) -> np.ndarray:
+    def field(self, name: str) -> Array:
         """One field of the last states on the grid, of shape (members, points along each axis); a view of y."""
         return field_of(self.y, self.problem, name)
 
@@ -107,13 +108,13 @@ def _members(problem: Any, given: Problem | Case) -> list[Problem]:
 
 
 def solve_ensemble(
-    problem: Problem | Case | str | Sequence[Problem],
+    problem: Problem | Case | ProblemName | Sequence[Problem],
     t_span: float | None = None,
-    z0: Any = None,
-    method: str | None = None,
+    z0: ArrayLike | None = None,
+    method: Method | None = None,
     *,
-    h: float | str | None = None,
-    backend: str | None = None,
+    h: Size | None = None,
+    backend: Backend | None = None,
     threads: int = 1,
     progress: bool | Report = False,
     **options: Any,
@@ -132,10 +133,10 @@ def solve_ensemble(
     Warns with a `seiche.SeicheWarning` where members may be inaccurate, as `seiche.solve` does.
     """
     refuse_other_names(options)
-    several = isinstance(problem, (list, tuple))
-    if several and not problem:
+    if isinstance(problem, (list, tuple)) and not problem:
         raise ValueError("the list of problems is empty: give one for each member")
-    given = problem if isinstance(problem, Case) else as_problem(problem[0] if several else problem)
+    first: Any = problem[0] if isinstance(problem, (list, tuple)) else problem
+    given: Problem | Case = problem if isinstance(problem, Case) else as_problem(first)
     default_end = given.t_end if isinstance(given, Case) else run_case(given, {}).t_end if given._text else None
     start, end = _span(t_span, default_end, given.t_start if isinstance(given, Case) else 0.0)
     if start < 0:
@@ -143,14 +144,15 @@ def solve_ensemble(
     problems: list[Problem] = []
     case = run_case(given, {"t_start": start, "t_end": end, "method": method, "backend": backend, "h": h} | options)
     if z0 is None and isinstance(given, Case) and case.is_ensemble:
-        run, members = _core.ensemble_of_case, ()
+        run: Callable[..., _core.Ensemble] = _core.ensemble_of_case
+        members: tuple[Any, ...] = ()
     else:
         problems = _members(problem, given)
         if z0 is None:
             for stated in problems:
                 require_start(stated, "seiche.solve_ensemble")
         states = [p.z0 for p in problems] if z0 is None else list(np.atleast_2d(real_array("z0", z0)))
-        if several and len(states) != len(problems):
+        if isinstance(problem, (list, tuple)) and len(states) != len(problems):
             raise ValueError(f"z0 has {len(states)} rows for {len(problems)} problems")
         run, members = _core.ensemble_of_problems, ([p._core for p in problems], states)
     with showing(progress) as tell:
@@ -159,9 +161,9 @@ def solve_ensemble(
             tell(held.t[-1], end, round((held.t[-1] - start) / case.h))
     remarks = {k: of_member for k, of_member in enumerate(held.remarks) if of_member}
     summed_up = [
-        f"{len(remarks)} of {len(held.remarks)} members may be inaccurate, the first of them member {first}: "
-        + "; ".join(remarks[first])
-        for first in list(remarks)[:1]
+        f"{len(remarks)} of {len(held.remarks)} members may be inaccurate, the first of them member {k}: "
+        + "; ".join(remarks[k])
+        for k in list(remarks)[:1]
     ]
     reached = sum(status == "success" for status in held.status)
     say([*case.notes, f"{reached} of {len(held.status)} members reached t = {end:g}"], summed_up)

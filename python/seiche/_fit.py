@@ -12,6 +12,7 @@ from ._problem import Case, Problem, as_problem
 from ._progress import Bar, Report, showing
 from ._records import EXACT, Model, Observation, Parameter, RunFailed, parameters_of, records_of
 from ._result import Answer, say
+from ._types import Array, Method, Size
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -98,8 +99,8 @@ def fit(
     observe: str | Observation | Sequence[Any] | None = None,
     sigma: Any = None,
     *,
-    h: float | str | None = None,
-    method: str = "egc4",
+    h: Size | None = None,
+    method: Method = "egc4",
     progress: bool | Report = False,
     **options: Any,
 ) -> FitResult:
@@ -167,7 +168,7 @@ def fit(
     return result
 
 
-def _search(model: Model, dof: int, h: float | str | None) -> tuple[Any, Any, float, float]:
+def _search(model: Model, dof: int, h: Size | None) -> tuple[Any, Any, float, float]:
     """The least squares, the solutions there, the spread of the residuals, and the error of steps that are short enough."""
     from scipy.optimize import least_squares
 
@@ -263,10 +264,10 @@ def _answer(model: Model, found: Any, solved: Any, spread: float, error: float) 
 def _unclear(
     wanted: list[Parameter],
     found: Any,
-    size: np.ndarray,
-    free: np.ndarray,
-    unknown: np.ndarray,
-    correlations: np.ndarray,
+    size: Array,
+    free: Array,
+    unknown: Array,
+    correlations: Array,
 ) -> list[str]:
     """Which parameters the data, or the bounds, do not determine. `free`: directions in which the data do not change."""
     said = []
@@ -291,7 +292,7 @@ def _unclear(
     return said
 
 
-def _misfit(weighted: list[np.ndarray], p_value: float | None, ratio: float, exact: bool) -> list[str]:
+def _misfit(weighted: list[Array], p_value: float | None, ratio: float, exact: bool) -> list[str]:
     """Whether residuals, in standard deviations, look like noise."""
     if p_value is not None and p_value < _UNLIKELY:
         return [f"the model does not fit: noise makes χ²/dof = {ratio:.3g} with probability {p_value:.1e}"]

@@ -13,8 +13,9 @@ from ._problem import Case, Problem, as_problem, of_text, override, real_array
 from ._progress import Report
 from ._result import Result, quietly
 from ._solve import solve
+from ._types import Array
 
-Observation = Callable[[np.ndarray, np.ndarray], Any]
+Observation = Callable[[Array, Array], Any]
 
 _WIDTH = 1e-5  # of differences, of a parameter's size
 EXACT = 1e-10  # of the size of data: no smaller error is asked for
@@ -30,14 +31,14 @@ class Record:
 
     given: Problem | Case
     start: float
-    t: np.ndarray  # (times,)
-    data: np.ndarray  # (observed, times)
-    sigma: np.ndarray | None  # of the same shape
+    t: Array  # (times,)
+    data: Array  # (observed, times)
+    sigma: Array | None  # of the same shape
     shape: tuple[int, ...]  # of data as they were given
     function: Observation | None
     name: str  # of the field, where no function observes
 
-    def observe(self, result: Result) -> np.ndarray:
+    def observe(self, result: Result) -> Array:
         """(observed, times): what the solution says of the data."""
         if self.function is None:
             return result.field(self.name).reshape(len(result.t), -1).T
@@ -49,7 +50,7 @@ class Record:
         return seen
 
 
-def _ascending(where: str, t: Any) -> np.ndarray:
+def _ascending(where: str, t: Any) -> Array:
     times = np.atleast_1d(real_array(f"t{where}", t))
     if times.ndim != 1 or times.size == 0:
         raise ValueError(f"t{where} has the shape {times.shape}; it must be a list of times")
@@ -60,7 +61,7 @@ def _ascending(where: str, t: Any) -> np.ndarray:
     return times
 
 
-def _refuse_gaps(name: str, values: np.ndarray) -> None:
+def _refuse_gaps(name: str, values: Array) -> None:
     missing = ~np.isfinite(values)
     if missing.any():
         place = ", ".join(map(str, np.argwhere(missing)[0]))
@@ -126,7 +127,7 @@ def records_of(problem: Any, t: Any, data: Any, observe: Any, sigma: Any) -> lis
     if not isinstance(data, (list, tuple)) or len(data) != count:
         raise ValueError(f"t has {count} records; data must be a list of as many")
 
-    def of_each(name: str, value: Any) -> list:
+    def of_each(name: str, value: Any) -> list[Any]:
         if not isinstance(value, (list, tuple)):
             return [value] * count
         if len(value) != count:
@@ -174,7 +175,7 @@ def parameters_of(given: Mapping[str, Any], records: int) -> list[Parameter]:
         numbers = np.atleast_1d(real_array(f"parameters[{name!r}]", value))
         if numbers.shape not in ((1,), (3,)) or np.isnan(numbers).any():
             raise ValueError(f"parameters[{name!r}] = {value!r} must be a first guess, or (guess, least, most)")
-        start, low, high = (numbers[0], -np.inf, np.inf) if numbers.size == 1 else numbers
+        start, low, high = [*numbers, -np.inf, np.inf] if numbers.size == 1 else list(numbers)
         if not low < high or not low <= start <= high or not math.isfinite(start):
             raise ValueError(f"parameters[{name!r}] = {value!r}: least ≤ guess ≤ most, and least < most")
         record = None if only[2] is None else int(only[2])
@@ -204,12 +205,12 @@ class Model:
         self.tell: Report | None = None
         self.far: float | None = None  # residuals where runs fail, larger than all of the first guess
 
-    def parts(self, values: np.ndarray) -> list[np.ndarray]:
+    def parts(self, values: Array) -> list[Array]:
         """Those of each record, in the shape of its data."""
         ends = np.cumsum([record.data.size for record in self.records])[:-1]
         return [part.reshape(record.shape) for part, record in zip(np.split(values, ends), self.records)]
 
-    def problem(self, k: int, x: np.ndarray) -> Problem | Case:
+    def problem(self, k: int, x: Array) -> Problem | Case:
         changes = [override(p.key, float(value)) for p, value in zip(self.parameters, x) if p.record in (None, k)]
         given = self.records[k].given
         if isinstance(given, Case):
@@ -217,7 +218,7 @@ class Model:
         assert given._text is not None
         return of_text(given._text, True, [*given._overrides, *changes])
 
-    def run(self, k: int, x: np.ndarray, **options: Any) -> Result:
+    def run(self, k: int, x: Array, **options: Any) -> Result:
         record = self.records[k]
         with quietly():  # `fit` looks at the last ones itself
             result = solve(
@@ -227,7 +228,7 @@ class Model:
             raise KeyboardInterrupt
         return result
 
-    def solved(self, x: np.ndarray, **options: Any) -> tuple[list[Result], np.ndarray] | None:
+    def solved(self, x: Array, **options: Any) -> tuple[list[Result], Array] | None:
         """The solution for each record, and what they say of the data. None where a run failed, and `failure` says why;
         of the first guess a refusal is raised."""
         results, seen = [], []
@@ -246,15 +247,15 @@ class Model:
             results.append(result)
         return results, np.concatenate(seen)
 
-    def residuals(self, x: np.ndarray) -> np.ndarray:
+    def residuals(self, x: Array) -> Array:
         solved = self.solved(x)
-        weighted = np.full(self.data.size, self.far) if solved is None else (self.data - solved[1]) / self.sigma
+        weighted: Array = np.full(self.data.size, self.far) if solved is None else (self.data - solved[1]) / self.sigma
         self.tried += 1
         if self.tell is not None:
             self.tell(self.tried, float(weighted @ weighted))
         return weighted
 
-    def begin(self, x: np.ndarray) -> None:
+    def begin(self, x: Array) -> None:
         """Raises ValueError where the first guess gives no solution, or where what it gives is no number that can change."""
         for k, parameter in enumerate(self.parameters):
             refused: list[ValueError] = []
@@ -271,14 +272,14 @@ class Model:
             raise RunFailed(f"the run with the first guess does not reach the end of the data: {self.failure}")
         self.far = 10 * max(float(np.abs((self.data - solved[1]) / self.sigma).max()), 1.0)
 
-    def _sides(self, x: np.ndarray, k: int) -> list[np.ndarray]:
+    def _sides(self, x: Array, k: int) -> list[Array]:
         """x with a little less and a little more of one parameter, as far as its bounds allow."""
         parameter = self.parameters[k]
         width = _WIDTH * max(abs(x[k]), parameter.size)
         values = [value for value in (x[k] - width, x[k] + width) if parameter.low <= value <= parameter.high]
         return [np.where(np.arange(x.size) == k, value, x) for value in values]
 
-    def jacobian(self, x: np.ndarray) -> np.ndarray:
+    def jacobian(self, x: Array) -> Array:
         """By differences to both sides, or to one at a bound and where runs fail."""
         columns, here = [], None
         for k in range(x.size):
@@ -293,7 +294,7 @@ class Model:
             columns.append((seen - seen_there) / (other - one) / self.sigma)
         return np.array(columns).T
 
-    def error_of_steps(self, x: np.ndarray, seen: np.ndarray, spread: float) -> float:
+    def error_of_steps(self, x: Array, seen: Array, spread: float) -> float:
         """By how much halving the steps moves what is seen, in standard deviations of the measurements."""
         finer = self.solved(x, h=self.options["h"] / 2)
         if finer is None:
@@ -301,10 +302,10 @@ class Model:
         least = np.maximum(self.sigma * spread, EXACT * np.abs(self.data).max())
         return float((np.abs(seen - finer[1]) / least).max())
 
-    def step_size(self, x: np.ndarray) -> float:
+    def step_size(self, x: Array) -> float:
         """As long as a run by a loose tolerance takes them; errors are looked at afterwards."""
         spans = [record.t[-1] - record.start for record in self.records]
         longest, span = int(np.argmax(spans)), float(max(spans))
         scale = float(np.abs(as_problem(self.problem(longest, x)).z0).max()) or 1.0
         result = self.run(longest, x, tolerance=1e-4 * scale / span, h=None)
-        return span / max(result.steps, 4) if result.success else span / 1000
+        return span / max(int(result.steps), 4) if result.success else span / 1000

@@ -15,6 +15,7 @@ import numpy as np
 
 from . import _core
 from ._problem import real_array
+from ._types import Array, File
 
 if TYPE_CHECKING:
     import xarray
@@ -92,14 +93,15 @@ class DenseOutput:
         self._solution = solution
         self.t_min, self.t_max = solution.sol_span
 
-    def __call__(self, t: Any) -> np.ndarray:
+    def __call__(self, t: Any) -> Array:
         times = real_array("t", t)
         if times.ndim > 1:
             raise ValueError(f"t has the shape {times.shape}; it must be a number or a list of them")
         order = np.argsort(times.ravel(), kind="stable")  # times inside one step, one after the other, cost one step
         values = np.empty((times.size, self._solution.size))
         values[order] = self._solution.at(times.ravel()[order])
-        return values[0] if times.ndim == 0 else values.T
+        found: Array = values[0] if times.ndim == 0 else values.T
+        return found
 
     def __reduce__(self) -> Any:
         raise TypeError("a dense output lives in one process: evaluate sol at the times that are needed, or solve without it")
@@ -116,14 +118,14 @@ class _NoDenseOutput:
 
     __hash__ = object.__hash__
 
-    def __call__(self, t: Any) -> np.ndarray:
+    def __call__(self, t: Any) -> Array:
         raise ValueError("the run kept no dense output: call seiche.solve with dense_output=True, or t_eval for given times")
 
     def __repr__(self) -> str:
         return "None"
 
 
-class Answer(dict):
+class Answer(dict[str, Any]):
     """What a computation leaves; keys are attributes too."""
 
     def __getattr__(self, name: str) -> Any:
@@ -132,8 +134,8 @@ class Answer(dict):
         except KeyError:
             raise AttributeError(f"a result has no {name!r}; it has {', '.join(self)}") from None
 
-    __setattr__ = dict.__setitem__  # type: ignore[assignment]
-    __delattr__ = dict.__delitem__  # type: ignore[assignment]
+    __setattr__ = dict.__setitem__
+    __delattr__ = dict.__delitem__
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self]
@@ -162,7 +164,7 @@ class Answer(dict):
         return f"<table>{cells}</table>"
 
 
-def field_of(states: np.ndarray, problem: "Problem", name: str) -> np.ndarray:
+def field_of(states: Array, problem: "Problem", name: str) -> Array:
     """One field of states, (count, size), on the grid: of shape (count, points along each axis); a view."""
     names = problem.fields
     if name not in names:
@@ -175,7 +177,7 @@ def about_it(meaning: str) -> dict[str, str]:
     return {"long_name": meaning, "units": "1"}  # an equation has units of its own
 
 
-def coordinates_of(problem: "Problem") -> dict[str, tuple]:
+def coordinates_of(problem: "Problem") -> dict[str, tuple[Any, ...]]:
     """The places of the grid, as coordinates of an `xarray.Dataset`."""
     return {
         name: (name, values.astype(int) if name == "point" else values, about_it(meaning))
@@ -190,7 +192,7 @@ class Asked(NamedTuple):
     options: dict[str, Any]  # of `run_case`
     start: float
     z0: Any
-    t_eval: np.ndarray | None
+    t_eval: Array | None
     record_every: int
 
 
@@ -235,11 +237,11 @@ class Result(Answer):
     problem : Problem
     """
 
-    def field(self, name: str) -> np.ndarray:
+    def field(self, name: str) -> Array:
         """One field on the grid, of shape (times, points along each axis); a view of y."""
         return field_of(self.y.T, self.problem, name)
 
-    def save(self, folder: str | os.PathLike, progress: bool | Report = False) -> "CaseRun":
+    def save(self, folder: File, progress: bool | Report = False) -> "CaseRun":
         """Leave the folder that ``seiche run`` leaves, for ``seiche audit``, ``plot`` and ``resume``.
 
         The run is repeated there, from the case file that says the same: it takes as long as it took. What comes out is
@@ -278,7 +280,7 @@ class Result(Answer):
         names = [name for name, _ in layout["axes"]]
         coordinates = {"t": ("t", self.t, about_it("time"))} | coordinates_of(self.problem)
         shape = (len(self.t), *(self.problem.shape if names else ()))
-        data = {
+        data: dict[str, tuple[Any, ...]] = {
             shown: (("t", *names), self.field(name).reshape(shape), about_it(meaning))
             for name, (shown, meaning) in zip(self.problem.fields, layout["fields"])
         }

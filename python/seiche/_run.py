@@ -13,6 +13,7 @@ from . import _core
 from ._problem import Case, Problem, load, real_array, run_case, thread_count, truth
 from ._progress import Report, showing
 from ._result import Answer, Result, quietly, say
+from ._types import File
 
 
 class CaseRun(Answer):
@@ -20,12 +21,12 @@ class CaseRun(Answer):
 
     @property
     def success(self) -> bool:
-        return self["status"] == "success"
+        return bool(self["status"] == "success")
 
 
 def run(
-    case: Case | str | os.PathLike,
-    folder: str | os.PathLike | None = None,
+    case: Case | File,
+    folder: File | None = None,
     threads: int = 1,
     restart: bool = False,
     max_hours: float | None = None,
@@ -67,7 +68,7 @@ def run(
 
 
 def resume(
-    folder: str | os.PathLike,
+    folder: File,
     until: float | None = None,
     threads: int = 1,
     max_hours: float | None = None,
@@ -124,7 +125,7 @@ def _records(result: Result) -> dict[str, Any]:
     return {"output.snapshot_every": int(every[0]), "output.snapshot_interval": 0}
 
 
-def save(result: Result, folder: str | os.PathLike, progress: bool | Report) -> CaseRun:
+def save(result: Result, folder: File, progress: bool | Report) -> CaseRun:
     """What `Result.save` does."""
     reason = _unsayable(result)
     if reason:

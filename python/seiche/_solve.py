@@ -11,6 +11,9 @@ from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count, truth, whole_number
 from ._progress import Report, showing
 from ._result import Asked, Result, result_of, say
+from ._types import Array, ArrayLike, Backend, Method, ProblemName, Size
+
+Event = Callable[[float, Array], float]
 
 
 def _span(t_span: Any, default_end: float | None, default_start: float = 0.0) -> tuple[float, float]:
@@ -21,13 +24,13 @@ def _span(t_span: Any, default_end: float | None, default_start: float = 0.0) ->
     ends = np.atleast_1d(real_array("t_span", t_span))
     if ends.shape not in ((1,), (2,)):
         raise ValueError(f"t_span = {t_span!r} must be the end of the run, or (start, end)")
-    start, end = (0.0, ends[0]) if len(ends) == 1 else ends
+    start, end = [0.0, *ends][-2:]
     if not start < end:
         raise ValueError(f"t_span = ({start:g}, {end:g}) must ascend: damping cannot be followed backwards")
     return float(start), float(end)
 
 
-def _event(function: Callable) -> tuple:
+def _event(function: Event) -> tuple[Any, ...]:
     """(g, direction, number that ends the run, action), from the attributes that SciPy looks for, and `action`."""
     if not callable(function):
         raise TypeError(f"an event is a function g(t, y), not {function!r}")
@@ -38,7 +41,7 @@ def _event(function: Callable) -> tuple:
         raise ValueError(f"terminal of an event is {terminal!r}; it must be True, or the number of occurrences that end the run")
     return (
         function,
-        int(np.sign(direction)),
+        int(np.sign(float(direction))),
         int(terminal or 0),
         getattr(function, "action", None),
     )
@@ -54,21 +57,21 @@ def _of_scipy(theirs: str, ours: str, value: Any, options: dict[str, Any]) -> An
 
 
 def solve(
-    problem: Problem | Case | str,
+    problem: Problem | Case | ProblemName,
     t_span: float | Sequence[float] | None = None,
-    z0: Any = None,
-    method: str | None = None,
+    z0: ArrayLike | None = None,
+    method: Method | None = None,
     *,
-    h: float | str | None = None,
-    tolerance: float | str | None = None,
-    h_max: float | str | None = None,
-    t_eval: Any = None,
-    events: Callable | Sequence[Callable] | None = None,
+    h: Size | None = None,
+    tolerance: Size | None = None,
+    h_max: Size | None = None,
+    t_eval: ArrayLike | None = None,
+    events: Event | Sequence[Event] | None = None,
     dense_output: bool = False,
-    observer: Callable[[float, np.ndarray, float], Any] | None = None,
+    observer: Callable[[float, Array, float], Any] | None = None,
     record_every: int = 1,
     ledger: bool | None = None,
-    backend: str | None = None,
+    backend: Backend | None = None,
     threads: int = 1,
     progress: bool | Report = False,
     **options: Any,

@@ -11,7 +11,7 @@ import typing as _typing
 
 import numpy as _np
 
-from . import _ensemble, _problem, _result, _studies, _styles
+from . import _ensemble, _problem, _result, _studies, _styles, _types
 from .drawing import colours as _colours, curves as _curves, maps as _maps, names as _names, style as _style
 
 if _typing.TYPE_CHECKING:
@@ -80,7 +80,7 @@ def _named(result: _result.Result, field: str | None, dimension: int, caller: st
     if len(result.problem._core.layout["axes"]) != dimension:
         axes = ", ".join(name for name, _ in result.problem._core.layout["axes"]) or "none"
         raise ValueError(f"{caller} draws fields over {dimension} axes; {result.problem.name} has: {axes}")
-    return result.problem.fields[0] if field is None else field
+    return str(result.problem.fields[0]) if field is None else field
 
 
 def _energy_of_members(result: _ensemble.EnsembleResult, ax: "Axes", style: dict[str, _typing.Any]) -> None:
@@ -129,7 +129,7 @@ def space_time(
 
 def slices(
     result: _result.Result, field: str | None = None, count: int = 4, axes: _typing.Any = None, **style: _typing.Any
-) -> _np.ndarray:
+) -> "_np.ndarray[_typing.Any, _typing.Any]":
     """One field of a problem in the plane at `count` times, from the first to the last; by default the first field.
 
     All have one scale of colours. Where the largest values differ by more than a factor of four each has its own, so that a wave
@@ -154,10 +154,10 @@ def slices(
     scales = _colours.scales_of(list(values[times]))
     for ax, k in zip(axes, times):
         ax.set(xlabel="$x$", ylabel="$y$", title=f"$t$ = {result.t[k]:.4g}")
-    places = [tuple(result.problem.axes)] * len(times)
-    _maps.planes(axes, list(values[times]), places, scales, _label(result, name), _names.symbol(name), style)
+    x, y = result.problem.axes
+    _maps.planes(axes, list(values[times]), [(x, y)] * len(times), scales, _label(result, name), _names.symbol(name), style)
     axes[0].figure.suptitle(_title(result, f"{_names.symbol(name)} at some times"))
-    return axes
+    return _np.asarray(axes)
 
 
 def phase_portrait(
@@ -193,17 +193,15 @@ def phase_portrait(
         across, up = across[:, [point]], up[:, [point]]
     ax = _axes(ax)
     meanings = {name: meaning for name, (_, meaning) in zip(fields, result.problem._core.layout["fields"])}
-    _curves.portrait(
-        ax, *(_curves.Field(name, meanings[name], values) for name, values in ((x, across), (y, up))), style
-    )
+    _curves.portrait(ax, _curves.Field(x, meanings[x], across), _curves.Field(y, meanings[y], up), style)
     ax.set(title=_title(result, "phase portrait"))
     return ax
 
 
 def spectrum(
     problem: _problem.Problem | _problem.Case,
-    method: str | None = None,
-    h: float | str | None = None,
+    method: _types.Method | None = None,
+    h: _types.Size | None = None,
     ax: "Axes | None" = None,
     **options: _typing.Any,
 ) -> "Axes":
@@ -229,7 +227,7 @@ def spectrum(
 
 def work_precision(
     problem: _problem.Problem | _problem.Case,
-    methods: str | _typing.Sequence[str],
+    methods: _types.Method | _typing.Sequence[_types.Method],
     h: float | str | _typing.Sequence[float | str],
     t_end: float | None = None,
     ax: "Axes | None" = None,
