@@ -37,6 +37,9 @@ class Bar:
         bar = "━" * round(_WIDTH * share)
         self.show(f"{100 * share:3.0f} % {bar:<{_WIDTH}} t = {t:<10.6g} {steps / seconds:.3g} steps/s, {left} left")
 
+    def part(self, share: float) -> None:
+        self.show(f"{100 * share:3.0f} % {'━' * round(_WIDTH * share):<{_WIDTH}} drawing")
+
     def search(self, tried: int, chi2: float) -> None:
         self.show(f"{tried} sets of parameters tried, χ² = {chi2:.6g}")
 

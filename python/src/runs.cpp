@@ -5,6 +5,11 @@
 #include <pybind11/stl.h>
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
+#include <seiche/figure/drawing.hpp>
+#include <seiche/figure/run_pictures.hpp>
+#include <seiche/figure/run_report.hpp>
+#include <seiche/output/file/folder_lock.hpp>
+#include <seiche/output/run_folder.hpp>
 
 #include <cmath>
 #include <functional>
@@ -111,6 +116,22 @@ CaseRun resume(const std::string& folder, std::optional<double> t_end, int threa
   });
 }
 
+// What `seiche plot` does, with the programs beside this module.
+void report(const std::string& folder, const std::vector<std::string>& formats, bool film, const std::string& programs,
+            const std::string& interpreter) {
+  interruptible([&](const std::atomic<bool>*) {
+    draw_with(programs, interpreter);
+    require_recovered(folder);
+    const RunFiles run = read_run(folder);
+    const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
+    const FolderLock lock{Folder(run.directory)};
+    require_own_report(run.directory);
+    require_own_figures(run.directory);
+    write_run_report(run, history, draw_run(run, history, {.formats = formats, .film = film}));
+    return 0;
+  });
+}
+
 }  // namespace
 
 void bind_runs(py::module_& module) {
@@ -120,6 +141,7 @@ void bind_runs(py::module_& module) {
       .def_readonly("remarks", &CaseRun::remarks);
   module.def("run", &run);
   module.def("resume", &resume);
+  module.def("report", &report);
 }
 
 }  // namespace seiche::python
