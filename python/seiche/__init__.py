@@ -10,10 +10,11 @@ energy law of the equation holds at every step, for any step size::
 
 `problem`, `load` and `Problem` state equations, `solve` and `solve_ensemble` integrate them, `Simulation` steps, `run` leaves files as the program does, `check`, `spectrum` and
 `converge` judge them, `fit` finds their parameters from measurements, `methods()`, `problems()` and `backends()` list what there is, and `seiche.plot` draws.
+What is to be known of a run, the notes of its result, is logged at INFO by ``logging.getLogger("seiche")``.
 States are z = (field 0 at all points, field 1 at all points, …); units are those of the equation.
 """
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ._core import __citation__, __version__, backends, methods, problems
 from ._ensemble import EnsembleResult, solve_ensemble
@@ -59,7 +60,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> Any:
     if name == "plot":  # Matplotlib takes longer to import than most runs take
         import importlib
 

@@ -2,7 +2,7 @@
 
 from typing import Any, Callable, Sequence
 
-import numpy as np
+from ._types import Array
 
 __version__: str
 __citation__: str
@@ -15,12 +15,12 @@ class Problem:
     @property
     def size(self) -> int: ...
     @property
-    def axes(self) -> list[np.ndarray]: ...
+    def axes(self) -> list[Array]: ...
     @property
     def layout(self) -> dict[str, list[tuple[str, str]]]:
         """The fields, and the axes of one instant: their names and meanings in solution.h5."""
     @property
-    def z0(self) -> np.ndarray: ...
+    def z0(self) -> Array: ...
     @property
     def notes(self) -> list[str]: ...
 
@@ -43,13 +43,13 @@ class Case:
 
 class Solution:
     size: int
-    t: np.ndarray
-    y: np.ndarray
-    H: np.ndarray
-    modified: np.ndarray | None
-    t_events: list[np.ndarray]
-    y_events: list[np.ndarray]
-    ledger: dict[str, np.ndarray]
+    t: Array
+    y: Array
+    H: Array
+    modified: Array | None
+    t_events: list[Array]
+    y_events: list[Array]
+    ledger: dict[str, Array]
     status: str
     message: str
     remarks: list[str]
@@ -65,35 +65,35 @@ class Solution:
     backend: str
     has_sol: bool
     sol_span: tuple[float, float]
-    def at(self, times: np.ndarray) -> np.ndarray: ...
+    def at(self, times: Array) -> Array: ...
     def report_json(self) -> str: ...
     def certificate_json(self) -> str: ...
 
 class Simulation:
     t: float
     steps: int
-    y: np.ndarray
+    y: Array
     H: float
     modified: float
     method: str
     backend: str
     replaced: int
-    def __init__(self, problem: Problem, case: Case, z0: np.ndarray | None, t: float, threads: int) -> None: ...
+    def __init__(self, problem: Problem, case: Case, z0: Array | None, t: float, threads: int) -> None: ...
     def step(self, h: float, count: int) -> str: ...
-    def set_state(self, y: np.ndarray, t: float) -> None: ...
+    def set_state(self, y: Array, t: float) -> None: ...
 
 class Ensemble:
-    t: np.ndarray
-    running: np.ndarray
-    H: dict[str, np.ndarray]
-    modified: dict[str, np.ndarray]
-    y: np.ndarray
+    t: Array
+    running: Array
+    H: dict[str, Array]
+    modified: dict[str, Array]
+    y: Array
     status: list[str]
     message: list[str]
     remarks: list[list[str]]
     law: list[str]
     energy: list[float]
-    parameters: dict[str, np.ndarray]
+    parameters: dict[str, Array]
     side_by_side: bool
     wall_seconds: float
 
@@ -106,36 +106,59 @@ def problem_by_parts(
     S: tuple[Any, ...] | None,
     D: tuple[Any, ...] | None,
     gamma: float | str | None,
-    V: Callable[[np.ndarray], float] | str | None,
-    gradient: Callable[[np.ndarray], Any] | None,
+    V: Callable[[Array], float] | str | None,
+    gradient: Callable[[Array], Any] | None,
     grows_outward: bool,
-    z0: np.ndarray | None,
+    z0: Array | None,
 ) -> Problem: ...
 def solve(
     problem: Problem,
     case: Case,
     t_start: float,
     t_end: float,
-    z0: np.ndarray | None,
-    t_eval: np.ndarray | None,
+    z0: Array | None,
+    t_eval: Array | None,
     events: list[tuple[Any, ...]],
     dense_output: bool,
-    observer: Callable[[float, np.ndarray, float], Any] | None,
+    observer: Callable[[float, Array, float], Any] | None,
     record_every: int,
     ledger: bool,
     threads: int,
+    progress: Callable[[float, float, int], Any] | None,
 ) -> Solution: ...
-def ensemble_of_case(case: Case, threads: int) -> Ensemble: ...
+def ensemble_of_case(
+    case: Case, threads: int, progress: Callable[[float, float, int], Any] | None
+) -> Ensemble: ...
 def ensemble_of_problems(
-    problems: list[Problem], initial: list[np.ndarray], case: Case, threads: int
+    problems: list[Problem],
+    initial: list[Array],
+    case: Case,
+    threads: int,
+    progress: Callable[[float, float, int], Any] | None,
 ) -> Ensemble: ...
 class CaseRun:
     summary: str
     notes: list[str]
     remarks: list[str]
 
-def run(case: Case, folder: str, threads: int, restart: bool, max_hours: float) -> CaseRun: ...
-def resume(folder: str, t_end: float | None, threads: int, max_hours: float) -> CaseRun: ...
+def run(
+    case: Case,
+    folder: str,
+    threads: int,
+    restart: bool,
+    max_hours: float,
+    progress: Callable[[float, float, int], Any] | None,
+) -> CaseRun: ...
+def resume(
+    folder: str,
+    t_end: float | None,
+    threads: int,
+    max_hours: float,
+    progress: Callable[[float, float, int], Any] | None,
+) -> CaseRun: ...
+def report(
+    folder: str, formats: Sequence[str], film: bool, programs: str, interpreter: str
+) -> None: ...
 def check(problem: Problem, case: Case) -> str: ...
 def spectrum(problem: Problem, case: Case) -> str: ...
 def converge(problem: Problem, methods: list[str], step_sizes: list[float], case: Case, timed: bool) -> str: ...

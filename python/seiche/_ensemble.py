@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import warnings
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 import numpy as np
 
 from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count
-from ._result import Answer, SeicheWarning, about_it, coordinates_of, field_of
+from ._progress import Report, showing
+from ._result import Answer, about_it, coordinates_of, field_of, say
 from ._solve import _span
+from ._types import Array, ArrayLike, Backend, Method, ProblemName, Size
 
 if TYPE_CHECKING:
     import xarray
@@ -47,7 +48,7 @@ class EnsembleResult(Answer):
         That of the first member.
     """
 
-    def field(self, name: str) -> np.ndarray:
+    def field(self, name: str) -> Array:
         """One field of the last states on the grid, of shape (members, points along each axis); a view of y."""
         return field_of(self.y, self.problem, name)
 
@@ -107,14 +108,15 @@ def _members(problem: Any, given: Problem | Case) -> list[Problem]:
 
 
 def solve_ensemble(
-    problem: Problem | Case | str | Sequence[Problem],
+    problem: Problem | Case | ProblemName | Sequence[Problem],
     t_span: float | None = None,
-    z0: Any = None,
-    method: str | None = None,
+    z0: ArrayLike | None = None,
+    method: Method | None = None,
     *,
-    h: float | str | None = None,
-    backend: str | None = None,
+    h: Size | None = None,
+    backend: Backend | None = None,
     threads: int = 1,
+    progress: bool | Report = False,
     **options: Any,
 ) -> EnsembleResult:
     """Integrates many initial states, or many problems, side by side from t = 0, with steps of one size.
@@ -127,41 +129,44 @@ def solve_ensemble(
     z0 : (members, size) array
         The states at the start; by default those of the problems.
 
-    The other parameters are those of `seiche.solve`. A member that fails stops with its message, and the others go on.
+    The other parameters are those of `seiche.solve`; ``progress`` tells of the times in ``t``. A member that fails stops with its message, and the others go on.
     Warns with a `seiche.SeicheWarning` where members may be inaccurate, as `seiche.solve` does.
     """
     refuse_other_names(options)
-    several = isinstance(problem, (list, tuple))
-    if several and not problem:
+    if isinstance(problem, (list, tuple)) and not problem:
         raise ValueError("the list of problems is empty: give one for each member")
-    given = problem if isinstance(problem, Case) else as_problem(problem[0] if several else problem)
+    first: Any = problem[0] if isinstance(problem, (list, tuple)) else problem
+    given: Problem | Case = problem if isinstance(problem, Case) else as_problem(first)
     default_end = given.t_end if isinstance(given, Case) else run_case(given, {}).t_end if given._text else None
     start, end = _span(t_span, default_end, given.t_start if isinstance(given, Case) else 0.0)
     if start < 0:
         raise ValueError(f"t_span = ({start:g}, {end:g}): an ensemble starts at t = 0 or later")
+    problems: list[Problem] = []
     case = run_case(given, {"t_start": start, "t_end": end, "method": method, "backend": backend, "h": h} | options)
     if z0 is None and isinstance(given, Case) and case.is_ensemble:
-        held = _core.ensemble_of_case(case, thread_count(threads))
-        one_grid = "length" not in held.parameters
+        run: Callable[..., _core.Ensemble] = _core.ensemble_of_case
+        members: tuple[Any, ...] = ()
     else:
         problems = _members(problem, given)
-        one_grid = all(np.array_equal(a, b) for p in problems for a, b in zip(p.axes, problems[0].axes))
         if z0 is None:
             for stated in problems:
                 require_start(stated, "seiche.solve_ensemble")
         states = [p.z0 for p in problems] if z0 is None else list(np.atleast_2d(real_array("z0", z0)))
-        if several and len(states) != len(problems):
+        if isinstance(problem, (list, tuple)) and len(states) != len(problems):
             raise ValueError(f"z0 has {len(states)} rows for {len(problems)} problems")
-        held = _core.ensemble_of_problems([p._core for p in problems], states, case, thread_count(threads))
+        run, members = _core.ensemble_of_problems, ([p._core for p in problems], states)
+    with showing(progress) as tell:
+        held = run(*members, case, thread_count(threads), tell)
+        if tell is not None and held.t.size:
+            tell(held.t[-1], end, round((held.t[-1] - start) / case.h))
     remarks = {k: of_member for k, of_member in enumerate(held.remarks) if of_member}
-    if remarks:
-        first = min(remarks)
-        warnings.warn(
-            f"{len(remarks)} of {len(held.remarks)} members may be inaccurate, the first of them member {first}: "
-            + "; ".join(remarks[first]),
-            SeicheWarning,
-            stacklevel=2,
-        )
+    summed_up = [
+        f"{len(remarks)} of {len(held.remarks)} members may be inaccurate, the first of them member {k}: "
+        + "; ".join(remarks[k])
+        for k in list(remarks)[:1]
+    ]
+    reached = sum(status == "success" for status in held.status)
+    say([*case.notes, f"{reached} of {len(held.status)} members reached t = {end:g}"], summed_up)
     has_modified = any(m["name"] == case.method and m["law"] == "H_modified" for m in _core.methods())
     result = EnsembleResult(
         t=held.t,
@@ -181,5 +186,6 @@ def solve_ensemble(
         h=case.h,
         problem=as_problem(given),
     )
-    object.__setattr__(result, "_one_grid", one_grid)
+    one_grid = all(np.array_equal(a, b) for p in problems for a, b in zip(p.axes, problems[0].axes))
+    object.__setattr__(result, "_one_grid", one_grid and "length" not in held.parameters)
     return result

@@ -6,12 +6,14 @@ import difflib
 import numbers
 import operator
 import os
-from typing import Any, Callable, Mapping, Sequence
+from typing import Any, Callable, Mapping, Sequence, cast
 
 import numpy as np
 
 from . import _core
+from ._core import Case as CoreCase
 from ._toml import section, toml
+from ._types import Array, ArrayLike, Boundary, Discretisation, File, Matrix, ProblemName
 
 _KEYWORDS = "<keywords>"
 
@@ -36,7 +38,7 @@ def _argument(key: str) -> str:
 
 def _refused(error: ValueError, by_arguments: bool = True) -> ValueError:
     """The same without places that a Python user never wrote, about arguments if those were written."""
-    parts = error.parts
+    parts = error.parts  # type: ignore[attr-defined]  # of the module's own
     if not parts["place"].startswith((_KEYWORDS, "--set ")):
         return ValueError(str(error))
     if not by_arguments:
@@ -52,26 +54,27 @@ def _unknown_argument(kind: str, name: str, nearest: str, allowed: Sequence[str]
         allowed = [_argument(f"method.{key}") for key in allowed]
     else:  # a problem's name is no keyword of it
         allowed = [key for key in allowed if key != "name"]
-    hint = f"; did you mean '{_argument(nearest)}'?" if nearest else "."
+    near = _argument(nearest)
+    hint = f"; did you mean '{near}'?" if near not in ("", name) else "."  # the same in another section is no help
     names = f" Allowed: {', '.join(allowed)}" if allowed else ""
     return f"unknown {'argument' if is_of_method else kind} '{name}'{hint}{names}"
 
 
-def parse_keywords(text: str, overrides: Sequence[str] = (), folder: str = "") -> _core.Case:
+def parse_keywords(text: str, overrides: Sequence[str] = (), folder: str = "") -> CoreCase:
     try:
         return _core.parse_case(text, _KEYWORDS, list(overrides), folder)
     except ValueError as error:
         raise _refused(error) from None
 
 
-def make_problem(case: _core.Case) -> _core.Problem:
+def make_problem(case: CoreCase) -> _core.Problem:
     try:
         return _core.make_problem(case)
     except ValueError as error:
         raise _refused(error) from None
 
 
-def real_array(name: str, values: Any) -> np.ndarray:
+def real_array(name: str, values: Any) -> Array:
     """The values as an array of floats. Complex numbers are refused, instead of losing a part."""
     if np.iscomplexobj(values):
         raise ValueError(f"{name} is complex; it must be real")
@@ -105,7 +108,7 @@ def override(key: str, value: Any) -> str:
     return f"{key}={toml(value)}"
 
 
-def _columns(name: str, matrix: Any) -> tuple | None:
+def _columns(name: str, matrix: Any) -> tuple[Any, ...] | None:
     """A matrix, full or of scipy.sparse, in compressed columns."""
     if matrix is None:
         return None
@@ -136,6 +139,25 @@ def _no_right_hand_side(given: Any) -> TypeError:
         'seiche.Problem(fields=["q", "p"], H="p^2/2 + q^4/4", D={"p": 0.1}, initial={"q": 1, "p": 0}), or give matrices, '
         "seiche.Problem(M=…, S=…, D=…, V=…, gradient=…, z0=…)"
     )
+
+
+_NO_FUNCTIONS = {
+    "H": 'is a formula in quotes, as in H="p^2/2 + q^4/4"; for Python functions give M, V and gradient',
+    "V": "as a Python function goes with matrices, M=…, V=…, gradient=…; with fields by their names it is a formula in quotes",
+    "M": "is a matrix, or by formulas a table; what is not quadratic belongs to V and gradient, or to H",
+    "S": "is a matrix, or by formulas a table",
+    "D": 'is a constant matrix, or by formulas a table, as in D={"p": "0.1*(1 + q^2)"}',
+    "gamma": 'is a number, or a formula of the time in quotes, as in gamma="0.1 + 0.05*sin(t)"',
+}
+
+
+def _refuse_functions(values: Mapping[str, Any]) -> None:
+    """Only V and gradient may be functions of Python. What is written for the others is said for each."""
+    for name, value in values.items():
+        inside = value.values() if isinstance(value, Mapping) else value if isinstance(value, (list, tuple)) else [value]
+        if any(callable(entry) and not hasattr(entry, "free_symbols") for entry in inside):  # of SymPy
+            instead = _NO_FUNCTIONS.get(name, "takes numbers and formulas in quotes, and no Python function")
+            raise TypeError(f"{name} {instead}")
 
 
 class Problem:
@@ -178,27 +200,33 @@ class Problem:
 
     _core: _core.Problem
     _text: str | None = None  # the [problem] section it came from
+    _overrides: Sequence[str] = ()  # of its keys
     _has_initial: bool = True
     _file: str | None = None  # the case file it came from
-    _remake: tuple = ()  # without a text: a function of this module and its arguments, for pickle
+    _remake: tuple[Any, ...] = ()  # without a text: a function of this module and its arguments, for pickle
 
     def __init__(
         self,
         *right_hand_side: Any,
-        M: Any = None,
-        S: Any = None,
-        D: Any = None,
+        M: Matrix = None,
+        S: Matrix = None,
+        D: Matrix = None,
         H: str | None = None,
-        V: Callable[[np.ndarray], float] | str | None = None,
-        gradient: Callable[[np.ndarray], Any] | None = None,
-        z0: Any = None,
+        V: Callable[[Array], float] | str | None = None,
+        gradient: Callable[[Array], Any] | None = None,
+        z0: ArrayLike | None = None,
         fields: int | Sequence[str] = 2,
         gamma: float | str | None = None,
         grows_outward: bool = False,
+        boundary: Boundary | None = None,
+        discretisation: Discretisation | None = None,
         **written: Any,
     ):
         if right_hand_side:
             raise _no_right_hand_side(right_hand_side[0])
+        words = {"boundary": boundary, "discretisation": discretisation}
+        written |= {name: value for name, value in words.items() if value is not None}
+        _refuse_functions({"H": H, "M": M, "S": S, "D": D, "gamma": gamma})
         if isinstance(fields, numbers.Number) and not isinstance(fields, numbers.Integral):
             raise ValueError(f"fields = {fields!r} must be 1 or 2, or by formulas a list of names")
         if H is not None or not isinstance(fields, numbers.Integral):
@@ -212,7 +240,7 @@ class Problem:
                     raise ValueError(f"{name} belongs to a problem by parts; with H by a formula {instead}")
             if grows_outward:
                 raise ValueError("grows_outward belongs to a problem by parts; of formulas it is found out")
-            named = None if isinstance(fields, numbers.Integral) else list(fields)
+            named = None if isinstance(fields, numbers.Integral) else list(cast(Sequence[str], fields))
             stated = problem("custom", fields=named, H=H, M=M, V=V, S=S, D=D, **({"initial": "zero"} | written))
             self._core, self._text = stated._core, stated._text
             self._has_initial = "initial" in written
@@ -231,11 +259,11 @@ class Problem:
         self._has_initial = parts[-1] is not None
         self._remake = (_of_parts, parts)
 
-    def __reduce__(self) -> tuple:
-        return self._remake if self._text is None else (_of_text, (self._text, self._has_initial))
+    def __reduce__(self) -> tuple[Any, ...]:
+        return self._remake if self._text is None else (of_text, (self._text, self._has_initial, self._overrides))
 
     @classmethod
-    def _of_case(cls, case: _core.Case, text: str | None) -> "Problem":
+    def _of_case(cls, case: CoreCase, text: str | None) -> "Problem":
         made = cls.__new__(cls)
         made._core = make_problem(case)
         made._text = text
@@ -256,7 +284,7 @@ class Problem:
         return self._core.size
 
     @property
-    def axes(self) -> list[np.ndarray]:
+    def axes(self) -> list[Array]:
         """Coordinates of the points along each axis of the grid."""
         return self._core.axes
 
@@ -266,7 +294,7 @@ class Problem:
         return tuple(len(axis) for axis in self.axes)
 
     @property
-    def z0(self) -> np.ndarray:
+    def z0(self) -> Array:
         """(size,) the state at the start."""
         return self._core.z0
 
@@ -280,9 +308,9 @@ class Problem:
         return f"<seiche.Problem {self.name}: {', '.join(self.fields)}{points}>"
 
 
-def _of_text(text: str, has_initial: bool) -> Problem:
-    made = Problem._of_case(parse_keywords(text), text)
-    made._has_initial = has_initial
+def of_text(text: str, has_initial: bool, overrides: Sequence[str] = ()) -> Problem:
+    made = Problem._of_case(parse_keywords(text, overrides), text)
+    made._has_initial, made._overrides = has_initial, overrides
     return made
 
 
@@ -299,20 +327,20 @@ def _of_case_file(*case: Any) -> Problem:
 class Case:
     """A case file as it was when it was read: a problem, and how to run it. Give it to `solve`, `solve_ensemble` or `check`."""
 
-    def __init__(self, file: str | os.PathLike, overrides: Sequence[str], written: str | None = None):
+    def __init__(self, file: File, overrides: Sequence[str], written: str | bytes | None = None):
         self._file = os.fspath(file)
         self._overrides = list(overrides)
         # once: what is edited later belongs to another case
-        self._written = _core.case_text(self._file) if written is None else written
+        self._written: str | bytes = _core.case_text(self._file) if written is None else written
         self._core = self._read([])
         self.problem = Problem._of_case(self._core, None)
         self.problem._file = self._file
         self.problem._remake = (_of_case_file, self.__reduce__()[1])
 
-    def __reduce__(self) -> tuple:
+    def __reduce__(self) -> tuple[Any, ...]:
         return Case, (self._file, self._overrides, self._written)
 
-    def _read(self, overrides: Sequence[str]) -> _core.Case:
+    def _read(self, overrides: Sequence[str]) -> CoreCase:
         try:
             return _core.parse_case(
                 self._written, self._file, [*self._overrides, *overrides], os.path.dirname(self._file)
@@ -337,12 +365,13 @@ class Case:
         return f"<seiche.Case {self._file}: {self.problem.name} by {self._core.method}>"
 
 
-def problem(name: str, **parameters: Any) -> Problem:
+def problem(name: ProblemName, **parameters: Any) -> Problem:
     """A problem of the library by its name, with the parameters of its case files.
 
     `seiche.problems()` lists both. Numbers may be texts ("1/3"), a damping a formula ("0.1 + 0.05*sin(t)"), and
     ``initial`` a preset, ``{"file": "z0.txt"}`` or formulas ``{"u": "sin(pi*x)", "v": "0"}``.
     """
+    _refuse_functions(parameters)
     for key, value in parameters.items():
         if name != "custom" and (hasattr(value, "tocsc") or np.ndim(value) == 2):
             raise ValueError(f"{key} is a matrix: problems by name read matrices from files; seiche.Problem takes {key}")
@@ -350,12 +379,12 @@ def problem(name: str, **parameters: Any) -> Problem:
     return Problem._of_case(parse_keywords(text), text)
 
 
-def load(file: str | os.PathLike, **overrides: Any) -> Case:
+def load(file: File, **overrides: Any) -> Case:
     """A case file, with keys replaced: ``seiche.load("case.toml", **{"method.h": "1/64"})``."""
     return Case(file, [override(key, value) for key, value in overrides.items()])
 
 
-def as_problem(given: "Problem | Case | str") -> "Problem":
+def as_problem(given: "Problem | Case | ProblemName") -> "Problem":
     if isinstance(given, str):
         return problem(given)
     if isinstance(given, Case):
@@ -396,16 +425,17 @@ def refuse_other_names(options: Mapping[str, Any]) -> None:
             raise ValueError(f"unknown argument '{name}'; did you mean '{nearest}'?")
 
 
-def run_case(given: "Problem | Case", options: Mapping[str, Any]) -> _core.Case:
+def run_case(given: "Problem | Case", options: Mapping[str, Any]) -> CoreCase:
     """The case of one run: what is given, over what the case file says, over the defaults."""
     for name, value in options.items():
         if callable(value):  # an observer or events, which a case does not take
             raise ValueError(f"unknown argument '{name}'")
-    overrides = [override(_SECTIONS.get(k, f"method.{k}"), v) for k, v in options.items() if v is not None]
+    keys = {name: name if "." in name else _SECTIONS.get(name, f"method.{name}") for name in options}
+    overrides = [override(keys[name], value) for name, value in options.items() if value is not None]
     if isinstance(given, Case):
         return given._read(overrides)
     if given._text is not None:
-        return parse_keywords(given._text, overrides)
+        return parse_keywords(given._text, [*given._overrides, *overrides])
     # The parser wants the name of a problem; of what it knows about it, nothing is used.
     case = parse_keywords('[problem]\nname = "oscillator"\n', overrides)
     if options.get("h") is None and options.get("tolerance") is None:

@@ -2,23 +2,55 @@
 
 from __future__ import annotations
 
+import contextlib
+import contextvars
 import json
+import logging
+import os
 import textwrap
-from typing import TYPE_CHECKING, Any
+import warnings
+from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
 from . import _core
 from ._problem import real_array
+from ._types import Array, File
 
 if TYPE_CHECKING:
     import xarray
 
-    from ._problem import Problem
+    from ._problem import Case, Problem
+    from ._progress import Report
+    from ._run import CaseRun
 
 
 class SeicheWarning(UserWarning):
     """A computation came to its end, and what it left may be inaccurate: steps were replaced, or H went where no solution takes it."""
+
+
+_LOG = logging.getLogger("seiche")
+_is_quiet = contextvars.ContextVar("_is_quiet", default=False)
+
+
+def say(notes: Sequence[str], remarks: Sequence[str], stacklevel: int = 3) -> None:
+    """What there is to know of a run goes to the log, and what may make it inaccurate is a warning."""
+    if _is_quiet.get():
+        return
+    for note in notes:
+        _LOG.info("%s", note)
+    for remark in remarks:
+        warnings.warn(remark, SeicheWarning, stacklevel=stacklevel)
+
+
+@contextlib.contextmanager
+def quietly() -> Iterator[None]:
+    """Of runs that are only tried nothing is said."""
+    token = _is_quiet.set(True)
+    try:
+        yield
+    finally:
+        _is_quiet.reset(token)
 
 
 class Status(int):
@@ -61,20 +93,39 @@ class DenseOutput:
         self._solution = solution
         self.t_min, self.t_max = solution.sol_span
 
-    def __call__(self, t: Any) -> np.ndarray:
+    def __call__(self, t: Any) -> Array:
         times = real_array("t", t)
         if times.ndim > 1:
             raise ValueError(f"t has the shape {times.shape}; it must be a number or a list of them")
         order = np.argsort(times.ravel(), kind="stable")  # times inside one step, one after the other, cost one step
         values = np.empty((times.size, self._solution.size))
         values[order] = self._solution.at(times.ravel()[order])
-        return values[0] if times.ndim == 0 else values.T
+        found: Array = values[0] if times.ndim == 0 else values.T
+        return found
 
     def __reduce__(self) -> Any:
         raise TypeError("a dense output lives in one process: evaluate sol at the times that are needed, or solve without it")
 
 
-class Answer(dict):
+class _NoDenseOutput:
+    """In the place of a dense output: false, equal to None, and a sentence where it is called."""
+
+    def __bool__(self) -> bool:
+        return False
+
+    def __eq__(self, other: object) -> bool:
+        return other is None or isinstance(other, _NoDenseOutput)
+
+    __hash__ = object.__hash__
+
+    def __call__(self, t: Any) -> Array:
+        raise ValueError("the run kept no dense output: call seiche.solve with dense_output=True, or t_eval for given times")
+
+    def __repr__(self) -> str:
+        return "None"
+
+
+class Answer(dict[str, Any]):
     """What a computation leaves; keys are attributes too."""
 
     def __getattr__(self, name: str) -> Any:
@@ -83,8 +134,8 @@ class Answer(dict):
         except KeyError:
             raise AttributeError(f"a result has no {name!r}; it has {', '.join(self)}") from None
 
-    __setattr__ = dict.__setitem__  # type: ignore[assignment]
-    __delattr__ = dict.__delitem__  # type: ignore[assignment]
+    __setattr__ = dict.__setitem__
+    __delattr__ = dict.__delitem__
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self]
@@ -113,7 +164,7 @@ class Answer(dict):
         return f"<table>{cells}</table>"
 
 
-def field_of(states: np.ndarray, problem: "Problem", name: str) -> np.ndarray:
+def field_of(states: Array, problem: "Problem", name: str) -> Array:
     """One field of states, (count, size), on the grid: of shape (count, points along each axis); a view."""
     names = problem.fields
     if name not in names:
@@ -126,12 +177,23 @@ def about_it(meaning: str) -> dict[str, str]:
     return {"long_name": meaning, "units": "1"}  # an equation has units of its own
 
 
-def coordinates_of(problem: "Problem") -> dict[str, tuple]:
+def coordinates_of(problem: "Problem") -> dict[str, tuple[Any, ...]]:
     """The places of the grid, as coordinates of an `xarray.Dataset`."""
     return {
         name: (name, values.astype(int) if name == "point" else values, about_it(meaning))
         for (name, meaning), values in zip(problem._core.layout["axes"], problem.axes)
     }
+
+
+class Asked(NamedTuple):
+    """What a run was asked for, to repeat it."""
+
+    problem: "Problem | Case"
+    options: dict[str, Any]  # of `run_case`
+    start: float
+    z0: Any
+    t_eval: Array | None
+    record_every: int
 
 
 class Result(Answer):
@@ -159,8 +221,8 @@ class Result(Answer):
         The hypotheses of the law, how each is known, and what they promise.
     report : dict
         What the program writes to summary.json.
-    sol : DenseOutput or None
-        The solution at any time, with ``dense_output=True``.
+    sol : DenseOutput
+        The solution at any time, with ``dense_output=True``; otherwise it is false, and says so where it is called.
     t_events, y_events : list of arrays, or None
         For each event its times, and the states then, of shape (times, size), before its action.
     ledger : dict of (times,) arrays, or None
@@ -175,9 +237,36 @@ class Result(Answer):
     problem : Problem
     """
 
-    def field(self, name: str) -> np.ndarray:
+    def field(self, name: str) -> Array:
         """One field on the grid, of shape (times, points along each axis); a view of y."""
         return field_of(self.y.T, self.problem, name)
+
+    def save(self, folder: File, progress: bool | Report = False) -> "CaseRun":
+        """Leave the folder that ``seiche run`` leaves, for ``seiche audit``, ``plot`` and ``resume``.
+
+        The run is repeated there, from the case file that says the same: it takes as long as it took. What comes out is
+        compared with this result and must be the same to the bit. States are recorded as here, or, where ``t_eval`` is no
+        even sequence of steps, as case files do by default.
+
+        Parameters
+        ----------
+        folder : path
+        progress : bool or function
+            As of `seiche.run`.
+
+        Returns
+        -------
+        CaseRun
+
+        Raises
+        ------
+        ValueError
+            Where no case file can say this run: of Python functions, events, a problem by its parts, a run that did not
+            reach its end or began before t = 0.
+        """
+        from ._run import save
+
+        return save(self, folder, progress)
 
     def to_xarray(self) -> "xarray.Dataset":
         """The fields on their grid and the energies as an `xarray.Dataset`.
@@ -191,7 +280,7 @@ class Result(Answer):
         names = [name for name, _ in layout["axes"]]
         coordinates = {"t": ("t", self.t, about_it("time"))} | coordinates_of(self.problem)
         shape = (len(self.t), *(self.problem.shape if names else ()))
-        data = {
+        data: dict[str, tuple[Any, ...]] = {
             shown: (("t", *names), self.field(name).reshape(shape), about_it(meaning))
             for name, (shown, meaning) in zip(self.problem.fields, layout["fields"])
         }
@@ -216,7 +305,7 @@ def result_of(
         status=Status(number),
         message=solution.message,
         law=solution.law,
-        sol=DenseOutput(solution) if solution.has_sol else None,
+        sol=DenseOutput(solution) if solution.has_sol else _NoDenseOutput(),
         t_events=solution.t_events if has_events else None,
         y_events=solution.y_events if has_events else None,
         ledger=solution.ledger if has_ledger else None,

@@ -5,12 +5,15 @@ from __future__ import annotations
 import json
 import os
 import pathlib
-import warnings
 from typing import Any
 
+import numpy as np
+
 from . import _core
-from ._problem import Case, load, thread_count, truth
-from ._result import Answer, SeicheWarning
+from ._problem import Case, Problem, load, real_array, run_case, thread_count, truth
+from ._progress import Report, showing
+from ._result import Answer, Result, quietly, say
+from ._types import File
 
 
 class CaseRun(Answer):
@@ -18,15 +21,16 @@ class CaseRun(Answer):
 
     @property
     def success(self) -> bool:
-        return self["status"] == "success"
+        return bool(self["status"] == "success")
 
 
 def run(
-    case: Case | str | os.PathLike,
-    folder: str | os.PathLike | None = None,
+    case: Case | File,
+    folder: File | None = None,
     threads: int = 1,
     restart: bool = False,
     max_hours: float | None = None,
+    progress: bool | Report = False,
     **overrides: Any,
 ) -> CaseRun:
     """Run a case, or an ensemble, to the files that ``seiche run`` leaves.
@@ -38,6 +42,7 @@ def run(
     threads : over a large grid, or over the members of an ensemble; results do not depend on it
     restart : begin anew where the folder holds a run that did not finish, which is removed
     max_hours : write a checkpoint and stop after so much time; `resume` goes on from there
+    progress : True for a bar on stderr, with the time that is left; or a function of (t, t_end, steps)
     **overrides : keys of the case to replace: ``seiche.run("case.toml", **{"method.h": "1/64"})``
 
     Returns what ``summary.json`` holds, ``notes`` and ``folder``. A computation that fails is a status, with what was computed
@@ -46,16 +51,28 @@ def run(
     if not isinstance(case, Case):
         case = load(case, **overrides)
     elif overrides:
-        raise ValueError(f"{', '.join(overrides)}: give keys to replace to seiche.load, or the name of the case file here")
+        raise ValueError(
+            f"{', '.join(overrides)}: give keys to replace to seiche.load, or the name of the case file here"
+        )
     directory = os.fspath(case._core.output_directory if folder is None else folder)
     if not directory:
         raise ValueError("folder must not be empty")
-    done = _core.run(case._core, directory, thread_count(threads), truth("restart", restart), _hours(max_hours))
+    with showing(progress) as tell:
+        done = _core.run(
+            case._core, directory, thread_count(threads), truth("restart", restart), _hours(max_hours), tell
+        )
+        summary = json.loads(done.summary)
+        if tell is not None:
+            tell(summary["t"], case.t_end, summary["steps"])
     return _case_run(done, directory)
 
 
 def resume(
-    folder: str | os.PathLike, until: float | None = None, threads: int = 1, max_hours: float | None = None
+    folder: File,
+    until: float | None = None,
+    threads: int = 1,
+    max_hours: float | None = None,
+    progress: bool | Report = False,
 ) -> CaseRun:
     """Go on with a run that was stopped or killed, from the newest checkpoint in its folder.
 
@@ -66,10 +83,74 @@ def resume(
     ----------
     folder : where `run`, or the program, left its files
     until : where to end, instead of the case's ``time.end``
+    progress : as of `run`
     """
     t_end = None if until is None else float(until)
     directory = os.fspath(folder)
-    return _case_run(_core.resume(directory, t_end, thread_count(threads), _hours(max_hours)), directory)
+    with showing(progress) as tell:
+        done = _core.resume(directory, t_end, thread_count(threads), _hours(max_hours), tell)
+    return _case_run(done, directory)
+
+
+def _unsayable(result: Result) -> str:
+    """Why no case file can say what was run, or ""."""
+    given = result._asked.problem
+    if isinstance(given, Problem) and given._text is None:
+        parts = "is stated by its parts: state it by formulas, by its name, or by a case file"
+        return f"its problem {parts if given._file is None else 'is that of a case file: solve the case itself'}"
+    if result.t_events is not None:
+        return "its events are Python functions"
+    if result._asked.start < 0:
+        return f"it begins at t = {result._asked.start:g}, and cases at 0 or later"
+    return (
+        ""
+        if result.status == "success"
+        else f"it {'failed' if result.status == 'failed' else 'was interrupted'} at t = {result.report['t']:.6g}"
+    )
+
+
+def _records(result: Result) -> dict[str, Any]:
+    """Keys of [output] by which a run records what the result has, as far as there are such."""
+    asked, h = result._asked, result.report["h"]
+    if asked.t_eval is None:
+        return {
+            "energy_every": asked.record_every,
+            "output.snapshot_every": asked.record_every,
+            "output.snapshot_interval": 0,
+        }
+    steps = np.diff(np.append(asked.start, asked.t_eval[asked.t_eval > asked.start])) / (h or np.nan)
+    every = np.round(steps)
+    if steps.size == 0 or not (np.abs(steps - every[0]) < 1e-6).all() or every[0] < 1:
+        return {}
+    return {"output.snapshot_every": int(every[0]), "output.snapshot_interval": 0}
+
+
+def save(result: Result, folder: File, progress: bool | Report) -> CaseRun:
+    """What `Result.save` does."""
+    reason = _unsayable(result)
+    if reason:
+        raise ValueError(f"no case file can say this run: {reason}")
+    asked, directory = result._asked, pathlib.Path(folder)
+    keys = asked.options | _records(result) | {"output.ledger": "off" if result.ledger is None else "on"}
+    if asked.z0 is not None:
+        directory.mkdir(parents=True, exist_ok=True)
+        file = directory.resolve() / "initial.txt"
+        file.write_text("".join(f"{value!r}\n" for value in real_array("z0", asked.z0).ravel().tolist()))
+        keys["problem.initial"] = {"file": file}
+    with showing(progress) as tell:
+        core = run_case(asked.problem, keys)
+        done = _core.run(core, os.fspath(directory), result.report["threads"], False, 0.0, tell)
+    with quietly():  # it was said of the result
+        written = _case_run(done, os.fspath(directory))
+    if written.success:
+        final = np.loadtxt(directory / "final.txt", ndmin=1)
+        same = all(written[key] == result.report[key] for key in ("t", "steps"))
+        same &= all(written["energy"][key] == result.report["energy"][key] for key in ("initial", "final"))
+        if not same or (result.t[-1] == written.t and not np.array_equal(final, result.y[:, -1])):
+            raise RuntimeError(
+                f"{directory} holds a run of the same case that differs from this result: do not take it for one"
+            )
+    return written
 
 
 def _hours(given: float | None) -> float:
@@ -81,6 +162,6 @@ def _hours(given: float | None) -> float:
 
 
 def _case_run(done: _core.CaseRun, directory: str) -> CaseRun:
-    for remark in done.remarks:
-        warnings.warn(remark, SeicheWarning, stacklevel=3)
-    return CaseRun(json.loads(done.summary), notes=done.notes, folder=pathlib.Path(directory))
+    summary = json.loads(done.summary)
+    say([*done.notes, f"{directory}: {summary['message']}"], done.remarks, stacklevel=4)
+    return CaseRun(summary, notes=done.notes, folder=pathlib.Path(directory))

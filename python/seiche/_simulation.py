@@ -11,6 +11,7 @@ import numpy as np
 from . import _core
 from ._problem import Case, Problem, as_problem, real_array, require_start, run_case, thread_count, whole_number
 from ._result import SeicheWarning, field_of
+from ._types import Array, ArrayLike, Backend, Method, ProblemName
 
 
 class StepError(ArithmeticError):
@@ -44,8 +45,8 @@ class Simulation:
     """
 
     def __init__(
-        self, problem: Problem | Case | str, method: str | None = None, z0: Any = None, t: float = 0.0, *,
-        backend: str | None = None, threads: int = 1, **options: Any,
+        self, problem: Problem | Case | ProblemName, method: Method | None = None, z0: ArrayLike | None = None, t: float = 0.0, *,
+        backend: Backend | None = None, threads: int = 1, **options: Any,
     ):  # fmt: skip
         for name in ("h", "tolerance", "t_span", "t_eval", "events", "observer"):
             if name in options:
@@ -60,7 +61,7 @@ class Simulation:
         start = None if z0 is None else self._state("z0", z0)
         self._core = _core.Simulation(self.problem._core, case, start, self._time(t), thread_count(threads))
 
-    def _state(self, name: str, values: Any) -> np.ndarray:
+    def _state(self, name: str, values: Any) -> Array:
         state = real_array(name, values).ravel()
         if state.size != self.problem.size:
             raise ValueError(f"{name} has {state.size} numbers; a state of {self.problem.name} has {self.problem.size}")
@@ -98,16 +99,17 @@ class Simulation:
         """Go on from another state, and perhaps another time. What the method remembers of the steps before is forgotten."""
         self._core.set_state(self._state("y", y), self.t if t is None else self._time(t))
 
-    def field(self, name: str) -> np.ndarray:
+    def field(self, name: str) -> Array:
         """One field on the grid, of shape (points along each axis)."""
-        return field_of(self.y[np.newaxis], self.problem, name)[0]
+        first: Array = field_of(self.y[np.newaxis], self.problem, name)[0]
+        return first
 
     @property
     def t(self) -> float:
         return self._core.t
 
     @property
-    def y(self) -> np.ndarray:
+    def y(self) -> Array:
         """(size,) the state, a copy."""
         return self._core.y
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import numbers
-import warnings
 from typing import Any, Callable, Sequence
 
 import numpy as np
 
 from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count, truth, whole_number
-from ._result import Result, SeicheWarning, result_of
+from ._progress import Report, showing
+from ._result import Asked, Result, result_of, say
+from ._types import Array, ArrayLike, Backend, Method, ProblemName, Size
+
+Event = Callable[[float, Array], float]
 
 
 def _span(t_span: Any, default_end: float | None, default_start: float = 0.0) -> tuple[float, float]:
@@ -21,13 +24,13 @@ def _span(t_span: Any, default_end: float | None, default_start: float = 0.0) ->
     ends = np.atleast_1d(real_array("t_span", t_span))
     if ends.shape not in ((1,), (2,)):
         raise ValueError(f"t_span = {t_span!r} must be the end of the run, or (start, end)")
-    start, end = (0.0, ends[0]) if len(ends) == 1 else ends
+    start, end = [0.0, *ends][-2:]
     if not start < end:
         raise ValueError(f"t_span = ({start:g}, {end:g}) must ascend: damping cannot be followed backwards")
     return float(start), float(end)
 
 
-def _event(function: Callable) -> tuple:
+def _event(function: Event) -> tuple[Any, ...]:
     """(g, direction, number that ends the run, action), from the attributes that SciPy looks for, and `action`."""
     if not callable(function):
         raise TypeError(f"an event is a function g(t, y), not {function!r}")
@@ -38,7 +41,7 @@ def _event(function: Callable) -> tuple:
         raise ValueError(f"terminal of an event is {terminal!r}; it must be True, or the number of occurrences that end the run")
     return (
         function,
-        int(np.sign(direction)),
+        int(np.sign(float(direction))),
         int(terminal or 0),
         getattr(function, "action", None),
     )
@@ -54,28 +57,29 @@ def _of_scipy(theirs: str, ours: str, value: Any, options: dict[str, Any]) -> An
 
 
 def solve(
-    problem: Problem | Case | str,
+    problem: Problem | Case | ProblemName,
     t_span: float | Sequence[float] | None = None,
-    z0: Any = None,
-    method: str | None = None,
+    z0: ArrayLike | None = None,
+    method: Method | None = None,
     *,
-    h: float | str | None = None,
-    tolerance: float | str | None = None,
-    h_max: float | str | None = None,
-    t_eval: Any = None,
-    events: Callable | Sequence[Callable] | None = None,
+    h: Size | None = None,
+    tolerance: Size | None = None,
+    h_max: Size | None = None,
+    t_eval: ArrayLike | None = None,
+    events: Event | Sequence[Event] | None = None,
     dense_output: bool = False,
-    observer: Callable[[float, np.ndarray, float], Any] | None = None,
+    observer: Callable[[float, Array, float], Any] | None = None,
     record_every: int = 1,
     ledger: bool | None = None,
-    backend: str | None = None,
+    backend: Backend | None = None,
     threads: int = 1,
+    progress: bool | Report = False,
     **options: Any,
 ) -> Result:
     """Integrates a damped Hamiltonian system, in the manner of ``scipy.integrate.solve_ivp``.
 
     The GIL is released while it steps, and taken for Python functions. Ctrl-C ends the run after the current step, and
-    what was computed is returned with the status "interrupted".
+    what was computed is returned with the status "interrupted", its last state whatever ``t_eval`` asked for.
 
     Parameters
     ----------
@@ -116,6 +120,9 @@ def solve(
         One of `seiche.backends()`; by default "auto".
     threads : int
         For large grids. Results do not depend on it.
+    progress : bool or function
+        True: a bar on stderr, with the time that is left. Or a function of (t, t_end, steps), called ten times a second at
+        most, and at the end.
     **options
         C, auxiliary, scalar_solver, predictor, law, linear (of methods); plan, exponential, pade_degree, lanczos_dimension (of
         backends), with the values of case files.
@@ -147,20 +154,17 @@ def solve(
     looked_at = max(start, 0.0)  # cases begin at 0 or later
     if z0 is None:
         require_start(stated, "seiche.solve")
-    case = run_case(
-        given,
-        {
-            "t_start": looked_at,
-            "t_end": looked_at + (end - start),
-            "method": method,
-            "backend": backend,
-            "h": h,
-            "tolerance": tolerance,
-            "h_max": h_max,
-            "energy_every": 10**12,  # no file is written, whose size the parser would guard
-        }
-        | options,
-    )
+    options |= {
+        "t_start": looked_at,
+        "t_end": looked_at + (end - start),
+        "method": method,
+        "backend": backend,
+        "h": h,
+        "tolerance": tolerance,
+        "h_max": h_max,
+    }
+    every = options.pop("energy_every", None)
+    case = run_case(given, options | {"energy_every": 10**12 if every is None else every})  # no file whose size is guarded
     times = None if t_eval is None else np.atleast_1d(real_array("t_eval", t_eval))
     if times is not None and times.size == 0:
         raise ValueError("t_eval is empty: give the times to record, or leave it out to record the steps")
@@ -168,26 +172,32 @@ def solve(
         raise ValueError("t_eval holds a time that is no finite number")
     functions = [] if events is None else list(events) if isinstance(events, (list, tuple)) else [events]
     with_ledger = case.ledger and times is None if ledger is None else ledger
-    solution = _core.solve(
-        stated._core,
-        case,
-        start,
-        end,
-        None if z0 is None else real_array("z0", z0).ravel(),
-        times,
-        [_event(function) for function in functions],
-        truth("dense_output", dense_output),
-        observer,
-        whole_number("record_every", record_every),
-        truth("ledger", with_ledger),
-        thread_count(threads),
-    )
-    for remark in solution.remarks:
-        warnings.warn(remark, SeicheWarning, stacklevel=2)
+    with showing(progress) as tell:
+        solution = _core.solve(
+            stated._core,
+            case,
+            start,
+            end,
+            None if z0 is None else real_array("z0", z0).ravel(),
+            times,
+            [_event(function) for function in functions],
+            truth("dense_output", dense_output),
+            observer,
+            whole_number("record_every", record_every),
+            truth("ledger", with_ledger),
+            thread_count(threads),
+            tell,
+        )
+        if tell is not None:
+            has_reached = solution.status == "success" and not solution.ended_by_event
+            tell(end if has_reached else float(solution.t[-1]), end, solution.steps)
     notes = [*case.notes, *stated.notes]
     if case.h_is_default:
         notes.insert(0, f"h is not given: steps of {case.h:g}, as in the problem's example")
     notes += solution.notes
     if solution.method_reason:
         notes.append(f'method = "auto": {solution.method_reason}')
-    return result_of(solution, stated, notes=notes, has_events=events is not None, has_ledger=with_ledger)
+    say([*notes, f"{stated.name} by {solution.method}: {solution.message}"], solution.remarks)
+    result = result_of(solution, stated, notes=notes, has_events=events is not None, has_ledger=with_ledger)
+    object.__setattr__(result, "_asked", Asked(given, options, start, z0, times, record_every))
+    return result

@@ -9,9 +9,10 @@ import numpy as np
 
 from . import _core
 from ._problem import Case, Problem, as_problem, require_start, run_case
+from ._types import Method, ProblemName, Size
 
 
-def _given(problem: Problem | Case | str) -> Problem | Case:
+def _given(problem: Problem | Case | ProblemName) -> Problem | Case:
     return problem if isinstance(problem, Case) else as_problem(problem)
 
 
@@ -28,7 +29,7 @@ def _followed(given: Problem | Case, t_end: Any, options: dict[str, Any]) -> dic
 
 
 def check(
-    problem: Problem | Case | str, t_end: float | None = None, method: str | None = None, **options: Any
+    problem: Problem | Case | ProblemName, t_end: float | None = None, method: Method | None = None, **options: Any
 ) -> dict[str, Any]:
     """Which hypotheses of the energy law hold up to t_end, how each is known, and which law they promise.
 
@@ -40,11 +41,11 @@ def check(
     """
     given = _given(problem)
     case = run_case(given, _followed(given, t_end, {"method": method} | options))
-    return json.loads(_core.check(as_problem(given)._core, case))
+    return dict(json.loads(_core.check(as_problem(given)._core, case)))
 
 
 def spectrum(
-    problem: Problem | Case | str, method: str | None = None, h: float | str | None = None, **options: Any
+    problem: Problem | Case | ProblemName, method: Method | None = None, h: Size | None = None, **options: Any
 ) -> dict[str, Any]:
     """Is the damping physical? Decay and frequency that one step gives each mode of the linear part, and the exact ones.
 
@@ -56,12 +57,12 @@ def spectrum(
     given = _given(problem)
     if isinstance(given, Problem) and given._text is None and h is None:
         raise ValueError('h is missing, and spectrum looks at one step: give h, such as "1/64"')
-    return json.loads(_core.spectrum(as_problem(given)._core, run_case(given, {"method": method, "h": h} | options)))
+    return dict(json.loads(_core.spectrum(as_problem(given)._core, run_case(given, {"method": method, "h": h} | options))))
 
 
 def converge(
-    problem: Problem | Case | str,
-    methods: str | Sequence[str],
+    problem: Problem | Case | ProblemName,
+    methods: Method | Sequence[Method],
     h: float | str | Sequence[float | str],
     t_end: float | None = None,
     timed: bool = True,
@@ -75,9 +76,9 @@ def converge(
     Returns the document of ``seiche converge --json``; its "rows" make a table.
     """
     given = _given(problem)
-    names = [methods] if isinstance(methods, str) else list(methods)
-    sizes = [h] if np.ndim(h) == 0 else list(h)
+    names: list[str] = [methods] if isinstance(methods, str) else list(methods)
+    sizes = [h] if isinstance(h, (str, float, int)) or np.ndim(h) == 0 else list(h)
     values = _followed(given, t_end, options)
     case = run_case(given, values)
     steps = [run_case(given, values | {"h": size, "tolerance": None}).h for size in sizes]  # read as everywhere
-    return json.loads(_core.converge(as_problem(given)._core, names, steps, case, timed))
+    return dict(json.loads(_core.converge(as_problem(given)._core, names, steps, case, timed)))

@@ -1,23 +1,44 @@
-"""Figures with Matplotlib: energy, fields over space and time, phase portraits, spectra, work and precision.
+"""Figures with Matplotlib, as `seiche plot` draws them: energy, fields over space and time, phase portraits, spectra, work and precision.
 
-Each returns the axes it drew on.
+Each returns the axes it drew on; `film` and `report` return the file that they wrote.
 """
 
 from __future__ import annotations
 
 import math as _math
+import os as _os
 import pathlib as _pathlib
+import sys as _sys
 import typing as _typing
 
 import numpy as _np
 
-from . import _ensemble, _problem, _result, _studies, _styles
-from .drawing import colours as _colours, curves as _curves, maps as _maps, names as _names, style as _style
+from . import _core, _ensemble, _problem, _progress, _result, _run, _studies, _styles, _types
+from .drawing import (
+    colours as _colours,
+    curves as _curves,
+    films as _films,
+    maps as _maps,
+    names as _names,
+    runs as _runs,
+)
+from .drawing import style as _style
 
 if _typing.TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["energy", "phase_portrait", "slices", "space_time", "spectrum", "work_precision"]
+__all__ = [
+    "energy",
+    "film",
+    "phase_portrait",
+    "planes",
+    "profiles",
+    "report",
+    "slices",
+    "space_time",
+    "spectrum",
+    "work_precision",
+]
 
 
 def __dir__() -> list[str]:
@@ -32,6 +53,11 @@ def _axes(ax: "Axes | None") -> "Axes":
     return plt.subplots(layout="constrained")[1]
 
 
+def _size_in_text(h: float | None, tolerance: float | None) -> str:
+    """Without formulas."""
+    return f"tolerance {_names.number(tolerance)}" if tolerance is not None else f"h = {_names.step(h)}" if h else ""
+
+
 def _size(h: float | None, tolerance: float | None) -> str:
     """The tolerance, or the step size as a power of two where it is one."""
     if tolerance is not None:
@@ -42,13 +68,16 @@ def _size(h: float | None, tolerance: float | None) -> str:
     return f"$h = 2^{{{exponent - 1}}}$" if mantissa == 0.5 else f"$h$ = {h:g}"
 
 
-def _title(result: _result.Result | _ensemble.EnsembleResult, what: str) -> str:
-    """The problem, or its case file where it was written down and has no name of its own; method; size of steps; what."""
+def _heading(result: _result.Result | _ensemble.EnsembleResult, size: _typing.Callable[..., str]) -> str:
+    """The problem, or its case file where it was written down and has no name of its own; method; size of steps."""
     problem, file = result.problem, result.problem._file
     name = problem.name if problem.name != "custom" else _pathlib.Path(file).stem if file else ""
     sizes = result.get("report", result)
-    title = ", ".join(filter(None, (name, result.method, _size(sizes.get("h"), sizes.get("tolerance"))))) + f": {what}"
-    return "\n".join(filter(None, (title, _shortfall(result))))
+    return ", ".join(filter(None, (name, result.method, size(sizes.get("h"), sizes.get("tolerance")))))
+
+
+def _title(result: _result.Result | _ensemble.EnsembleResult, what: str) -> str:
+    return "\n".join(filter(None, (f"{_heading(result, _size)}: {what}", _shortfall(result))))
 
 
 def _shortfall(result: _result.Result | _ensemble.EnsembleResult) -> str:
@@ -68,6 +97,23 @@ def _label(result: _result.Result, field: str) -> str:
     return _names.label(meaning, field)
 
 
+class _Held(_runs.Solution):
+    """A result in the place of its solution.h5."""
+
+    def __init__(self, result: _result.Result):
+        layout = result.problem._core.layout
+        self.path = ""
+        self.fields, self.t = result.problem.fields, result.t
+        self.axes = [(name, places) for (name, _), places in zip(layout["axes"], result.problem.axes)]
+        shape = [len(places) for _, places in self.axes]
+        self.points = _math.prod(shape)
+        self._file = {name: result.field(name).reshape(-1, *shape) for name in self.fields}
+        self._meanings: dict[str, str] = {name: meaning for name, (_, meaning) in zip(self.fields, layout["fields"])}
+
+    def meaning(self, field: str) -> str:
+        return self._meanings[field]
+
+
 def _one_run(result: _typing.Any, caller: str) -> None:
     if isinstance(result, _ensemble.EnsembleResult):
         raise ValueError(
@@ -80,7 +126,9 @@ def _named(result: _result.Result, field: str | None, dimension: int, caller: st
     if len(result.problem._core.layout["axes"]) != dimension:
         axes = ", ".join(name for name, _ in result.problem._core.layout["axes"]) or "none"
         raise ValueError(f"{caller} draws fields over {dimension} axes; {result.problem.name} has: {axes}")
-    return result.problem.fields[0] if field is None else field
+    name = str(result.problem.fields[0]) if field is None else field
+    result.field(name)  # refuses one that there is not
+    return name
 
 
 def _energy_of_members(result: _ensemble.EnsembleResult, ax: "Axes", style: dict[str, _typing.Any]) -> None:
@@ -129,7 +177,7 @@ def space_time(
 
 def slices(
     result: _result.Result, field: str | None = None, count: int = 4, axes: _typing.Any = None, **style: _typing.Any
-) -> _np.ndarray:
+) -> "_np.ndarray[_typing.Any, _typing.Any]":
     """One field of a problem in the plane at `count` times, from the first to the last; by default the first field.
 
     All have one scale of colours. Where the largest values differ by more than a factor of four each has its own, so that a wave
@@ -154,10 +202,104 @@ def slices(
     scales = _colours.scales_of(list(values[times]))
     for ax, k in zip(axes, times):
         ax.set(xlabel="$x$", ylabel="$y$", title=f"$t$ = {result.t[k]:.4g}")
-    places = [tuple(result.problem.axes)] * len(times)
-    _maps.planes(axes, list(values[times]), places, scales, _label(result, name), _names.symbol(name), style)
+    x, y = result.problem.axes
+    _maps.planes(
+        axes, list(values[times]), [(x, y)] * len(times), scales, _label(result, name), _names.symbol(name), style
+    )
     axes[0].figure.suptitle(_title(result, f"{_names.symbol(name)} at some times"))
-    return axes
+    return _np.asarray(axes)
+
+
+def profiles(result: _result.Result, field: str | None = None, count: int = 5, ax: "Axes | None" = None) -> "Axes":
+    """One field of a problem on a line, over its places at `count` times, from the first to the last; by default the first field."""
+    name = _named(result, field, 1, "profiles")
+    held, times = _Held(result), _curves.spread(len(result.t), _problem.whole_number("count", count))
+    ax = _axes(ax)
+    _curves.profiles(ax, result.t[times], held.axes[0], held.field(name, times), held.is_numbered)
+    ax.set(title=_title(result, f"{_names.symbol(name)} at some times"))
+    return ax
+
+
+def planes(
+    result: _result.Result, field: str | None = None, figure: _typing.Any = None
+) -> "_np.ndarray[_typing.Any, _typing.Any]":
+    """One field of a problem in space: its three planes through the middle of the box, at the first and the last time.
+
+    By default the first field, in a figure of its own. Returns the six axes, the planes xy, xz and yz one below the other.
+    """
+    name = _named(result, field, 3, "planes")
+    picture = _runs.planes(_Held(result), name, _colours.Look(), is_box=True)
+    if figure is None:
+        import matplotlib.pyplot as plt
+
+        figure = plt.figure(figsize=(6.4, 6.4 * picture.height))
+    picture.draw(figure)
+    figure.suptitle(_title(result, picture.what))
+    return _np.asarray(figure.axes[:6])
+
+
+def film(
+    result: _result.Result,
+    file: _types.File,
+    field: str | None = None,
+    dark: bool = False,
+    progress: bool | _progress.Report = False,
+) -> _pathlib.Path:
+    """One field of a problem in the plane as a film; by default the first.
+
+    Returns the file: with the end .mp4 or .webm where ffmpeg is installed, and else .webp or .apng, a picture that moves.
+    ``progress`` is True for a bar, or a function that is told the share that is done.
+    """
+    name = _named(result, field, 2, "film")
+    if len(result.t) < 2:
+        raise ValueError("a film needs two times at least, and the result has one")
+    stem = _pathlib.Path(file)
+    stem = stem.with_suffix("") if stem.suffix in (".mp4", ".webm", ".webp", ".apng") else stem
+    if not stem.parent.is_dir():
+        raise ValueError(f"there is no folder {stem.parent} for the film")
+    held, ground = _Held(result), _style.GROUNDS["dark" if dark else "light"]
+    scale = _films.common_scale(held, name, _colours.Look())
+    done = 0.0
+    with _progress.showing(progress, "the share that is done", _progress.Bar.part) as tell:
+
+        def add(part: float) -> None:
+            nonlocal done
+            done = min(1.0, done + part)
+            if tell is not None:
+                tell(done)
+
+        scene = _films.Scene(held, name, ground, scale, _heading(result, _size_in_text), _shortfall(result))
+        drawn = _films.draw(scene, add, stem)
+    return stem.with_name(drawn["file"])
+
+
+def report(
+    run: _run.CaseRun | _types.File, formats: str | _typing.Sequence[str] = ("png", "pdf", "svg"), film: bool = True
+) -> _pathlib.Path:
+    """All pictures of a run that left files, and report.html with them, as `seiche plot` makes both.
+
+    Parameters
+    ----------
+    run : CaseRun or path
+        What `seiche.run`, `seiche.resume` or ``result.save`` returned, or the folder.
+    formats : str or list of str
+        "png", "pdf", "svg"; png always.
+    film : bool
+        Film a field in the plane too, which takes longest.
+
+    Returns
+    -------
+    pathlib.Path
+        Of report.html, in the folder; pictures are in ``figures`` beside it.
+    """
+    folder = _os.fspath(run.folder if isinstance(run, _run.CaseRun) else run)
+    wanted = [formats] if isinstance(formats, str) else list(formats)
+    for name in wanted:
+        if name not in ("png", "pdf", "svg"):
+            raise ValueError(f"unknown format '{name}'. Allowed: png, pdf, svg")
+    programs = _pathlib.Path(__file__).with_name("drawing")
+    _core.report(folder, wanted, _problem.truth("film", film), str(programs), _sys.executable)
+    return _pathlib.Path(folder) / "report.html"
 
 
 def phase_portrait(
@@ -193,17 +335,15 @@ def phase_portrait(
         across, up = across[:, [point]], up[:, [point]]
     ax = _axes(ax)
     meanings = {name: meaning for name, (_, meaning) in zip(fields, result.problem._core.layout["fields"])}
-    _curves.portrait(
-        ax, *(_curves.Field(name, meanings[name], values) for name, values in ((x, across), (y, up))), style
-    )
+    _curves.portrait(ax, _curves.Field(x, meanings[x], across), _curves.Field(y, meanings[y], up), style)
     ax.set(title=_title(result, "phase portrait"))
     return ax
 
 
 def spectrum(
     problem: _problem.Problem | _problem.Case,
-    method: str | None = None,
-    h: float | str | None = None,
+    method: _types.Method | None = None,
+    h: _types.Size | None = None,
     ax: "Axes | None" = None,
     **options: _typing.Any,
 ) -> "Axes":
@@ -229,7 +369,7 @@ def spectrum(
 
 def work_precision(
     problem: _problem.Problem | _problem.Case,
-    methods: str | _typing.Sequence[str],
+    methods: _types.Method | _typing.Sequence[_types.Method],
     h: float | str | _typing.Sequence[float | str],
     t_end: float | None = None,
     ax: "Axes | None" = None,

@@ -88,6 +88,16 @@ void copy_from(const py::object& result, std::span<double> out, const std::strin
 
 Vector vector_from(const Array& values) { return Eigen::Map<const Vector>(values.data(), values.size()); }
 
+Progress::Progress(const py::object& function, double t_end) : t_end_(t_end) {
+  if (!function.is_none()) function_.emplace(function);
+}
+
+void Progress::operator()(double t, std::int64_t steps) {
+  if (!function_ || std::chrono::steady_clock::now() < next_) return;
+  with_gil([&] { return function_->get()(t, t_end_, steps); });
+  next_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
+}
+
 bool SignalCheck::operator()() {
   if (InterpreterEnd::is_near()) return interrupted = true;
   const auto now = std::chrono::steady_clock::now();

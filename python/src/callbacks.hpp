@@ -7,7 +7,9 @@
 #include <seiche/core/vector.hpp>
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -97,6 +99,18 @@ double number_from(const py::object& result, const std::string& what);
 // Throws a ValueError where `result` has not `out.size()` numbers.
 void copy_from(const py::object& result, std::span<double> out, const std::string& what);
 Vector vector_from(const Array& values);  // of any shape
+
+// Tells a Python function how far a run is, ten times a second at most. Made of None it tells nothing.
+class Progress {
+ public:
+  Progress(const py::object& function, double t_end);
+  void operator()(double t, std::int64_t steps);
+
+ private:
+  std::optional<Callable> function_;
+  double t_end_;
+  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
+};
 
 // Looks for Ctrl-C twenty times a second at most. What another signal handler raises comes out of it.
 class SignalCheck {

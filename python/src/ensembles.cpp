@@ -6,6 +6,7 @@
 #include <seiche/ensemble/members.hpp>
 #include <seiche/law/law.hpp>
 
+#include <cmath>
 #include <limits>
 
 namespace seiche::python {
@@ -19,10 +20,12 @@ struct HeldEnsemble {
   Index size = 0;
 };
 
-void run(HeldEnsemble& held, const std::vector<EnsembleMember>& members, const RunSpec& spec, int threads) {
+void run(HeldEnsemble& held, const std::vector<EnsembleMember>& members, const RunSpec& spec, int threads,
+         const py::object& progress) {
   if (spec.tolerance) throw Error("an ensemble takes steps of one size: give h, and no tolerance");
   std::atomic<bool> stop = false;
   SignalCheck signals;
+  Progress tell(progress, spec.t_end);
   const EnsembleOptions options{.simulation = simulation_options(spec),
                                 .h = spec.h,
                                 .t_start = spec.t_start,
@@ -35,23 +38,26 @@ void run(HeldEnsemble& held, const std::vector<EnsembleMember>& members, const R
                                 .on_pause =
                                     [&] {
                                       if (signals()) stop = true;
+                                      if (held.records.empty()) return;
+                                      const double t = held.records.back().t;
+                                      tell(t, std::llround((t - spec.t_start) / spec.h));
                                     },
                                 .stop = &stop};
   held.size = members.front().problem->size();
   held.result = without_gil([&] { return run_ensemble(members, options); });
 }
 
-HeldEnsemble of_case(const RunSpec& spec, int threads) {
+HeldEnsemble of_case(const RunSpec& spec, int threads, const py::object& progress) {
   Members members = make_members(spec);
   HeldEnsemble held;
   held.parameters = std::move(members.parameters);
   held.values = std::move(members.values);
-  run(held, members.list, spec, threads);
+  run(held, members.list, spec, threads, progress);
   return held;
 }
 
 HeldEnsemble of_problems(const std::vector<HeldProblem>& problems, const std::vector<Array>& initial,
-                         const RunSpec& spec, int threads) {
+                         const RunSpec& spec, int threads, const py::object& progress) {
   std::vector<EnsembleMember> members;
   for (std::size_t i = 0; i < initial.size(); ++i) {
     const HeldProblem& held = problems[problems.size() == 1 ? 0 : i];
@@ -63,7 +69,7 @@ HeldEnsemble of_problems(const std::vector<HeldProblem>& problems, const std::ve
   }
   if (members.empty()) throw Error("an ensemble needs a member at least");
   HeldEnsemble held;
-  run(held, members, spec, threads);
+  run(held, members, spec, threads, progress);
   return held;
 }
 

@@ -15,15 +15,17 @@ struct StopsAtEnd {
   ~StopsAtEnd() { stop = true; }
 };
 
-// work() on a thread of its own, while this one calls on_signal() at each Ctrl-C.
-template <class Work, class OnSignal>
-auto beside_signals(std::atomic<bool>& stop, const Work& work, const OnSignal& on_signal) {
+// work() on a thread of its own, while this one calls on_signal() at each Ctrl-C, and meanwhile() all the time.
+template <class Work, class OnSignal, class Meanwhile>
+auto beside_signals(std::atomic<bool>& stop, const Work& work, const OnSignal& on_signal, const Meanwhile& meanwhile) {
   return without_gil([&] {
     auto result = std::async(std::launch::async, work);
     const StopsAtEnd stops{stop};
     SignalCheck signals;
-    while (result.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready)
+    while (result.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
       if (signals()) on_signal();
+      meanwhile();
+    }
     return result.get();
   });
 }
@@ -33,7 +35,7 @@ template <class Study>
 auto interruptible(const Study& study) {
   std::atomic<bool> stop = false;
   return beside_signals(
-      stop, [&] { return study(&stop); }, [] { throw Error("interrupted"); });
+      stop, [&] { return study(&stop); }, [] { throw Error("interrupted"); }, [] {});
 }
 
 }  // namespace seiche::python

@@ -5,8 +5,15 @@
 #include <pybind11/stl.h>
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
+#include <seiche/figure/drawing.hpp>
+#include <seiche/figure/run_pictures.hpp>
+#include <seiche/figure/run_report.hpp>
+#include <seiche/output/file/folder_lock.hpp>
+#include <seiche/output/run_folder.hpp>
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,10 +47,38 @@ CaseRun run_to(const std::string& folder, RunSpec spec, RunCaseOptions options) 
   return with_result(std::move(done), run_case(std::move(spec), folder, options));
 }
 
+// Where a run is, for the thread beside it. Of an ensemble, where its last record is.
+class Whereabouts final : public Observer {
+ public:
+  bool is_due(const State& state, bool) const override {
+    note(state);
+    return false;
+  }
+  void observe(const State&, const EnergyReading&) override {}
+  void pass(const State& state) override { note(state); }
+  void finish(const RunReport&) override {}
+  double t() const { return t_; }
+  std::int64_t steps() const { return steps_; }
+
+ private:
+  void note(const State& state) const {
+    t_.store(state.t, std::memory_order_relaxed);
+    steps_.store(state.n, std::memory_order_relaxed);
+  }
+  mutable std::atomic<double> t_ = std::numeric_limits<double>::quiet_NaN();  // before the first step
+  mutable std::atomic<std::int64_t> steps_ = 0;
+};
+
 // On a thread of its own, while this one looks for Ctrl-C: the run ends after its step, with its files whole. A second
 // one behind the last step leaves out what can be had later.
-CaseRun interruptible_run(RunCaseOptions options, const std::function<CaseRun(const RunCaseOptions&)>& run) {
+CaseRun interruptible_run(RunCaseOptions options, double t_end, const py::object& progress,
+                          const std::function<CaseRun(const RunCaseOptions&)>& run) {
   std::atomic<bool> stop = false, has_ended = false, leave = false;
+  std::atomic<double> end = t_end;
+  options.ends_at = [&](double resumed_end) { end = resumed_end; };
+  Whereabouts where;
+  std::optional<Progress> tell;
+  if (!progress.is_none()) options.observers.push_back(&where);
   std::vector<std::string> notes;
   options.begins = [&] { return &stop; };
   options.introduce = [&](const std::string&, const std::vector<std::string>& said) { notes = said; };
@@ -55,22 +90,45 @@ CaseRun interruptible_run(RunCaseOptions options, const std::function<CaseRun(co
       stop, [&] { return run(options); },
       [&] {
         if (stop.exchange(true) && has_ended) leave = true;
+      },
+      [&] {
+        if (progress.is_none() || std::isnan(where.t())) return;
+        if (!tell) tell.emplace(progress, end);
+        (*tell)(where.t(), where.steps());
       });
   result.notes = std::move(notes);
   return result;
 }
 
-CaseRun run(const RunSpec& spec, const std::string& folder, int threads, bool restart, double max_hours) {
-  return interruptible_run({.threads = threads, .restart = restart, .max_hours = max_hours},
+CaseRun run(const RunSpec& spec, const std::string& folder, int threads, bool restart, double max_hours,
+            const py::object& progress) {
+  return interruptible_run({.threads = threads, .restart = restart, .max_hours = max_hours}, spec.t_end, progress,
                            [&](const RunCaseOptions& options) { return run_to(folder, spec, options); });
 }
 
-CaseRun resume(const std::string& folder, std::optional<double> t_end, int threads, double max_hours) {
-  return interruptible_run({.threads = threads, .max_hours = max_hours}, [&](RunCaseOptions options) {
+CaseRun resume(const std::string& folder, std::optional<double> t_end, int threads, double max_hours,
+               const py::object& progress) {
+  return interruptible_run({.threads = threads, .max_hours = max_hours}, 0, progress, [&](RunCaseOptions options) {
     CaseRun done;
     options.warn = [&](const std::string& note) { done.remarks.push_back(note); };
     CaseResult result = resume_case(folder, t_end, options);
     return with_result(std::move(done), std::move(result));
+  });
+}
+
+// What `seiche plot` does, with the programs beside this module.
+void report(const std::string& folder, const std::vector<std::string>& formats, bool film, const std::string& programs,
+            const std::string& interpreter) {
+  interruptible([&](const std::atomic<bool>*) {
+    draw_with(programs, interpreter);
+    require_recovered(folder);
+    const RunFiles run = read_run(folder);
+    const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
+    const FolderLock lock{Folder(run.directory)};
+    require_own_report(run.directory);
+    require_own_figures(run.directory);
+    write_run_report(run, history, draw_run(run, history, {.formats = formats, .film = film}));
+    return 0;
   });
 }
 
@@ -83,6 +141,7 @@ void bind_runs(py::module_& module) {
       .def_readonly("remarks", &CaseRun::remarks);
   module.def("run", &run);
   module.def("resume", &resume);
+  module.def("report", &report);
 }
 
 }  // namespace seiche::python

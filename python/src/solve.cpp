@@ -66,7 +66,8 @@ std::function<bool(const SolveStep&)> observer_from(const py::object& function) 
 
 HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_start, double t_end,
                    const std::optional<Array>& z0, const std::optional<Array>& t_eval, const py::list& events,
-                   bool dense_output, const py::object& observer, std::int64_t record_every, bool ledger, int threads) {
+                   bool dense_output, const py::object& observer, std::int64_t record_every, bool ledger, int threads,
+                   const py::object& progress) {
   SimulationOptions simulation = simulation_options(spec);
   simulation.backend_options.threads = threads;
   SolveOptions options{.method = spec.method,
@@ -81,7 +82,11 @@ HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_sta
                        .record_every = record_every,
                        .dense_output = dense_output,
                        .ledger = ledger,
-                       .is_stopped = SignalCheck{}};
+                       .is_stopped = [signals = SignalCheck{},
+                                      tell = Progress(progress, t_end)](double t, std::int64_t steps) mutable {
+                         tell(t, steps);
+                         return signals();
+                       }};
   if (z0) options.z0 = vector_from(*z0);
   if (t_eval) options.t_eval.emplace(t_eval->data(), t_eval->data() + t_eval->size());
   for (const py::handle& event : events) options.events.push_back(event_from(event.cast<py::tuple>()));

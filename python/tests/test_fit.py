@@ -1,5 +1,6 @@
 """Parameters from measurements: found, with standard deviations that are true, and refused where data say nothing."""
 
+import pickle
 import warnings
 
 import numpy as np
@@ -265,9 +266,10 @@ BAD = [
     (([T, T], [exact(T)]), {"gamma": 0.1}, "data must be a list of as many"),
     ((T, 0 * T), {"gamma": 0.1}, "data are all zero"),
     ((T, exact(T)), {"gamma": 0.1, "gamma[0]": 0.1}, "gamma is one of all records, or one of each"),
-    ((T, exact(T)), {"H": 0.1}, "H is no number of the problem"),
+    ((T, exact(T)), {"D": 0.1}, "D = 0.1 must be a table such as"),
+    ((T, exact(T)), {"initial": 0.1}, "initial = 0.1 must be a preset (zero), "),
     ((T, exact(T)), {"a b": 0.1}, "'a b' is no name"),
-    ((T, exact(T)), {"method.h": 0.1}, "method.h is no number of the problem"),
+    ((T, exact(T)), {"method.h": 0.1}, "unknown key in [problem] custom 'method'."),
 ]
 
 
@@ -277,6 +279,45 @@ def test_bad_data_get_one_sentence(data, parameters, sentence):
         seiche.fit(oscillator(), *data, parameters)
     assert sentence in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+def test_what_cannot_change_a_little_is_no_parameter():
+    wave = seiche.problem("klein_gordon", points=16)
+    with pytest.raises(ValueError, match=r"^points = 15\.\d+ must be a whole number$"):
+        seiche.fit(wave, T, exact(T), {"points": 16}, lambda t, y: y[0])
+    with pytest.warns(seiche.SeicheWarning, match="the data do not depend on H"):
+        assert seiche.fit(oscillator(), T, exact(T), {"H": 0.1}).std == {"H": np.inf}
+
+
+def test_parameters_of_all_sizes_are_found_side_by_side():
+    stated = seiche.Problem(
+        fields=["q", "p"], H="p^2/2 + large*q^2/2e9", parameters={"small": 3e-9, "large": 0.8e9}, D={"p": "1e9*small/30"},
+        initial={"q": 1, "p": 0},
+    )  # fmt: skip
+    found = seiche.fit(stated, T, exact(T) + noise(1), {"small": 9e-9, "large": 0.9e9}, sigma=0.02)
+    same = seiche.fit(oscillator(), T, exact(T) + noise(1), {"gamma": 0.3, "k": 0.9}, sigma=0.02)
+    for name, ours, unit in [("small", "gamma", 3e-8), ("large", "k", 1e9)]:
+        assert found.parameters[name] / unit == pytest.approx(same.parameters[ours], abs=0.01 * same.std[ours])
+        assert found.std[name] / unit == pytest.approx(same.std[ours], rel=1e-3)
+
+
+def test_the_search_ends_alike_whatever_round_off_does():
+    found = []
+    for seed in range(5):
+        data = (exact(T) + noise(1)) * (1 + 1e-12 * np.random.default_rng(seed).standard_normal(T.size))
+        found.append(seiche.fit(oscillator(0.3), T, data, {"gamma": (0.3, 0, 1), "k": 0.9}, sigma=0.02))
+    assert len({one.nfev for one in found}) == 1 and found[0].nfev < 12
+    assert np.ptp([one.parameters["gamma"] for one in found]) < 1e-6 * found[0].std["gamma"]
+
+
+def test_a_found_problem_keeps_its_values_where_it_is_sent():
+    found = seiche.fit(
+        oscillator(0.2, q=0.9), T, exact(T) + noise(1), {"gamma": (0.2, 0, 1), "initial.q": 0.9}, sigma=0.02
+    )
+    there = pickle.loads(pickle.dumps(found.results[0].problem))
+    assert there.z0[0] == found.parameters["initial.q"]
+    again = seiche.solve(there, T[-1], h=found.h, method="egc4", t_eval=T)
+    assert np.array_equal(again.y, found.results[0].y)
 
 
 def test_other_arguments_get_one_sentence():

@@ -22,7 +22,9 @@ print(r.message)
 """
 
 BY_NAME = 'problem = seiche.problem("oscillator")'
-BY_PARTS = """problem = seiche.Problem(M=np.eye(2), V=lambda u: float(np.sum(u**4) / 4), gradient=lambda u: u**3, z0=[1, 0])"""
+BY_PARTS = (
+    """problem = seiche.Problem(M=np.eye(2), V=lambda u: float(np.sum(u**4) / 4), gradient=lambda u: u**3, z0=[1, 0])"""
+)
 
 
 @pytest.mark.parametrize("problem", [BY_NAME, BY_PARTS])
@@ -35,6 +37,28 @@ def test_ctrl_c_returns_what_is_there(problem, more):
     inside = r"the run stopped after t = \S+ \(step \d+\): interrupted inside a Python function\n"
     calls_python = more or problem == BY_PARTS
     assert re.fullmatch(f"{between_steps}|{inside}" if calls_python else between_steps, done.stdout), done.stdout
+
+
+@pytest.mark.parametrize("problem", [BY_NAME, BY_PARTS])
+@pytest.mark.parametrize(
+    "steps", ["h=1e-3", 'method="egc4", tolerance=1e-9, h_max=1e-3', "h=1e-3, observer=lambda t, y, energy: None"]
+)
+def test_ctrl_c_keeps_the_state_where_it_came_whatever_times_were_asked_for(problem, steps):
+    program = f"""
+import os, signal, threading
+import numpy as np
+import seiche
+{problem}
+threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+r = seiche.solve(problem, 1e6, t_eval=[0.0, 0.5, 1e6], {steps})
+assert r.status == "interrupted", r
+assert r.t.shape == (3,) and r.y.shape == (2, 3) and list(r.t[:2]) == [0.0, 0.5]
+assert 0.5 < r.t[2] < 1e6 and r.t[2] == r.report["t"]
+assert np.isfinite(r.y).all() and np.isclose(r.energy[2], r.report["energy"]["final"], rtol=1e-2)
+print("kept")
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300)
+    assert done.stdout == "kept\n", done.stdout + done.stderr
 
 
 def test_other_signal_handlers_raise():
@@ -73,7 +97,9 @@ except KeyboardInterrupt:
     assert done.stdout == "raised\n", done.stdout + done.stderr
 
 
-CONVERGE = 'seiche.converge(seiche.problem("klein_gordon", points=64), ["seavf"], [2.0**-k for k in range(4, 15)], t_end=50.0)'
+CONVERGE = (
+    'seiche.converge(seiche.problem("klein_gordon", points=64), ["seavf"], [2.0**-k for k in range(4, 15)], t_end=50.0)'
+)
 # The damping moves what V depends on, and is sampled along a solution; the longest, which is cut, takes minutes.
 CHECK = 'seiche.check(seiche.problem("gkdv", points=512, mu=1e-6), t_end=1e6)'
 # A step with a projection is not linear, and modes are stepped one at a time. A million of them take minutes: 8000 take a

@@ -76,6 +76,63 @@ def test_a_phase_portrait_shows_its_states_where_they_are_few():
         seiche.plot.phase_portrait(several, point=3)
 
 
+def test_profiles_are_the_states_at_some_times(wave):
+    r = seiche.solve(wave, 1.0, h=0.0625)
+    ax = seiche.plot.profiles(r, "v", count=3)
+    assert [np.array_equal(line.get_ydata(), r.field("v")[k]) for line, k in zip(ax.lines, (0, 8, 16))] == [True] * 3
+    assert ax.get_xlabel() == "$x$" and ax.get_ylabel() == "velocity $v$"
+    with pytest.raises(ValueError, match="profiles draws fields over 1 axes; oscillator has: none"):
+        seiche.plot.profiles(seiche.solve(oscillator(), 1.0, h=0.125))
+
+
+def test_planes_go_through_the_middle_of_a_result_in_space():
+    start = {"u": "exp(-4*((x-1)^2 + (y-1)^2 + (z-1)^2))", "v": "0"}
+    box = seiche.problem(
+        "klein_gordon", points=[6, 8, 10], length=[2.0, 2.0, 2.0], alpha=1.0, gamma=0.1, initial=start
+    )
+    r = seiche.solve(box, 1.0, h=0.125)
+    axes = seiche.plot.planes(r)
+    assert [(ax.get_xlabel(), ax.get_title()) for ax in axes[:2]] == [("$x$", "$t$ = 0"), ("$x$", "$t$ = 1")]
+    shown = [np.reshape(ax.collections[0].get_array(), shape) for ax, shape in zip(axes[::2], [(8, 6), (10, 6), (10, 8)])]
+    u = r.field("u")[0]
+    for plane, of_u in zip(shown, (u[:, :, 5], u[:, 4, :], u[3, :, :])):
+        assert np.array_equal(plane, of_u.T)
+    with pytest.raises(ValueError, match="slices draws fields over 2 axes"):
+        seiche.plot.slices(r)
+
+
+@pytest.fixture(scope="module")
+def plane():
+    start = {"u": "exp(-4*((x-2)^2 + (y-2)^2)) - 0.2", "v": "0"}
+    return seiche.problem("klein_gordon", points=[12, 8], length=[4.0, 4.0], alpha=1.0, gamma=0.1, initial=start)
+
+
+def test_a_film_shows_every_state_and_says_how_far_it_is(plane, tmp_path):
+    r = seiche.solve(plane, 1.0, h=0.25)
+    done = []
+    file = seiche.plot.film(r, tmp_path / "wave.mp4", progress=done.append)
+    assert file.parent == tmp_path and file.stem == "wave" and file.suffix in (".mp4", ".webm", ".webp", ".apng")
+    assert file.stat().st_size > 1000 and done == pytest.approx([0.2, 0.4, 0.6, 0.8, 1.0])
+    assert seiche.plot.film(r, tmp_path / "night", "v", dark=True).stem == "night"
+    with pytest.raises(ValueError, match="there is no folder .*nowhere for the film"):
+        seiche.plot.film(r, tmp_path / "nowhere/film")
+    with pytest.raises(ValueError, match="has no field 'w'"):
+        seiche.plot.film(r, tmp_path / "film", "w")
+
+
+def test_a_report_has_the_pictures_that_the_program_draws(plane, tmp_path):
+    pytest.importorskip("h5py")
+    done = seiche.solve(plane, 1.0, h=0.25).save(tmp_path / "run")
+    page = seiche.plot.report(done, formats="png", film=False)
+    assert page == tmp_path / "run/report.html" and "figures/energy.png" in page.read_text(encoding="utf-8")
+    drawn = {file.name for file in (tmp_path / "run/figures").iterdir()}
+    assert {"energy.png", "energy_dark.png", "slices_u.png"} <= drawn and not any(".pdf" in name for name in drawn)
+    with pytest.raises(ValueError, match="unknown format 'gif'. Allowed: png, pdf, svg"):
+        seiche.plot.report(done, formats=["gif"])
+    with pytest.raises(ValueError, match="nowhere is no directory of a run"):
+        seiche.plot.report(tmp_path / "nowhere")
+
+
 def test_the_plot_module_shows_what_it_offers_alone():
     assert set(dir(seiche.plot)) == set(seiche.plot.__all__)
     public = {name for name in vars(seiche.plot) if not name.startswith("_")}

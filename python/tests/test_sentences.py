@@ -55,12 +55,39 @@ def event(**attributes):
         (lambda p: duffing(grows_outward=True), "^grows_outward belongs to a problem by parts; of formulas it is found out$"),
         (lambda p: seiche.solve(p, 1.0, h=0.1, dense_output=True).sol(1j), "^t is complex; it must be real$"),
         (lambda p: seiche.solve(p, 1.0, h=0.1, dense_output=True).sol("a"), "^t = 'a' must be an array of numbers$"),
+        (lambda p: seiche.solve(p, 1.0, h=0.1).sol(0.5), "^the run kept no dense output: call seiche.solve with dense_output=True"),
         (lambda p: duffing(initial={"q": 1}), "no formula for the field p; write p = 0 beside"),
     ],
 )
 def test_what_makes_no_sense_is_a_value_error_in_a_sentence(call, sentence):
     with pytest.raises(ValueError, match=sentence):
         call(duffing())
+
+
+def function(*arguments):
+    return arguments[0]
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: duffing(H=lambda q, p: p**2 / 2), 'H is a formula in quotes, .*; for Python functions give M, V and gradient'),
+        (lambda: seiche.Problem(H=function), "H is a formula in quotes"),
+        (lambda: duffing(D=function), r'D is a constant matrix, or by formulas a table, as in D={"p": "0.1\*\(1 \+ q\^2\)"}'),
+        (lambda: duffing(D={"p": function}), "D is a constant matrix, or by formulas a table"),
+        (lambda: seiche.Problem(M=np.eye(2), D=function), "D is a constant matrix"),
+        (lambda: duffing(gamma=function), "gamma is a number, or a formula of the time in quotes"),
+        (lambda: seiche.Problem(M=np.eye(2), gamma=np.sin), "gamma is a number, or a formula of the time in quotes"),
+        (lambda: seiche.problem("oscillator", gamma=function), "gamma is a number, or a formula of the time in quotes"),
+        (lambda: seiche.Problem(M=function), "M is a matrix, or by formulas a table"),
+        (lambda: seiche.Problem(fields=["q", "p"], M={"p": 1}, V=function), "V as a Python function goes with matrices"),
+        (lambda: duffing(initial={"q": np.sin, "p": 0}), "initial takes numbers and formulas in quotes, and no Python function"),
+    ],
+)
+def test_a_function_where_a_formula_belongs_is_told_what_to_write(call, sentence):
+    with pytest.raises(TypeError, match=f"^{sentence}") as refused:
+        call()
+    assert "\n" not in str(refused.value) and "0x" not in str(refused.value)
 
 
 @pytest.mark.parametrize(

@@ -32,8 +32,9 @@ struct RunCaseOptions {
   // out what can be had later, or null.
   std::function<const std::atomic<bool>*()> ends = {};
   std::function<void(const std::string& note)> warn = {};  // what has gone wrong with files that can be had later
-  std::vector<Observer*> observers = {};                   // of a single run, behind those that write its files
-  std::map<std::string, std::string> versions = {};        // of the caller, for summary.json
+  // Of a single run, behind those that write its files. Of an ensemble they are told by `pass` where its records lie.
+  std::vector<Observer*> observers = {};
+  std::map<std::string, std::string> versions = {};  // of the caller, for summary.json
 };
 
 struct CaseResult {

@@ -137,7 +137,14 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
                     .threads = options.threads,
                     .promise = [&](const Simulation& member) { return promise_energy_law(member, spec.t_end); },
                     .objection = negative_rate,
-                    .on_record = [&](const EnsembleRecord& record) { energies.write(record); },
+                    .on_record =
+                        [&](const EnsembleRecord& record) {
+                          energies.write(record);
+                          State reached;
+                          reached.t = record.t;
+                          reached.n = std::llround((record.t - spec.t_start) / spec.h);
+                          for (Observer* watching : options.observers) watching->pass(reached);
+                        },
                     .stop = &stop});
   EnsembleOutcome outcome(result);
   // Each gets its chance to be whole, also where another one was not.

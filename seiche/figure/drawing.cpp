@@ -16,8 +16,19 @@ namespace fs = std::filesystem;
 
 constexpr int bad_request = 2, packages_missing = 3;  // exit codes of what is run
 
+struct Chosen {
+  fs::path programs;
+  std::string interpreter;
+};
+
+Chosen& chosen() {
+  static Chosen given;
+  return given;
+}
+
 // Beside the program as it is built, or as it is installed; for the programs of others where Seiche is installed.
 fs::path drawing_programs() {
+  if (!chosen().programs.empty()) return chosen().programs;
   std::error_code unknown;
   const fs::path self = fs::read_symlink("/proc/self/exe", unknown);
   for (const fs::path& folder : {self.parent_path() / "share/seiche", self.parent_path().parent_path() / "share/seiche",
@@ -31,8 +42,9 @@ fs::path drawing_programs() {
 // The one that the environment names, or else the first that has the packages: where python3 belongs to an environment
 // of its own, /usr/bin/python3 may have them.
 std::vector<std::string> interpreters() {
-  const char* chosen = std::getenv("SEICHE_PYTHON");  // NOLINT(concurrency-mt-unsafe)
-  if (chosen != nullptr && *chosen != '\0') return {chosen};
+  const char* named = std::getenv("SEICHE_PYTHON");  // NOLINT(concurrency-mt-unsafe)
+  if (named != nullptr && *named != '\0') return {named};
+  if (!chosen().interpreter.empty()) return {chosen().interpreter};
   return {"python3", "/usr/bin/python3"};
 }
 
@@ -56,6 +68,8 @@ Drawn run(const std::string& interpreter, const fs::path& programs, const std::s
 }
 
 }  // namespace
+
+void draw_with(const fs::path& programs, const std::string& interpreter) { chosen() = {programs, interpreter}; }
 
 std::string draw(const std::string& request, const fs::path& into) {
   const fs::path programs = drawing_programs();

@@ -18,4 +18,7 @@ struct BadDrawingRequest : Error {
 // or where drawing fails, and BadDrawingRequest.
 std::string draw(const std::string& request, const std::filesystem::path& into);
 
+// The folder of these programs, and the interpreter that runs them, where the caller knows better than `draw`.
+void draw_with(const std::filesystem::path& programs, const std::string& interpreter);
+
 }  // namespace seiche

@@ -21,7 +21,7 @@ double SolutionRecorder::next_time() const {
 
 bool SolutionRecorder::is_due(const State& state, bool last) const {
   const bool stopped = (options_.stop && options_.stop->load(std::memory_order_relaxed)) ||
-                       (options_.is_stopped && options_.is_stopped());
+                       (options_.is_stopped && options_.is_stopped(state.t, state.n));
   if (stopped) stop_.store(true, std::memory_order_relaxed);
   return last || state.n % options_.record_every == 0 || next_time() <= state.t;
 }

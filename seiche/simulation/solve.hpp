@@ -55,7 +55,8 @@ struct SolveOptions {
 
   std::function<bool(const SolveStep& step)> observer = {};  // after every record_every-th step; false ends the run
   const std::atomic<bool>* stop = nullptr;                   // set elsewhere: the run ends after the current step
-  std::function<bool()> is_stopped = {};  // asked after every step, at least once: true does the same
+  // Asked after every step, at least once, with where the run is: true does the same.
+  std::function<bool(double t, std::int64_t steps)> is_stopped = {};
 };
 
 struct Solution {

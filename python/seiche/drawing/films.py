@@ -88,10 +88,12 @@ class Scene(typing.NamedTuple):
     warning: str
 
 
-def draw(scene: Scene, progress: typing.Callable[[float], None]) -> dict[str, typing.Any]:
-    """One film, in the working directory: {"file": its name, "frames": how many, "note": why it is no film but a picture that moves,
-    or ""}. `progress` is told each part of it that is done."""
-    stem = pathlib.Path(f"film_{scene.field}{scene.ground.suffix}")
+def draw(
+    scene: Scene, progress: typing.Callable[[float], None], stem: pathlib.Path | None = None
+) -> dict[str, typing.Any]:
+    """One film, by default in the working directory: {"file": its name, "frames": how many, "note": why it is no film but a
+    picture that moves, or ""}. `progress` is told each part of it that is done."""
+    stem = pathlib.Path(f"film_{scene.field}{scene.ground.suffix}") if stem is None else stem
     said = "was not found on the PATH (Debian package ffmpeg)"
     count = len(frames(scene.solution))
     for extension, codec in _CODECS if shutil.which("ffmpeg") else ():

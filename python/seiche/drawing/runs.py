@@ -151,7 +151,7 @@ def _space_time(solution: Solution, name: str, look: colours.Look) -> Picture:
     return on_axes(f"space_time_{name}", f"{names.in_text(name)} in space and time", caption, draw)
 
 
-def _planes(solution: Solution, name: str, look: colours.Look, is_box: bool) -> Picture:
+def planes(solution: Solution, name: str, look: colours.Look, is_box: bool) -> Picture:
     """Of a plane four times; of a box its middle planes at the first and the last time."""
     chosen = curves.spread(len(solution.t), 2 if is_box else 4)
     pairs = ((0, 1), (0, 2), (1, 2)) if is_box else ((0, 1),)
@@ -253,7 +253,7 @@ def pictures_of(solution: Solution, history: typing.Mapping[str, typing.Any], lo
         if over_time and mesh is None:
             pictures.append(_space_time(solution, name, look))
         if dimension >= 2:
-            pictures.append(_planes(solution, name, look, dimension == 3))
+            pictures.append(planes(solution, name, look, dimension == 3))
     if few:
         pictures += _few_points(solution)
     elif dimension == 1 and mesh is None:
