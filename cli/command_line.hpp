@@ -26,6 +26,7 @@ void add_recover(CLI::App& app, Action& action);
 void add_plot(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_new(CLI::App& app, Action& action);
+void add_fit(CLI::App& app, Action& action);
 void add_cite(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);
 

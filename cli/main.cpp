@@ -88,6 +88,7 @@ ExitCode run_program(const std::vector<std::string>& given) {
   add_audit(app, action);
   add_recover(app, action);
   add_plot(app, action);
+  add_fit(app, action);
   add_list(app, action);
   add_cite(app, action);
   add_new(app, action);

@@ -19,6 +19,6 @@ int main() {
   std::printf("H falls from %.4f to %.4f\n", solution.H.front(), solution.H.back());
 }
 // It prints:
-//   H = ½zᵀMz + V with ½zᵀMz = 0.5*u_x^2 + 0.5*v^2 and V = -0.5*u^2 + 0.25 + 0.25*u^4
+//   H = ½zᵀMz + V with ½zᵀMz = v^2/2 + u_x^2/2 and V = (u^2 - 1)^2/4
 //   success, energy law holds
 //   H falls from 3.4762 to 3.1592

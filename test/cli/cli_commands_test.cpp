@@ -109,6 +109,19 @@ TEST_F(CliSlow, ThePaperLeavesDataFiguresAndAReport) {
   }
 }
 
+// What it finds is on the page of the tutorial, which is played; here what stands before the search.
+TEST_F(Cli, FitRefusesWhatItCannotAskPython) {
+  write_case();
+  EXPECT_THAT(refused("fit case.toml data.csv"), HasSubstr("--parameter is missing"));
+  EXPECT_THAT(refused("fit case.toml data.csv --paramter gamma=1"), HasSubstr("did you mean '--parameter'?"));
+  EXPECT_THAT(refused("fit case.toml data.csv --parameter gamma=1 --set method.nme=avf"),
+              HasSubstr("did you mean 'name'?"));
+  EXPECT_THAT(refused("fit - data.csv --parameter gamma=1"), HasSubstr("reads the case from a file"));
+  const Result without = seiche("fit case.toml data.csv --parameter gamma=1", "SEICHE_PYTHON=/nonexistent/python");
+  EXPECT_EQ(without.exit, 1);
+  EXPECT_THAT(without.err, HasSubstr("/nonexistent/python was not found"));
+}
+
 TEST_F(Cli, SpectrumTellsWhetherTheDampingIsPhysical) {
   write_case();
   const Result good = seiche("spectrum case.toml");
