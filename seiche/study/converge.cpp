@@ -228,7 +228,7 @@ std::string converge_table(const Convergence& study) {
   std::string text = fmt::format("{}, errors against {}\n\n", study.problem, study.reference);
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "{:<8} {:>11} {:>11} {:>6} {:>11} {:>11} {:>10} {:>10} {:>10}\n", "method", "h", "error", "order",
-                 "|ΔH|", "max ΔH", "iterations", "fallbacks", "CPU [ms]");
+                 "|ΔH|", "rise of H", "iterations", "fallbacks", "CPU [ms]");
   const std::string* method = nullptr;
   for (const StudyRow& row : study.rows) {
     if (method && *method != row.method) text += '\n';

@@ -70,6 +70,16 @@ std::string blamed(const RunSpec& spec, std::string_view complaint) {
   return shortened_path(spec.source, longest);
 }
 
+// A complaint about the rate of a parameter begins with its text, and not with its key.
+std::string at_rate(const RunSpec& spec, std::string_view complaint) {
+  for (const Parameter& parameter : problem_entry(spec).parameters)
+    if (parameter.kind == ParameterKind::rate)
+      if (const auto text = spec.parameter_texts.find(parameter.name);
+          text != spec.parameter_texts.end() && complaint.starts_with("the rate " + shortened(text->second) + " "))
+        return "problem." + parameter.name + ":";
+  return std::string(complaint);
+}
+
 }  // namespace
 
 const ProblemEntry& problem_entry(const RunSpec& spec) { return spec.entry ? *spec.entry : find_problem(spec.problem); }
@@ -112,7 +122,7 @@ Problem make_problem(const RunSpec& spec) {
     return problem;
   } catch (const Error& error) {
     if (spec.source.empty()) throw;
-    throw error.at(blamed(spec, error.what()));
+    throw error.at(blamed(spec, at_rate(spec, error.what())));
   }
 }
 

@@ -131,6 +131,7 @@ void read_custom_key(CustomProblem& custom, const std::string& key, const CaseVa
 }
 
 ProblemEntry custom_entry(const CustomProblem& custom, bool has_grid) {
+  require_structure(custom);
   ProblemEntry entry{
       .name = custom_name,
       .equation = "ż = S∇H(z) − Dz with H, S and D by formulas",

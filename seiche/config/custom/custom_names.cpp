@@ -3,6 +3,8 @@
 #include <seiche/core/text/characters.hpp>
 #include <seiche/core/text/shortened.hpp>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 namespace seiche {
@@ -47,6 +49,15 @@ std::vector<std::string> field_names(const CustomProblem& custom) {
   for (const auto& [name, value] : custom.parameters) take("parameters", "parameter", name);
   for (const std::string& name : names) take("fields", "field", name);
   return names;
+}
+
+void require_structure(const CustomProblem& custom) {
+  const std::vector<std::string> names = field_names(custom);
+  if (custom.S.empty() && names.size() % 2 != 0)
+    throw Error(
+        "problem.fields = {}: S is not given, and [[0, I], [−I, 0]] needs coordinates and as many momenta; write S, or "
+        "another field",
+        fmt::join(names, ", "));
 }
 
 }  // namespace seiche

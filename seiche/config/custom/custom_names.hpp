@@ -11,4 +11,7 @@ namespace seiche {
 // The fields, where none are given too. Throws Error for names that formulas could not tell apart.
 std::vector<std::string> field_names(const CustomProblem& custom);
 
+// Throws Error for an odd number of fields without an S.
+void require_structure(const CustomProblem& custom);
+
 }  // namespace seiche

@@ -12,8 +12,6 @@
 #include <seiche/potential/sum.hpp>
 #include <seiche/problem/common/second_order.hpp>
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,10 +74,7 @@ class Builder {
   }
 
   BlockStencil canonical_structure() const {
-    if (fields() % 2 != 0)
-      throw Error(
-          "problem.S is not given, and [[0, I], [−I, 0]] needs coordinates and as many momenta, but the fields are {}",
-          fmt::join(p_.fields, ", "));
+    require_structure(custom_);
     BlockStencil S(fields());
     const Index half = fields() / 2;
     for (Index i = 0; i < half; ++i) {

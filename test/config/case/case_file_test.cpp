@@ -23,6 +23,7 @@ using test::error_of;
 using test::minimal;
 using test::Overrides;
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -252,8 +253,9 @@ TEST(CaseFile, ARateMayChangeFromPointToPoint) {
   const auto refusal = [&](const std::string& rate, const std::string& more = "") {
     return error_of([&] { problem_with(rate, more); });
   };
-  EXPECT_EQ(refusal("x*y"), "x.toml: the rate x*y names y, but the grid has 1 axis");
-  EXPECT_EQ(refusal("x*z", "points = [4, 4]\n"), "x.toml: the rate x*z names z, but the grid has 2 axes");
+  EXPECT_THAT(refusal("x*y"),
+              AllOf(StartsWith("x.toml:3:9: "), EndsWith("the rate x*y names y, but the grid has 1 axis")));
+  EXPECT_THAT(refusal("x*z", "points = [4, 4]\n"), EndsWith("the rate x*z names z, but the grid has 2 axes"));
   EXPECT_THAT(refusal("1/(x - 0.5)"),
               HasSubstr("problem.gamma = inf must be a finite number at t = 0 at x = 0.5 (j = 5)"));
   EXPECT_THAT(refusal("x*log(25 - t)"), HasSubstr("must be a finite number at t = 2"));

@@ -306,7 +306,7 @@ TEST(Custom, AMistakeIsSaidAtItsKeyWithThePlaceInTheFormula) {
   EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2\"\nV = \"q^4\""), HasSubstr("H is the whole energy"));
   EXPECT_THAT(complaint_of_problem(start), HasSubstr("[problem] has no energy"));
   EXPECT_THAT(complaint_of_problem("H = \"p^2/2 + q^2\""), HasSubstr("no initial state"));
-  EXPECT_THAT(complaint_of_problem("fields = [\"a\", \"b\", \"c\"]\nH = \"a^2\"\ninitial = \"zero\""),
+  EXPECT_THAT(complaint_of_problem("fields = [\"a\", \"b\", \"c\"]\nH = \"a^2\"\ninitial = { a = 1, b = 0 }"),
               HasSubstr("S is not given, and [[0, I], [−I, 0]] needs coordinates and as many momenta"));
   EXPECT_THAT(complaint_of_problem("fields = [\"a\", \"a\"]\nH = \"a^2\"\ninitial = \"zero\""),
               HasSubstr("the name a stands for something else"));
