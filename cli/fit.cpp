@@ -7,9 +7,11 @@
 #include <unistd.h>
 #include <seiche/core/error.hpp>
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 
 namespace seiche::cli {
 namespace {
@@ -23,14 +25,15 @@ struct FitArguments {
 
 // Another interpreter may have the package, as that of Debian where python3 belongs to an environment of its own.
 constexpr const char* begin_python = R"(
-import os, sys
+import sys
+sys.path[:] = [folder for folder in sys.path if folder]  # not what lies in the folder of the data
+import os
 try:
     import numpy, scipy
     from seiche.__main__ import main
 except ImportError as error:
     other = "/usr/bin/python3"
-    if os.path.exists(other) and not os.environ.get("SEICHE_FIT_BY"):
-        os.environ["SEICHE_FIT_BY"] = other
+    if os.path.exists(other) and sys.executable != other and not os.environ.get("SEICHE_PYTHON"):
         os.execv(other, [other, *sys.orig_argv[1:]])
     sys.exit(f"seiche: fit needs NumPy, SciPy and the Python package seiche ({error}): pip install ., or make python")
 sys.exit(main(sys.argv[1:]))
@@ -79,7 +82,9 @@ ExitCode fit(const FitArguments& arguments) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   ::execvp(pointers.front(), pointers.data());
-  print_failure(fmt::format("{} was not found; with NumPy and SciPy it fits parameters", words.front()));
+  print_failure(errno == ENOENT
+                    ? fmt::format("{} was not found; with NumPy and SciPy it fits parameters", words.front())
+                    : fmt::format("{} cannot be run: {}", words.front(), std::generic_category().message(errno)));
   return computation_failed;
 }
 
@@ -105,7 +110,7 @@ void add_fit(CLI::App& app, Action& action) {
       ->type_name("FIELD");
   command->add_option("--sigma", a->sigma, "Standard deviation of all measurements (estimated)")->type_name("S");
   command->add_option("--h", a->h, "Step size (one whose errors are below a tenth of that)")->type_name("H");
-  command->add_option("--method", a->method, "Method of the runs (egc4)")->type_name("NAME");
+  command->add_option("--method", a->method, "Method of the runs (that of the case, else egc4)")->type_name("NAME");
   command->add_option("--plot", a->plot, "Draw the measurements and the solution: PNG, PDF or SVG")->type_name("FILE");
   command->add_flag("--json", a->json, "Print one JSON document on stdout");
   command->add_flag("--quiet", a->quiet, "No progress, and a word only when something went wrong");

@@ -43,6 +43,12 @@ Json value_of(const Parameter& p) {
   return number("number", p.minimum, p.minimum_excluded, p.maximum);
 }
 
+// What a key is where it is not given, from its text in TOML.
+Json default_of(const std::string& text) {
+  const Json value = Json::parse(text, nullptr, false);
+  return value.is_discarded() ? Json(text) : value;
+}
+
 Json described(Json schema, const std::string& meaning) {
   schema["description"] = meaning;
   return schema;
@@ -55,12 +61,13 @@ Json keys_of_problem(const ProblemEntry& problem) {
   for (const Parameter& parameter : problem.parameters) {
     Json one = value_of(parameter);
     if (parameter.per_axis) one = {{"anyOf", {one, {{"type", "array"}, {"items", one}}}}};
-    if (!parameter.default_value.empty()) one["default"] = parameter.default_value;
+    if (!parameter.default_value.empty()) one["default"] = default_of(parameter.default_value);
     keys[parameter.name] = described(std::move(one), parameter.meaning);
   }
   keys["initial"] = described({{"anyOf", {{{"enum", problem.presets}}, {{"type", "object"}}}}},
                               "one of these, { file = … }, or a formula in x, y, z and j for every field");
-  keys["friction"] = described(Json::object(), "friction beyond D: a kind and its coefficients");
+  keys["friction"] =
+      described({{"type", "object"}, {"required", {"kind"}}}, "friction beyond D: a kind and its coefficients");
   keys["force"] = described(Json::object(), "a force on fields, by formulas in t, x, y and z");
   return keys;
 }
@@ -93,7 +100,7 @@ Json section(const std::string& name) {
   for (const KeyRow& row : key_rows()) {
     if (row.section != name) continue;
     Json one = value_of(row);
-    if (row.is_default && !row.example.empty()) one["default"] = row.example;
+    if (row.is_default && !row.example.empty()) one["default"] = default_of(row.example);
     keys[row.name] = described(std::move(one), row.meaning);
   }
   return table(std::move(keys));

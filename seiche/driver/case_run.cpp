@@ -281,6 +281,7 @@ RunReport CaseRun::with_notes(RunReport report) const {
 
 std::string CaseRun::summary(const RunReport& report) {
   const Simulation& simulation = run_.simulation();
+  if (!finished_) finished_ = std::time(nullptr);  // what is said again says the same
   return summary_json({.problem = problem_,
                        .method = spec_.method,
                        .backend = std::string(simulation.backend().name),
@@ -290,7 +291,8 @@ std::string CaseRun::summary(const RunReport& report) {
                        .versions = versions_,
                        .resumed_with = resumed_with(),
                        .threads = options_.threads,
-                       .hashes = hashes_},
+                       .hashes = hashes_,
+                       .finished = *finished_},
                       with_notes(report));
 }
 

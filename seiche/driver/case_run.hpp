@@ -58,6 +58,7 @@ class CaseRun {
   std::vector<std::string> notes_;
   std::string case_text_;  // of case.toml
   FileHashes hashes_;
+  std::optional<std::time_t> finished_;
   const std::atomic<bool>* stop_ = nullptr;
   GoingOn* from_;  // null: from the start
   CaseFolder* folder_;

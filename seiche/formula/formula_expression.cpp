@@ -62,12 +62,15 @@ std::mutex& algebra_mutex() {
   return mutex;
 }
 
-thread_local bool numbers_are_bounded = false;  // CLN may serve others than this library
+// CLN may serve others than this library, on other threads: their numbers are not bounded, and the hook that stood
+// there comes back.
+thread_local bool numbers_are_bounded = false;
+void* (*allocate)(std::size_t) = nullptr;
 
 }  // namespace
 
 AlgebraLock::AlgebraLock() : lock_(algebra_mutex()) {
-  static void* (*const allocate)(std::size_t) = cln::malloc_hook;
+  allocate = cln::malloc_hook;
   cln::malloc_hook = [](std::size_t size) {
     if (numbers_are_bounded && size > largest)
       throw Error("computer algebra meets exact numbers of more than {} digits", largest * 12 / 5);
@@ -76,7 +79,10 @@ AlgebraLock::AlgebraLock() : lock_(algebra_mutex()) {
   numbers_are_bounded = true;
 }
 
-AlgebraLock::~AlgebraLock() { numbers_are_bounded = false; }
+AlgebraLock::~AlgebraLock() {
+  numbers_are_bounded = false;
+  cln::malloc_hook = allocate;
+}
 
 Expression to_expression(std::span<const Instruction> program, const Symbols& symbols) {
   std::vector<Expression> stack;

@@ -159,7 +159,7 @@ class Parser {
            std::find(variables_.begin(), variables_.end(), "x") != variables_.end();
   }
 
-  // j = x/dx + its value before the line
+  // j = x/dx + its value before the line, to the nearest whole number: behind so large a one doubles have no fractions.
   Part index(const FormulaToken& name) {
     const std::size_t begin = program_.size();
     const auto x = std::find(variables_.begin(), variables_.end(), "x");
@@ -168,6 +168,11 @@ class Parser {
     emit(Kind::divide);
     program_.push_back({.kind = Kind::number, .number = constants_.at(index_before_line)});
     emit(Kind::add);
+    constexpr double without_fractions = 0x1.8p52;
+    for (const Kind there_and_back : {Kind::add, Kind::subtract}) {
+      program_.push_back({.kind = Kind::number, .number = without_fractions});
+      emit(there_and_back);
+    }
     return {.begin = begin, .position = name.position, .degree = 1, .constant = false};
   }
 

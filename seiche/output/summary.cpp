@@ -65,7 +65,7 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                     {"widened", report.widened},
                     {"halved", report.halved}}},
                   {"wall_seconds", number(report.wall_seconds)},
-                  {"finished", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+                  {"finished", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(run.finished))},
                   {"versions", versions}};
   if (run.threads > 0) summary["threads"] = run.threads;
   if (!run.hashes.empty()) summary["sha256"] = run.hashes;

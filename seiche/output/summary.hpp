@@ -6,6 +6,7 @@
 #include <seiche/output/file/folder.hpp>
 #include <seiche/output/file/sha256.hpp>
 
+#include <ctime>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ struct RunIdentity {
   std::vector<ResumedWith> resumed_with = {};  // in the order of the resumes
   int threads = 0;                             // 0: not told
   FileHashes hashes = {};                      // of case.toml, and of the files that it names
+  std::time_t finished = std::time(nullptr);
 };
 
 // A number that is not finite becomes null, since JSON has no NaN; so does `modified` for a method that has none.

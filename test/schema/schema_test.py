@@ -50,6 +50,16 @@ class Schema(unittest.TestCase):
             if section != "problem":
                 self.assertLessEqual(set(keys), set(SCHEMA["properties"][section]["properties"]))
 
+    def test_has_defaults_that_it_takes(self):
+        checked = 0
+        for section in SCHEMA["properties"]["problem"]["allOf"] + list(SCHEMA["properties"].values()):
+            for key, row in section.get("then", section).get("properties", {}).items():
+                if "default" in row:
+                    with self.subTest(key):
+                        jsonschema.Draft7Validator(row).validate(row["default"])
+                        checked += 1
+        self.assertGreater(checked, 50)
+
     def test_refuses_what_the_program_refuses(self):
         good = {"problem": {"name": "klein_gordon", "points": 16}, "method": {"name": "egc4", "h": 0.125}, "time": {"end": 1.0}}
         mistakes = [

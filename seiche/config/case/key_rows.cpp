@@ -33,15 +33,13 @@ std::vector<std::string_view> projecting_methods() {
 double read_number_within(const KeyRow& row, const std::string& key, const CaseValue& value) {
   const double number = read_number(key, value);
   if (number < row.minimum || (row.minimum_excluded && number == row.minimum))
-    throw Error("{} = {} must be {} {}: {}", key, value.shown(), row.minimum_excluded ? ">" : "≥", row.minimum,
-                row.meaning);
+    throw Error("{} = {} must be {} {}", key, value.shown(), row.minimum_excluded ? ">" : "≥", row.minimum);
   return number;
 }
 
 long read_whole_within(const KeyRow& row, const std::string& key, const CaseValue& value) {
   const long number = read_whole(key, value, static_cast<long>(row.minimum));
-  if (static_cast<double>(number) > row.maximum)
-    throw Error("{} = {} must be ≤ {}: {}", key, value.shown(), row.maximum, row.meaning);
+  if (static_cast<double>(number) > row.maximum) throw Error("{} = {} must be ≤ {}", key, value.shown(), row.maximum);
   return number;
 }
 
@@ -312,7 +310,6 @@ void add_method(KeyRows& rows) {
               [](const RunSpec& spec) { return unless_0(spec.h_max); });
   KeyRow& C = rows.add(Kind::number, "C", "sav family: the shift in √(V + C), energy; \"auto\" or a number", any,
                        {toml_string("auto")});
-  C.choices = {"auto"};
   C.read = read_shift;
   C.write = [](const RunSpec& spec) {
     return spec.method_options.C ? toml_real(*spec.method_options.C) : toml_string("auto");
@@ -391,7 +388,7 @@ void add_output(KeyRows& rows) {
                     {{"on", true}, {"off", false}}, Written::unless_default, report);
   rows.number(
       "snapshot_interval",
-      "time between snapshots; 0: by steps. With a tolerance, which makes 512 if nothing is said, or 1024 of few unknowns",
+      "with a tolerance: time between snapshots; 0: by steps; not given: 512 in all, or 1024 of up to 16 unknowns",
       from_0, unless_given("0.5"), "saveat dtout dtsave saveinterval", read_snapshot_interval,
       [](const RunSpec& spec) { return unless_0(spec.snapshot_interval); });
 }
@@ -400,8 +397,10 @@ void add_output(KeyRows& rows) {
 void add_checkpoint(KeyRows& rows) {
   const std::size_t first = rows.all.size();
   rows.begin("checkpoint");
-  rows.number("every_seconds", "from which `seiche resume` goes on; 0: when a signal asks for one", from_0, {"600"}, "",
-              read_every_seconds, [](const RunSpec& spec) { return Maybe(spec.checkpoint.every_seconds); });
+  rows.number("every_seconds",
+              "time between checkpoints, from which `seiche resume` goes on; 0: only when a signal asks for one",
+              from_0, {"600"}, "", read_every_seconds,
+              [](const RunSpec& spec) { return Maybe(spec.checkpoint.every_seconds); });
   rows.whole(
       "every_steps", "steps; 0: by the clock alone", from_0, "0", "",
       [](auto& spec) -> auto& { return spec.checkpoint.every_steps; });

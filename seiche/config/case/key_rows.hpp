@@ -19,7 +19,7 @@ struct KeyRow {
   std::string section, name;
   std::string meaning;
   Kind kind = Kind::number;
-  std::vector<std::string> choices = {};  // of a choice; words that may stand in the place of a number
+  std::vector<std::string> choices = {};  // of a choice
   double minimum = -std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
   double maximum = std::numeric_limits<double>::infinity();

@@ -88,14 +88,19 @@ FormulaConstants formula_constants(const RunSpec& spec) {
   FormulaConstants constants;
   std::vector<double> lengths, intervals;  // along the axes, where there are any
   Boundary boundary = Boundary::periodic;  // of the first
+  bool has_ends = false;
   for (const Parameter& p : problem_entry(spec).parameters) {
-    if (p.name == "boundary" && p.per_axis) boundary = boundary_named(spec.parameters.choices(p.name).front());
+    if (p.name == "boundary") {
+      has_ends = true;
+      boundary = boundary_named(p.per_axis ? spec.parameters.choices(p.name).front() : spec.parameters.choice(p.name));
+    }
     if (p.kind != ParameterKind::real && p.kind != ParameterKind::integer) continue;
     const std::vector<double> numbers = spec.parameters.numbers(p);
     constants[p.name] = numbers.front();
     if (p.name == "length") lengths = numbers;
     if (p.name == "points") intervals = numbers;
   }
+  if (lengths.empty() && has_ends) lengths = intervals;  // of a chain of masses
   if (lengths.empty() || intervals.empty()) return constants;
   const auto of_axis = [](const std::vector<double>& list, std::size_t a) {
     return list[std::min(a, list.size() - 1)];

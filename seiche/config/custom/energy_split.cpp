@@ -233,7 +233,7 @@ class Splitter {
     }
     if (!(sum_in_M - quadratic_sum_).expand().is_zero()) return;
     split.quadratic_text = sum_text(in_M);
-    if (split.left_out_text.empty()) split.rest_text = sum_text(in_V);
+    if (split.left_out_text.empty() && split.rest_text != "0") split.rest_text = sum_text(in_V);
   }
 
   // Throws where it is no real number, as √−1.

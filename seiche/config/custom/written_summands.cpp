@@ -4,9 +4,18 @@
 namespace seiche {
 namespace {
 
-std::string trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
-  return begin == std::string_view::npos ? "" : std::string(text.substr(begin, end - begin + 1));
+// On one line, with one blank where there is any.
+std::string in_a_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const bool is_blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
+    if (!is_blank)
+      line += c;
+    else if (!line.empty() && line.back() != ' ')
+      line += ' ';
+  }
+  if (line.ends_with(' ')) line.pop_back();
+  return line;
 }
 
 bool ends_value(const FormulaToken& token) {
@@ -28,7 +37,7 @@ std::vector<WrittenSummand> written_summands(std::string_view formula) {
     const bool is_end = token.kind == FormulaToken::Kind::end;
     const bool is_sign = depth == 0 && (token.is('+') || token.is('-')) && (i == 0 || ends_value(tokens[i - 1]));
     if (!is_end && !is_sign) continue;
-    if (i > 0) summands.push_back({is_subtracted, trimmed(formula.substr(begin, token.position - begin))});
+    if (i > 0) summands.push_back({is_subtracted, in_a_line(formula.substr(begin, token.position - begin))});
     is_subtracted = token.is('-');
     begin = token.position + 1;
   }
@@ -38,7 +47,8 @@ std::vector<WrittenSummand> written_summands(std::string_view formula) {
 std::string sum_text(const std::vector<WrittenSummand>& summands) {
   std::string text;
   for (const auto& [is_subtracted, summand] : summands)
-    text += (text.empty() ? (is_subtracted ? "-" : "") : (is_subtracted ? " - " : " + ")) + summand;
+    text += (text.empty() ? (is_subtracted ? "-" : "") : (is_subtracted ? " - " : " + ")) +
+            (summand.starts_with('-') || summand.starts_with('+') ? "(" + summand + ")" : summand);
   return text.empty() ? "0" : text;
 }
 

@@ -375,6 +375,24 @@ TEST(Custom, FormulasOnALineNameTheNumberOfAPoint) {
       EXPECT_NEAR(forces[at], square(static_cast<double>(j + 1)), 1e-12) << boundary;
     }
   }
+  // x/dx is not always whole, and j is.
+  for (int points = 4; points < 70; points += 3) {
+    const std::string line = fmt::format("length = 0.7\npoints = {}\nH = \"v^2/2 + u^4\"\n", points);
+    for (int n = 1; n <= points; n += 1 + points / 8) {
+      const Problem p = make_problem(read(
+          line +
+          fmt::format("force = {{ v = \"step(j - {0})\" }}\ninitial = {{ u = \"step(j - {0})\", v = \"0\" }}", n)));
+      std::vector<double> force(static_cast<std::size_t>(points));
+      p.forces[1]->values(0, force);
+      for (Index i = 0; i < points; ++i)
+        ASSERT_EQ(force[static_cast<std::size_t>(i)], p.initial[i]) << points << " " << n;
+    }
+  }
+  const Problem chain = make_problem(
+      parse_case("[problem]\nname = \"chain\"\npoints = 6\nboundary = \"neumann\"\nforce = { p = \"j\" }\n", "x.toml"));
+  std::vector<double> force(6);
+  chain.forces[1]->values(0, force);
+  EXPECT_EQ(force[5], 6);
   EXPECT_THAT(complaint_of_problem("length = [1.0, 1.0]\npoints = 7\nH = \"v^2/2 + j*u^4\"\ninitial = \"zero\""),
               HasSubstr("j, the number of a point, stands in formulas on a line and in initial"));
   EXPECT_THAT(complaint_of_problem("length = 1.0\npoints = 7\nH = \"v^2/2\"\nM = \"j\"\ninitial = \"zero\""),
