@@ -16,12 +16,14 @@ namespace fs = std::filesystem;
 
 constexpr int bad_request = 2, packages_missing = 3;  // exit codes of what is run
 
-// Beside the program as it is built, or as it is installed; for the programs of others where Seiche is installed.
+// Beside the program as it is built, as it is installed, or as Python's package has it; for the programs of others where
+// Seiche is installed, or where Debian's package has it.
 fs::path drawing_programs() {
   std::error_code unknown;
   const fs::path self = fs::read_symlink("/proc/self/exe", unknown);
-  for (const fs::path& folder : {self.parent_path() / "share/seiche", self.parent_path().parent_path() / "share/seiche",
-                                 fs::path(data_directory)})
+  const fs::path above = self.parent_path().parent_path();
+  for (const fs::path& folder : {self.parent_path() / "share/seiche", above / "share/seiche", above,
+                                 fs::path(data_directory), fs::path("/usr/share/seiche")})
     if (fs::exists(folder / "drawing/__main__.py", unknown)) return folder / "drawing";
   throw Error(
       "there is no folder share/seiche/drawing beside {}, above it or in {}, with the programs that draw pictures",
