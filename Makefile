@@ -7,7 +7,7 @@ VERIFY ?=
 JOBS ?= $(shell nproc)
 
 .DEFAULT_GOAL := help
-.PHONY: help deps configure build paper docs test verify python bench install format tidy asan tsan valgrind instructions soak fuzz clean
+.PHONY: help deps configure build paper docs test verify python bench install package wheel format tidy asan tsan valgrind instructions soak fuzz clean
 
 help:  ## this list
 	@echo "Seiche: energy-stable integrators for damped Hamiltonian systems"
@@ -57,6 +57,21 @@ bench:  ## build and run the benchmarks: step cost (ARGS), then work and precisi
 
 install: build  ## library, headers and program into PREFIX (default /usr/local)
 	@cmake --install build/release --prefix "$(PREFIX)"
+
+package:  ## Debian packages: build/dist/*.deb, tried out in a clean root
+	@bash scripts/install-deps --python --package
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release --parallel $(JOBS) --target seiche seiche_cli seiche_python
+	@rm -f build/dist/*.deb && cpack --config build/release/CPackConfig.cmake
+	@bash scripts/check-deb
+
+wheel:  ## a Python wheel with its libraries inside: build/dist/*.whl, tried out in a clean root
+	@bash scripts/install-deps --python --package
+	@cmake --preset release >/dev/null
+	@rm -f build/dist/*.whl
+	@SEICHE_BUILD_DIR=$(CURDIR)/build/release /usr/bin/python3 -m pip wheel . --no-deps --no-build-isolation \
+	  --config-settings bundle=yes --wheel-dir build/dist
+	@bash scripts/check-wheel
 
 format:  ## lay out every C++ file with clang-format
 	@bash scripts/install-deps --ci

@@ -1,7 +1,7 @@
 """The build backend of pyproject.toml (PEP 517): CMake builds, and what it installs goes into a wheel.
 
-It stands on Python's standard library alone, so that `pip install .` needs no network. The build tree is build/wheel, or
-what SEICHE_BUILD_DIR names.
+It stands on Python's standard library, so that `pip install .` needs no network. The build tree is build/wheel, or what
+SEICHE_BUILD_DIR names. With the setting bundle=yes (make wheel) the shared libraries go into the wheel as well.
 """
 
 import base64
@@ -9,6 +9,7 @@ import hashlib
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -16,81 +17,113 @@ import tarfile
 import tempfile
 import zipfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-METADATA = """Metadata-Version: 2.1
-Name: seiche
-Version: {version}
-Summary: Energy-stable integrators for damped Hamiltonian systems
-License: BSD-3-Clause
-Requires-Python: >=3.9
-Requires-Dist: numpy
-Provides-Extra: plot
-Requires-Dist: matplotlib; extra == "plot"
-Provides-Extra: xarray
-Requires-Dist: xarray; extra == "xarray"
-Provides-Extra: test
-Requires-Dist: pytest; extra == "test"
-Requires-Dist: scipy; extra == "test"
-Requires-Dist: matplotlib; extra == "test"
-Requires-Dist: h5py; extra == "test"
-Requires-Dist: xarray; extra == "test"
-Description-Content-Type: text/markdown
+try:
+    import tomllib
+except ImportError:
+    import tomli as tomllib
 
-{readme}"""
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# The command `seiche`: the program inside the package, which draws with the interpreter that the package was installed for.
+LAUNCHER = b"""#!python
+import importlib.util
+import os
+import sys
+
+package = importlib.util.find_spec("seiche").submodule_search_locations[0]
+os.environ["PATH"] = os.path.dirname(sys.executable) + os.pathsep + os.environ.get("PATH", os.defpath)
+os.execv(os.path.join(package, "bin", "seiche"), sys.argv)
+"""
 
 
 def version():
     return re.search(r"^ *VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)[1]
 
 
-def _metadata():
-    return METADATA.format(version=version(), readme=(ROOT / "README.md").read_text(encoding="utf-8"))
+def _metadata(bundled=False):
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    fields = [
+        ("Metadata-Version", "2.1"),
+        ("Name", project["name"]),
+        ("Version", version()),
+        ("Summary", project["description"]),
+        ("License", project["license"]["text"] + ("; with the libraries inside GPL-3.0-or-later" if bundled else "")),
+        ("Author", ", ".join(author["name"] for author in project["authors"])),
+        ("Keywords", ",".join(project["keywords"])),
+        ("Requires-Python", project["requires-python"]),
+        *(("Classifier", classifier) for classifier in project["classifiers"]),
+        *(("Requires-Dist", needed) for needed in project["dependencies"]),
+    ]
+    for extra, packages in project["optional-dependencies"].items():
+        fields += [("Provides-Extra", extra), *(("Requires-Dist", f'{name}; extra == "{extra}"') for name in packages)]
+    fields.append(("Description-Content-Type", "text/markdown"))
+    return "".join(f"{name}: {value}\n" for name, value in fields) + "\n" + (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def _say(text):
+    """What takes so long, to who waits for it: pip shows what a backend prints only where it failed."""
+    print(f"seiche: {text}", file=sys.stderr)
+    try:
+        with open("/dev/tty", "w") as terminal:
+            terminal.write(f"\n  seiche: {text}\n")
+    except OSError:
+        pass  # there is no terminal
 
 
 def _cmake(*arguments):
     # pip shows the build an environment of its own; CMake is to see this interpreter as it is.
     clean = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "PYTHONNOUSERSITE")}
-    subprocess.run(["cmake", *map(str, arguments)], check=True, env=clean)
+    done = subprocess.run(["cmake", *map(str, arguments)], env=clean)
+    if done.returncode:
+        raise SystemExit("seiche: CMake failed, and says above why")
 
 
 def _build(staging):
+    if not shutil.which("cmake"):
+        raise SystemExit("seiche: this compiles C++ with CMake, which is not here; scripts/install-deps --python installs what is needed")
     tree = pathlib.Path(os.environ.get("SEICHE_BUILD_DIR") or ROOT / "build" / "wheel")
+    _say(f"compiles the library, the program and the Python package in {tree}; some minutes the first time")
     if not (tree / "CMakeCache.txt").exists():
         options = {
             "CMAKE_BUILD_TYPE": "Release",
-            "SEICHE_BUILD_PROGRAM": "OFF",
             "SEICHE_BUILD_TESTS": "OFF",
             "SEICHE_PYTHON_REQUIRED": "ON",
             "Python_EXECUTABLE": sys.executable,
         }
         _cmake("-S", ROOT, "-B", tree, *(f"-D{key}={value}" for key, value in options.items()))
-    _cmake("--build", tree, "--target", "seiche_python", "--parallel", os.cpu_count() or 1)
-    _cmake("--install", tree, "--component", "python", "--prefix", staging)
+    _cmake("--build", tree, "--target", "seiche_python", "seiche_cli", "--parallel", os.cpu_count() or 1)
+    _cmake("--install", tree, "--component", "python", "--prefix", staging, "--strip")
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    tag = f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
-    info = f"seiche-{version()}.dist-info"
-    name = f"seiche-{version()}-{tag}.whl"
+    platform, info, data = re.sub("[-.]", "_", sysconfig.get_platform()), f"seiche-{version()}.dist-info", f"seiche-{version()}.data"
     with tempfile.TemporaryDirectory() as folder:
         staging = pathlib.Path(folder)
         _build(staging)
+        bundled = (config_settings or {}).get("bundle") == "yes"
+        if bundled:
+            import bundle
+
+            platform = bundle.bundle(staging, staging / "seiche.libs", staging / info / "licenses")
         files = {p.relative_to(staging).as_posix(): p.read_bytes() for p in sorted(staging.rglob("*")) if p.is_file()}
-    files[f"{info}/METADATA"] = _metadata().encode()
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    tag = f"{python}-{python}-{platform}"
+    name = f"seiche-{version()}-{tag}.whl"
+    files[f"{data}/scripts/seiche"] = LAUNCHER
+    files[f"{info}/METADATA"] = _metadata(bundled).encode()
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: seiche\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     record = ""
-    for path, data in files.items():
-        digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
-        record += f"{path},sha256={digest},{len(data)}\n"
+    for path, content in files.items():
+        digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+        record += f"{path},sha256={digest},{len(content)}\n"
     files[f"{info}/RECORD"] = f"{record}{info}/RECORD,,\n".encode()
     with zipfile.ZipFile(pathlib.Path(wheel_directory) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
-        for path, data in files.items():
+        for path, content in files.items():
             entry = zipfile.ZipInfo(path)
-            entry.external_attr = (0o755 if path.endswith(".so") else 0o644) << 16
+            runs = content.startswith((b"\x7fELF", b"#!"))
+            entry.external_attr = (0o755 if runs else 0o644) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
-            wheel.writestr(entry, data)
+            wheel.writestr(entry, content)
     return name
 
 

@@ -3,6 +3,7 @@
 import ast
 import base64
 import csv
+import email
 import hashlib
 import importlib
 import inspect
@@ -33,7 +34,11 @@ def test_a_wheel_is_whole_and_can_be_imported(tmp_path, monkeypatch):
                 data = wheel.read(path)
                 sha = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
                 assert digest == f"sha256={sha}" and int(size) == len(data)
-        assert {"seiche/__init__.py", "seiche/_core.pyi", "seiche/py.typed", "seiche/plot.py"} <= names
+        assert {"seiche/__init__.py", "seiche/_core.pyi", "seiche/py.typed", "seiche/plot.py", "seiche/bin/seiche"} <= names
+        assert f"seiche-{seiche.__version__}.data/scripts/seiche" in names
+        metadata = email.message_from_bytes(wheel.read(f"{info}/METADATA"))
+        assert (metadata["Name"], metadata["Version"]) == ("seiche", seiche.__version__)
+        assert "numpy" in metadata.get_all("Requires-Dist") and 'h5py; extra == "plot"' in metadata.get_all("Requires-Dist")
         wheel.extractall(tmp_path / "unpacked")
     program = "import seiche; print(seiche.__file__, seiche.solve('oscillator', 1.0, h=0.1).status == 'success')"
     done = subprocess.run(

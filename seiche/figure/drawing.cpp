@@ -26,13 +26,15 @@ Chosen& chosen() {
   return given;
 }
 
-// Beside the program as it is built, or as it is installed; for the programs of others where Seiche is installed.
+// Beside the program as it is built, as it is installed, or as the wheel has it; for the programs of others where
+// Seiche is installed, or where Debian's package has it.
 fs::path drawing_programs() {
   if (!chosen().programs.empty()) return chosen().programs;
   std::error_code unknown;
   const fs::path self = fs::read_symlink("/proc/self/exe", unknown);
-  for (const fs::path& folder : {self.parent_path() / "share/seiche", self.parent_path().parent_path() / "share/seiche",
-                                 fs::path(data_directory)})
+  const fs::path above = self.parent_path().parent_path();
+  for (const fs::path& folder : {self.parent_path() / "share/seiche", above / "share/seiche", above,
+                                 fs::path(data_directory), fs::path("/usr/share/seiche")})
     if (fs::exists(folder / "drawing/__main__.py", unknown)) return folder / "drawing";
   throw Error(
       "there is no folder share/seiche/drawing beside {}, above it or in {}, with the programs that draw pictures",

@@ -22,9 +22,20 @@ execute_process(COMMAND "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${work}/consumer" --config "${config}" COMMAND_ERROR_IS_FATAL ANY)
 
+# The same by pkg-config alone, as in a Makefile.
+find_program(bash bash REQUIRED)
+file(GLOB_RECURSE pc "${prefix}/*/seiche.pc")
+cmake_path(GET pc PARENT_PATH pc_folder)
+set(ENV{PKG_CONFIG_PATH} "${pc_folder}:$ENV{PKG_CONFIG_PATH}")
+execute_process(COMMAND "${bash}" -c
+  "'${compiler}' '${CMAKE_CURRENT_LIST_DIR}/main.cpp' -o '${work}/plain' $(pkg-config --cflags --libs seiche)"
+  COMMAND_ERROR_IS_FATAL ANY)
+cmake_path(GET pc_folder PARENT_PATH library_folder)
+set(ENV{LD_LIBRARY_PATH} "${library_folder}:$ENV{LD_LIBRARY_PATH}")  # of a shared library
+
 find_program(consumer consumer PATHS "${work}/consumer" "${work}/consumer/${config}" NO_DEFAULT_PATH REQUIRED)
 find_program(program seiche PATHS "${prefix}/bin" NO_DEFAULT_PATH REQUIRED)
-foreach(command IN ITEMS "${consumer}" "${program};--version")
+foreach(command IN ITEMS "${consumer}" "${work}/plain" "${program};--version")
   execute_process(COMMAND ${command} OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
   string(FIND "${output}" "${version}" position)
   if(position EQUAL -1)
@@ -33,7 +44,6 @@ foreach(command IN ITEMS "${consumer}" "${program};--version")
 endforeach()
 
 # What bash completes, as a user who types a tab sees it.
-find_program(bash bash REQUIRED)
 foreach(typed IN ITEMS "seiche re;recover resume" "seiche run --thr;--threads" "seiche new kl;klein_gordon"
     "seiche run x --set method.name=egc8;method.name=egc8")
   list(GET typed 0 words)
@@ -43,6 +53,11 @@ foreach(typed IN ITEMS "seiche re;recover resume" "seiche run --thr;--threads" "
     OUTPUT_VARIABLE completed OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   if(NOT completed STREQUAL wanted)
     message(FATAL_ERROR "'${words}' is completed to '${completed}' and not to '${wanted}'")
+  endif()
+endforeach()
+foreach(page LICENSE README.md CHANGELOG.md examples/own_potential.cpp)
+  if(NOT EXISTS "${prefix}/share/doc/seiche/${page}")
+    message(FATAL_ERROR "share/doc/seiche has no ${page}")
   endif()
 endforeach()
 find_program(help2man help2man)
