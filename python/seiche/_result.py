@@ -245,8 +245,9 @@ class Result(Answer):
         """Leave the folder that ``seiche run`` leaves, for ``seiche audit``, ``plot`` and ``resume``.
 
         The run is repeated there, from the case file that says the same: it takes as long as it took. What comes out is
-        compared with this result and must be the same to the bit. States are recorded as here, or, where ``t_eval`` is no
-        even sequence of steps, as case files do by default.
+        compared with this result and must be the same to the bit. States are recorded as here; or, where ``t_eval`` is no
+        even sequence of steps, as case files do by default, and with a tolerance at every step. ``z0`` goes into a file
+        initial.txt beside the case; a file that is there keeps its name, and the new one becomes initial_2.txt.
 
         Parameters
         ----------
@@ -262,7 +263,9 @@ class Result(Answer):
         ------
         ValueError
             Where no case file can say this run: of Python functions, events, a problem by its parts, a run that did not
-            reach its end or began before t = 0.
+            reach its end or began before t = 0. Or where the folder has files of others.
+        RuntimeError
+            Where what comes out differs from this result: nothing is kept.
         """
         from ._run import save
 
