@@ -106,7 +106,7 @@ def _measurements(file: str) -> Array:
     for place, line in enumerate(text.splitlines(), 1):
         if not line.strip() or line.lstrip().startswith("#"):
             continue
-        cells = [cell.strip() for cell in (re.split("[,;]", line) if re.search("[,;]", line) else line.split())]
+        cells = _cells(line, f"{file}:{place}")
         wrong = [cell for cell in cells if not _is_number(cell)]
         if may_be_header and len(wrong) == len(cells):
             may_be_header = False
@@ -125,6 +125,14 @@ def _measurements(file: str) -> Array:
     if not rows:
         raise ValueError(f"{file} holds no measurements")
     return np.array(rows)
+
+
+def _cells(line: str, place: str) -> list[str]:
+    cells = line.split(";") if ";" in line else line.split()
+    for cell in cells if len(cells) > 1 else ():
+        if re.fullmatch(r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?", cell.strip()):
+            raise ValueError(f"{place}: '{cell.strip():.40}': decimals are written with a point")
+    return [cell.strip() for cell in (line.split(",") if "," in line and ";" not in line else cells)]
 
 
 def _is_number(text: str) -> bool:

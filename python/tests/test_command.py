@@ -97,16 +97,31 @@ def test_one_point_of_a_field_may_be_measured(files, tmp_path, capsys):
         (["case.toml", "one.csv", *WANTED], "one.csv:1: 1 column, which must be 2 or 3"),
         (["case.toml", "hole.csv", *WANTED], "hole.csv:2: '' is not a number"),
         (["case.toml", "empty.csv", *WANTED], "empty.csv holds no measurements"),
+        (["case.toml", "comma.csv", *WANTED], "comma.csv:2: '0,2': decimals are written with a point"),
+        (["case.toml", "first.csv", *WANTED], "first.csv:1: '0,1': decimals are written with a point"),
+        (["case.toml", "spaces.csv", *WANTED], "spaces.csv:1: '0,1': decimals are written with a point"),
         (["case.toml", "data.csv", *WANTED, "--plot", "nowhere/found.png"], "nowhere/found.png cannot be written: No such file"),
     ],
 )  # fmt: skip
 def test_mistakes_get_one_sentence_and_exit_code_2(words, sentence, files, tmp_path, capsys):
-    for name, text in {"ragged": "t,q\n0.1,1\n0.2,1,2", "one": "1\n2", "hole": "0.1,1\n0.2,", "empty": "t,q\n"}.items():
+    texts = {"ragged": "t,q\n0.1,1\n0.2,1,2", "one": "1\n2", "hole": "0.1,1\n0.2,", "empty": "t,q\n"}
+    texts |= {"comma": "t;q\n0,2;1", "first": "0,1;1\n0,2;1", "spaces": "0,1\t1,0\n"}
+    for name, text in texts.items():
         (tmp_path / f"{name}.csv").write_text(text)
     assert main(["fit", *words]) == 2
     printed = capsys.readouterr()
     assert printed.out == "" and printed.err.startswith("seiche: ") and printed.err.count("\n") == 1
     assert sentence in printed.err
+
+
+def test_columns_may_be_parted_by_semicolons(files, tmp_path, capsys):
+    t, data = files
+    np.savetxt("two.csv", np.column_stack([t, data]), delimiter=" ; ", header="t, in s; q, in m", comments="")
+    printed = []
+    for name in ("two.csv", "two.txt"):
+        assert main(["fit", "case.toml", name, *WANTED, "--quiet"]) == 0
+        printed.append(capsys.readouterr().out)
+    assert printed[0] == printed[1]
 
 
 def test_a_run_that_fails_has_exit_code_1(files, tmp_path, capsys):
