@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import seiche
+from seiche import __main__ as command
 from seiche.__main__ import main
 
 pytest.importorskip("scipy")
@@ -101,17 +102,34 @@ def test_one_point_of_a_field_may_be_measured(files, tmp_path, capsys):
         (["case.toml", "first.csv", *WANTED], "first.csv:1: '0,1': decimals are written with a point"),
         (["case.toml", "spaces.csv", *WANTED], "spaces.csv:1: '0,1': decimals are written with a point"),
         (["case.toml", "data.csv", *WANTED, "--plot", "nowhere/found.png"], "nowhere/found.png cannot be written: No such file"),
+        (["case.toml", "data.csv", *WANTED, "--plot", "data.csv/found.png"], "data.csv/found.png cannot be written: Not a dir"),
+        (["case.toml", "data.csv", *WANTED, "--plot", "folder.png"], "folder.png cannot be written: Is a directory"),
+        (["case.toml", "data.csv", *WANTED, "--plot", "found.xyz"], "--plot found.xyz must end in .png, .pdf or .svg"),
     ],
 )  # fmt: skip
-def test_mistakes_get_one_sentence_and_exit_code_2(words, sentence, files, tmp_path, capsys):
+def test_mistakes_get_one_sentence_and_exit_code_2(words, sentence, files, tmp_path, capsys, monkeypatch):
     texts = {"ragged": "t,q\n0.1,1\n0.2,1,2", "one": "1\n2", "hole": "0.1,1\n0.2,", "empty": "t,q\n"}
     texts |= {"comma": "t;q\n0,2;1", "first": "0,1;1\n0,2;1", "spaces": "0,1\t1,0\n"}
+    (tmp_path / "folder.png").mkdir()
+    if "--plot" in words:
+        monkeypatch.setattr(command, "fit", lambda *_, **__: pytest.fail("the search began"))
     for name, text in texts.items():
         (tmp_path / f"{name}.csv").write_text(text)
     assert main(["fit", *words]) == 2
     printed = capsys.readouterr()
     assert printed.out == "" and printed.err.startswith("seiche: ") and printed.err.count("\n") == 1
     assert sentence in printed.err
+
+
+def test_numbers_are_printed_before_a_picture_fails(files, capsys, monkeypatch):
+    def fails(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", fails)
+    assert main(["fit", "case.toml", "data.csv", *WANTED, "--plot", "found.png"]) == 2
+    printed = capsys.readouterr()
+    assert printed.out.startswith("gamma = 0.100")
+    assert printed.err.splitlines()[1] == "seiche: --plot found.png cannot be written: No space left on device"
 
 
 def test_columns_may_be_parted_by_semicolons(files, tmp_path, capsys):
