@@ -55,7 +55,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--h", metavar="H", help="step size (one whose errors are below a tenth of the standard deviation)"
     )
-    parser.add_argument("--method", metavar="NAME", default="egc4", help="method of the runs (egc4)")
+    parser.add_argument("--method", metavar="NAME", help="method of the runs (that of the case, or egc4)")
     parser.add_argument(
         "--set", metavar="KEY=VALUE", action="append", default=[], help="override a key of the case: problem.points=64"
     )
