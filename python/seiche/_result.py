@@ -107,24 +107,6 @@ class DenseOutput:
         raise TypeError("a dense output lives in one process: evaluate sol at the times that are needed, or solve without it")
 
 
-class _NoDenseOutput:
-    """In the place of a dense output: false, equal to None, and a sentence where it is called."""
-
-    def __bool__(self) -> bool:
-        return False
-
-    def __eq__(self, other: object) -> bool:
-        return other is None or isinstance(other, _NoDenseOutput)
-
-    __hash__ = object.__hash__
-
-    def __call__(self, t: Any) -> Array:
-        raise ValueError("the run kept no dense output: call seiche.solve with dense_output=True, or t_eval for given times")
-
-    def __repr__(self) -> str:
-        return "None"
-
-
 class Answer(dict[str, Any]):
     """What a computation leaves; keys are attributes too."""
 
@@ -221,8 +203,9 @@ class Result(Answer):
         The hypotheses of the law, how each is known, and what they promise.
     report : dict
         What the program writes to summary.json.
-    sol : DenseOutput
-        The solution at any time, with ``dense_output=True``; otherwise it is false, and says so where it is called.
+    sol : DenseOutput or None
+        The solution at any time, ``sol(t)``. It is None unless `solve` was called with ``dense_output=True``; where the times
+        are known beforehand, ``t_eval`` gives their states without it.
     t_events, y_events : list of arrays, or None
         For each event its times, and the states then, of shape (times, size), before its action.
     ledger : dict of (times,) arrays, or None
@@ -308,7 +291,7 @@ def result_of(
         status=Status(number),
         message=solution.message,
         law=solution.law,
-        sol=DenseOutput(solution) if solution.has_sol else _NoDenseOutput(),
+        sol=DenseOutput(solution) if solution.has_sol else None,
         t_events=solution.t_events if has_events else None,
         y_events=solution.y_events if has_events else None,
         ledger=solution.ledger if has_ledger else None,
