@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import errno
+import importlib.util
 import json
 import math
+import os
 import pathlib
 import re
 import sys
@@ -52,7 +55,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--h", metavar="H", help="step size (one whose errors are below a tenth of the standard deviation)"
     )
-    parser.add_argument("--method", metavar="NAME", default="egc4", help="method of the runs (egc4)")
+    parser.add_argument("--method", metavar="NAME", help="method of the runs (that of the case, or egc4)")
     parser.add_argument(
         "--set", metavar="KEY=VALUE", action="append", default=[], help="override a key of the case: problem.points=64"
     )
@@ -106,7 +109,7 @@ def _measurements(file: str) -> Array:
     for place, line in enumerate(text.splitlines(), 1):
         if not line.strip() or line.lstrip().startswith("#"):
             continue
-        cells = [cell.strip() for cell in (re.split("[,;]", line) if re.search("[,;]", line) else line.split())]
+        cells = _cells(line, f"{file}:{place}")
         wrong = [cell for cell in cells if not _is_number(cell)]
         if may_be_header and len(wrong) == len(cells):
             may_be_header = False
@@ -125,6 +128,14 @@ def _measurements(file: str) -> Array:
     if not rows:
         raise ValueError(f"{file} holds no measurements")
     return np.array(rows)
+
+
+def _cells(line: str, place: str) -> list[str]:
+    cells = line.split(";") if ";" in line else line.split()
+    for cell in cells if len(cells) > 1 else ():
+        if re.fullmatch(r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?", cell.strip()):
+            raise ValueError(f"{place}: '{cell.strip():.40}': decimals are written with a point")
+    return [cell.strip() for cell in (line.split(",") if "," in line and ";" not in line else cells)]
 
 
 def _is_number(text: str) -> bool:
@@ -185,6 +196,8 @@ def _fit(words: Sequence[str]) -> int:
         if sigma is not None:
             raise ValueError(f"--sigma: the third column of {asked.data} has standard deviations already")
         sigma = measured[:, 2]
+    if asked.plot:
+        _require_picture(asked.plot)
     case = Case(asked.case, asked.set)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the message of the result says the same
@@ -192,24 +205,42 @@ def _fit(words: Sequence[str]) -> int:
             case, measured[:, 0], measured[:, 1], parameters, _observed(asked.observe, case), sigma, h=asked.h,
             method=asked.method, progress=not asked.quiet and sys.stderr.isatty(),
         )  # fmt: skip
-        if asked.plot:
-            _draw(found, asked.plot)
     print(_document(found) if asked.json else "\n".join(repr(found).splitlines()[:-1]))
     if not asked.quiet or found._remarks:
         print(found.message, file=sys.stderr)
+    if asked.plot:
+        _draw(found, asked.plot)
     if not found.success:
         return FAILED
     return LAW_VIOLATED if any(result.law == "violated" for result in found.results) else SUCCESS
 
 
-def _draw(found: FitResult, file: str) -> None:
-    try:
-        import matplotlib
+def _require_picture(file: str) -> None:
+    """Before the search, which may take long."""
+    path = pathlib.Path(file)
+    if path.suffix.lower() not in (".png", ".pdf", ".svg"):
+        raise ValueError(f"--plot {file} must end in .png, .pdf or .svg")
+    code = (
+        errno.ENOENT if not path.parent.exists()
+        else errno.ENOTDIR if not path.parent.is_dir()
+        else errno.EISDIR if path.is_dir()
+        else 0 if os.access(path if path.exists() else path.parent, os.W_OK)
+        else errno.EACCES
+    )  # fmt: skip
+    if code:
+        raise ValueError(f"--plot {file} cannot be written: {os.strerror(code)}")
+    if importlib.util.find_spec("matplotlib") is None:
+        raise ValueError("--plot needs Matplotlib (Debian package python3-matplotlib)")
 
-        matplotlib.use("Agg")
-        found.plot().figure.savefig(file)
-    except ImportError:
-        raise ValueError("--plot needs Matplotlib (Debian package python3-matplotlib)") from None
+
+def _draw(found: FitResult, file: str) -> None:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            found.plot().figure.savefig(file)
     except OSError as error:
         raise ValueError(f"--plot {file} cannot be written: {error.strerror}") from None
 

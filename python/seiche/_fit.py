@@ -100,7 +100,7 @@ def fit(
     sigma: Any = None,
     *,
     h: Size | None = None,
-    method: Method = "egc4",
+    method: Method | None = None,
     progress: bool | Report = False,
     **options: Any,
 ) -> FitResult:
@@ -131,7 +131,7 @@ def fit(
     h : float or str, optional
         Step size; by default one that leaves errors below a tenth of sigma.
     method : str
-        By default "egc4".
+        By default that which the case file gives, and else "egc4".
     progress : bool or function
         True: a line on stderr. Or a function of (tried, chi2): how many sets of parameters were tried, and
         Σ(residual/σ)² of the last; without sigma in units of the largest measurement.
@@ -154,7 +154,9 @@ def fit(
         problem = as_problem(problem)
     records = records_of(problem, t, data, observe, sigma)
     wanted = parameters_of(parameters, len(records))
-    model = Model(records, wanted, {"method": method, **options})
+    for record in records:
+        record.method = method or record.method
+    model = Model(records, wanted, options)
     dof = model.data.size - len(wanted)
     if dof <= 0:
         raise ValueError(
@@ -175,7 +177,8 @@ def _search(model: Model, dof: int, h: Size | None) -> tuple[Any, Any, float, fl
     x = np.array([p.start for p in model.parameters])
     model.options["h"] = model.step_size(x) if h is None else h
     model.begin(x)
-    order = next((m["order"] for m in methods() if m["name"] == model.options["method"]), 2)
+    orders = {m["name"]: m["order"] for m in methods()}
+    order = min(orders.get(record.method) or 2 for record in model.records)
     shortest = max(r.t[-1] - r.start for r in model.records) / _MOST_STEPS
     low, high, size = (np.array([getattr(p, name) for p in model.parameters]) for name in ("low", "high", "size"))
     for attempt in range(_MOST_SEARCHES):

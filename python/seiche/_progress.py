@@ -9,6 +9,8 @@ import sys
 import time
 from typing import Any, Callable, Iterator, Optional
 
+import numpy as np
+
 Report = Callable[..., Any]
 
 _WIDTH = 20  # characters of the bar
@@ -72,9 +74,9 @@ def showing(progress: bool | Report, of: str = "(t, t_end, steps)", draw: Any = 
     """What is to be called with how far a run is: the bar, the caller's function, or None. The bar is gone afterwards."""
     if callable(progress):
         yield progress
-    elif progress is False or progress is None:
-        yield None
-    elif progress is True:
+    elif progress is None or isinstance(progress, (bool, np.bool_)) and not (progress and sys.stderr):
+        yield None  # where Python has no stderr, as without a console, there is no place for a bar
+    elif isinstance(progress, (bool, np.bool_)):
         bar = Bar()
         try:
             yield lambda *where: draw(bar, *where)

@@ -37,6 +37,7 @@ class Record:
     shape: tuple[int, ...]  # of data as they were given
     function: Observation | None
     name: str  # of the field, where no function observes
+    method: str
 
     def observe(self, result: Result) -> Array:
         """(observed, times): what the solution says of the data."""
@@ -72,6 +73,8 @@ def _refuse_gaps(name: str, values: Array) -> None:
 
 def _record(given: Problem | Case, where: str, t: Any, data: Any, observe: Any, sigma: Any) -> Record:
     problem = as_problem(given)
+    if isinstance(given, Case) and given._core.is_ensemble:
+        raise ValueError(f"fit takes one run: remove [ensemble] from {given._file}")
     if not isinstance(given, Case) and problem._text is None:
         if problem._file is not None:
             raise ValueError("the problem of a case file: give the case itself")
@@ -116,7 +119,8 @@ def _record(given: Problem | Case, where: str, t: Any, data: Any, observe: Any, 
             raise ValueError(
                 f"sigma{where} has the shape {spread.shape}; it must be a number, or of the shape of data"
             ) from None
-    return Record(given, start, times, rows, spread, values.shape, function, name)
+    method = (given._given_method if isinstance(given, Case) else None) or "egc4"
+    return Record(given, start, times, rows, spread, values.shape, function, name, method)
 
 
 def records_of(problem: Any, t: Any, data: Any, observe: Any, sigma: Any) -> list[Record]:
@@ -221,9 +225,8 @@ class Model:
     def run(self, k: int, x: Array, **options: Any) -> Result:
         record = self.records[k]
         with quietly():  # `fit` looks at the last ones itself
-            result = solve(
-                self.problem(k, x), (record.start, record.t[-1]), t_eval=record.t, **(self.options | options)
-            )
+            asked = {"method": record.method} | self.options | options
+            result = solve(self.problem(k, x), (record.start, record.t[-1]), t_eval=record.t, **asked)
         if result.status == "interrupted":
             raise KeyboardInterrupt
         return result

@@ -107,24 +107,6 @@ class DenseOutput:
         raise TypeError("a dense output lives in one process: evaluate sol at the times that are needed, or solve without it")
 
 
-class _NoDenseOutput:
-    """In the place of a dense output: false, equal to None, and a sentence where it is called."""
-
-    def __bool__(self) -> bool:
-        return False
-
-    def __eq__(self, other: object) -> bool:
-        return other is None or isinstance(other, _NoDenseOutput)
-
-    __hash__ = object.__hash__
-
-    def __call__(self, t: Any) -> Array:
-        raise ValueError("the run kept no dense output: call seiche.solve with dense_output=True, or t_eval for given times")
-
-    def __repr__(self) -> str:
-        return "None"
-
-
 class Answer(dict[str, Any]):
     """What a computation leaves; keys are attributes too."""
 
@@ -221,8 +203,9 @@ class Result(Answer):
         The hypotheses of the law, how each is known, and what they promise.
     report : dict
         What the program writes to summary.json.
-    sol : DenseOutput
-        The solution at any time, with ``dense_output=True``; otherwise it is false, and says so where it is called.
+    sol : DenseOutput or None
+        The solution at any time, ``sol(t)``. It is None unless `solve` was called with ``dense_output=True``; where the times
+        are known beforehand, ``t_eval`` gives their states without it.
     t_events, y_events : list of arrays, or None
         For each event its times, and the states then, of shape (times, size), before its action.
     ledger : dict of (times,) arrays, or None
@@ -245,8 +228,9 @@ class Result(Answer):
         """Leave the folder that ``seiche run`` leaves, for ``seiche audit``, ``plot`` and ``resume``.
 
         The run is repeated there, from the case file that says the same: it takes as long as it took. What comes out is
-        compared with this result and must be the same to the bit. States are recorded as here, or, where ``t_eval`` is no
-        even sequence of steps, as case files do by default.
+        compared with this result and must be the same to the bit. States are recorded as here; or, where ``t_eval`` is no
+        even sequence of steps, as case files do by default, and with a tolerance at every step. ``z0`` goes into a file
+        initial.txt beside the case; a file that is there keeps its name, and the new one becomes initial_2.txt.
 
         Parameters
         ----------
@@ -262,7 +246,9 @@ class Result(Answer):
         ------
         ValueError
             Where no case file can say this run: of Python functions, events, a problem by its parts, a run that did not
-            reach its end or began before t = 0.
+            reach its end or began before t = 0. Or where the folder has files of others.
+        RuntimeError
+            Where what comes out differs from this result: nothing is kept.
         """
         from ._run import save
 
@@ -305,7 +291,7 @@ def result_of(
         status=Status(number),
         message=solution.message,
         law=solution.law,
-        sol=DenseOutput(solution) if solution.has_sol else _NoDenseOutput(),
+        sol=DenseOutput(solution) if solution.has_sol else None,
         t_events=solution.t_events if has_events else None,
         y_events=solution.y_events if has_events else None,
         ledger=solution.ledger if has_ledger else None,

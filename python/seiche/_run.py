@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
+import itertools
 import json
+import math
 import os
 import pathlib
-from typing import Any
+import re
+from typing import Any, Callable
 
 import numpy as np
 
@@ -63,7 +68,10 @@ def run(
         )
         summary = json.loads(done.summary)
         if tell is not None:
-            tell(summary["t"], case.t_end, summary["steps"])
+            steps = summary["steps"]
+            if "members" in summary:  # which it counts together
+                steps = math.ceil((summary["t"] - case.t_start) / summary["h"] - 1e-6)
+            tell(summary["t"], case.t_end, steps)
     return _case_run(done, directory)
 
 
@@ -98,7 +106,7 @@ def _unsayable(result: Result) -> str:
     if isinstance(given, Problem) and given._text is None:
         parts = "is stated by its parts: state it by formulas, by its name, or by a case file"
         return f"its problem {parts if given._file is None else 'is that of a case file: solve the case itself'}"
-    if result.t_events is not None:
+    if result.t_events:
         return "its events are Python functions"
     if result._asked.start < 0:
         return f"it begins at t = {result._asked.start:g}, and cases at 0 or later"
@@ -109,20 +117,22 @@ def _unsayable(result: Result) -> str:
     )
 
 
-def _records(result: Result) -> dict[str, Any]:
-    """Keys of [output] by which a run records what the result has, as far as there are such."""
+def _records(result: Result) -> list[dict[str, Any]]:
+    """Keys of [output] by which a run records what the result has, as far as there are such, and takes the same steps."""
     asked, h = result._asked, result.report["h"]
+    every_step = {"output.snapshot_every": 1, "output.snapshot_interval": 0}
     if asked.t_eval is None:
-        return {
-            "energy_every": asked.record_every,
-            "output.snapshot_every": asked.record_every,
-            "output.snapshot_interval": 0,
-        }
-    steps = np.diff(np.append(asked.start, asked.t_eval[asked.t_eval > asked.start])) / (h or np.nan)
+        return [every_step | {"energy_every": asked.record_every, "output.snapshot_every": asked.record_every}]
+    later = asked.t_eval[asked.t_eval > asked.start]
+    if (
+        h is None
+    ):  # steps by a tolerance, of which only the first depends on t_eval: it may have been a third of the way
+        return [every_step] + [every_step | {"h": (later[0] - asked.start) / 3}] * (later.size > 0)
+    steps = np.diff(np.append(asked.start, later)) / h
     every = np.round(steps)
     if steps.size == 0 or not (np.abs(steps - every[0]) < 1e-6).all() or every[0] < 1:
-        return {}
-    return {"output.snapshot_every": int(every[0]), "output.snapshot_interval": 0}
+        return [{}]
+    return [every_step | {"output.snapshot_every": int(every[0])}]
 
 
 def save(result: Result, folder: File, progress: bool | Report) -> CaseRun:
@@ -131,26 +141,99 @@ def save(result: Result, folder: File, progress: bool | Report) -> CaseRun:
     if reason:
         raise ValueError(f"no case file can say this run: {reason}")
     asked, directory = result._asked, pathlib.Path(folder)
-    keys = asked.options | _records(result) | {"output.ledger": "off" if result.ledger is None else "on"}
-    if asked.z0 is not None:
-        directory.mkdir(parents=True, exist_ok=True)
-        file = directory.resolve() / "initial.txt"
-        file.write_text("".join(f"{value!r}\n" for value in real_array("z0", asked.z0).ravel().tolist()))
-        keys["problem.initial"] = {"file": file}
-    with showing(progress) as tell:
-        core = run_case(asked.problem, keys)
-        done = _core.run(core, os.fspath(directory), result.report["threads"], False, 0.0, tell)
-    with quietly():  # it was said of the result
-        written = _case_run(done, os.fspath(directory))
-    if written.success:
-        final = np.loadtxt(directory / "final.txt", ndmin=1)
-        same = all(written[key] == result.report[key] for key in ("t", "steps"))
-        same &= all(written["energy"][key] == result.report["energy"][key] for key in ("initial", "final"))
-        if not same or (result.t[-1] == written.t and not np.array_equal(final, result.y[:, -1])):
-            raise RuntimeError(
-                f"{directory} holds a run of the same case that differs from this result: do not take it for one"
-            )
+    keys = asked.options | {"output.ledger": "off" if result.ledger is None else "on"}
+    with contextlib.ExitStack() as undo:
+        if asked.z0 is not None:
+            keys["problem.initial"] = {"file": _initial_file(directory, asked.z0, undo)}
+        before = _marks(directory)
+        with showing(progress) as tell:
+            for records in _records(result):
+                core = run_case(asked.problem, keys | records)
+                done = _core.run(core, os.fspath(directory), result.report["threads"], False, 0.0, tell)
+                with quietly():  # it was said of the result
+                    written = _case_run(done, os.fspath(directory))
+                if not written.success or _is_of(written, result):
+                    break
+            else:
+                for name, mark in _marks(directory).items():
+                    if mark != before[name]:
+                        (directory / name).unlink()
+                raise RuntimeError("a run of the same case differs from this result, which is not saved")
+        undo.pop_all()
+    if written.success and asked.z0 is not None:
+        _name_beside(written, keys["problem.initial"]["file"].name)
     return written
+
+
+def _is_of(written: CaseRun, result: Result) -> bool:
+    same = all(written[key] == result.report[key] for key in ("t", "steps"))
+    same &= all(written["energy"][key] == result.report["energy"][key] for key in ("initial", "final"))
+    final = np.loadtxt(written.folder / "final.txt", ndmin=1)
+    return bool(same and (result.t[-1] != written.t or np.array_equal(final, result.y[:, -1])))
+
+
+def _marks(directory: pathlib.Path) -> dict[str, Any]:
+    """By what it is seen which files of a run are written; summary.json, without which there is no run, first."""
+    names = "summary.json final.txt report.html solution.xdmf solution.h5 energy.csv case.toml"
+    marks: dict[str, Any] = {}
+    for name in names.split():
+        with contextlib.suppress(OSError):
+            about = (directory / name).stat()
+            marks[name] = about.st_ino, about.st_mtime_ns, about.st_size
+        marks.setdefault(name, None)
+    return marks
+
+
+def _initial_file(directory: pathlib.Path, z0: Any, undo: contextlib.ExitStack) -> pathlib.Path:
+    """A file of the state at the start, under a name that no other file has; where no run comes to be, it is removed."""
+    text = "".join(f"{value!r}\n" for value in real_array("z0", z0).ravel().tolist())
+    if not directory.exists():
+        directory.mkdir(parents=True)
+        undo.callback(_remove_if_empty, directory)
+    for number in itertools.count(1):
+        file = directory.resolve() / ("initial.txt" if number == 1 else f"initial_{number}.txt")
+        try:
+            with file.open("x") as new:
+                undo.callback(_remove_unless_named, file)
+                new.write(text)
+            break
+        except FileExistsError:
+            if file.is_file() and file.read_bytes() == text.encode():
+                break
+    return file
+
+
+def _remove_if_empty(directory: pathlib.Path) -> None:
+    with contextlib.suppress(OSError):
+        directory.rmdir()
+
+
+def _remove_unless_named(file: pathlib.Path) -> None:
+    """A run that stopped on the way, whose case names the file, needs it to go on."""
+    case = file.with_name("case.toml")
+    if not case.is_file() or os.fsencode(file.name) not in case.read_bytes():
+        file.unlink(missing_ok=True)
+
+
+def _name_beside(written: CaseRun, name: str) -> None:
+    """Lets the case name its initial file without a folder, so that both may move; summary.json has the hash of the case."""
+
+    def replace(file: pathlib.Path, change: Callable[[str], str]) -> bytes:
+        with open(file, encoding="utf-8", errors="surrogateescape", newline="") as old:
+            text = change(old.read()).encode("utf-8", "surrogateescape")
+        new = file.with_name(f"{file.name}.new")
+        new.write_bytes(text)
+        os.replace(new, file)
+        return text
+
+    folder, earlier = written.folder, written["sha256"]["case.toml"]
+    for file, quote in {"case.toml": '"', "report.html": "&quot;"}.items():
+        line, named = f"initial = {{ file = {quote}.*{quote} }}", f"initial = {{ file = {quote}{name}{quote} }}"
+        if (folder / file).is_file():
+            text = replace(folder / file, lambda old: re.sub(f"(?m)^{line}$", lambda _: named, old, count=1))
+        if file == "case.toml":
+            written["sha256"]["case.toml"] = hashlib.sha256(text).hexdigest()
+    replace(folder / "summary.json", lambda old: old.replace(earlier, written["sha256"]["case.toml"]))
 
 
 def _hours(given: float | None) -> float:

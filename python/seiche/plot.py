@@ -233,9 +233,10 @@ def planes(
         import matplotlib.pyplot as plt
 
         figure = plt.figure(figsize=(6.4, 6.4 * picture.height))
+    before = len(figure.axes)
     picture.draw(figure)
     figure.suptitle(_title(result, picture.what))
-    return _np.asarray(figure.axes[:6])
+    return _np.asarray(figure.axes[before : before + 6])
 
 
 def film(
@@ -247,14 +248,19 @@ def film(
 ) -> _pathlib.Path:
     """One field of a problem in the plane as a film; by default the first.
 
-    Returns the file: with the end .mp4 or .webm where ffmpeg is installed, and else .webp or .apng, a picture that moves.
+    Returns the file: that which was given where it ends in .mp4, .webm, .webp, .apng or .png. Without an ending, .mp4 or .webm is
+    appended where ffmpeg is installed. Without ffmpeg it is always a picture that moves, .webp or .apng.
     ``progress`` is True for a bar, or a function that is told the share that is done.
     """
     name = _named(result, field, 2, "film")
     if len(result.t) < 2:
         raise ValueError("a film needs two times at least, and the result has one")
-    stem = _pathlib.Path(file)
-    stem = stem.with_suffix("") if stem.suffix in (".mp4", ".webm", ".webp", ".apng") else stem
+    stem, ending = _pathlib.Path(file), ""
+    given = stem.suffix[1:].lower()
+    if given in _films.ENDINGS:
+        stem, ending = stem.with_suffix(""), given
+    elif given in ("gif", "avi", "mov", "mkv", "m4v", "mpg", "mpeg", "wmv", "flv", "ogv", "jpg", "jpeg"):
+        raise ValueError(f"unknown ending '.{given}' of a film. Allowed: .{', .'.join(_films.ENDINGS)}")
     if not stem.parent.is_dir():
         raise ValueError(f"there is no folder {stem.parent} for the film")
     held, ground = _Held(result), _style.GROUNDS["dark" if dark else "light"]
@@ -269,7 +275,7 @@ def film(
                 tell(done)
 
         scene = _films.Scene(held, name, ground, scale, _heading(result, _size_in_text), _shortfall(result))
-        drawn = _films.draw(scene, add, stem)
+        drawn = _films.draw(scene, add, stem, ending)
     return stem.with_name(drawn["file"])
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import seiche
+from seiche import __main__ as command
 from seiche.__main__ import main
 
 pytest.importorskip("scipy")
@@ -97,16 +98,48 @@ def test_one_point_of_a_field_may_be_measured(files, tmp_path, capsys):
         (["case.toml", "one.csv", *WANTED], "one.csv:1: 1 column, which must be 2 or 3"),
         (["case.toml", "hole.csv", *WANTED], "hole.csv:2: '' is not a number"),
         (["case.toml", "empty.csv", *WANTED], "empty.csv holds no measurements"),
+        (["case.toml", "comma.csv", *WANTED], "comma.csv:2: '0,2': decimals are written with a point"),
+        (["case.toml", "first.csv", *WANTED], "first.csv:1: '0,1': decimals are written with a point"),
+        (["case.toml", "spaces.csv", *WANTED], "spaces.csv:1: '0,1': decimals are written with a point"),
         (["case.toml", "data.csv", *WANTED, "--plot", "nowhere/found.png"], "nowhere/found.png cannot be written: No such file"),
+        (["case.toml", "data.csv", *WANTED, "--plot", "data.csv/found.png"], "data.csv/found.png cannot be written: Not a dir"),
+        (["case.toml", "data.csv", *WANTED, "--plot", "folder.png"], "folder.png cannot be written: Is a directory"),
+        (["case.toml", "data.csv", *WANTED, "--plot", "found.xyz"], "--plot found.xyz must end in .png, .pdf or .svg"),
     ],
 )  # fmt: skip
-def test_mistakes_get_one_sentence_and_exit_code_2(words, sentence, files, tmp_path, capsys):
-    for name, text in {"ragged": "t,q\n0.1,1\n0.2,1,2", "one": "1\n2", "hole": "0.1,1\n0.2,", "empty": "t,q\n"}.items():
+def test_mistakes_get_one_sentence_and_exit_code_2(words, sentence, files, tmp_path, capsys, monkeypatch):
+    texts = {"ragged": "t,q\n0.1,1\n0.2,1,2", "one": "1\n2", "hole": "0.1,1\n0.2,", "empty": "t,q\n"}
+    texts |= {"comma": "t;q\n0,2;1", "first": "0,1;1\n0,2;1", "spaces": "0,1\t1,0\n"}
+    (tmp_path / "folder.png").mkdir()
+    if "--plot" in words:
+        monkeypatch.setattr(command, "fit", lambda *_, **__: pytest.fail("the search began"))
+    for name, text in texts.items():
         (tmp_path / f"{name}.csv").write_text(text)
     assert main(["fit", *words]) == 2
     printed = capsys.readouterr()
     assert printed.out == "" and printed.err.startswith("seiche: ") and printed.err.count("\n") == 1
     assert sentence in printed.err
+
+
+def test_numbers_are_printed_before_a_picture_fails(files, capsys, monkeypatch):
+    def fails(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", fails)
+    assert main(["fit", "case.toml", "data.csv", *WANTED, "--plot", "found.png"]) == 2
+    printed = capsys.readouterr()
+    assert printed.out.startswith("gamma = 0.100")
+    assert printed.err.splitlines()[1] == "seiche: --plot found.png cannot be written: No space left on device"
+
+
+def test_columns_may_be_parted_by_semicolons(files, tmp_path, capsys):
+    t, data = files
+    np.savetxt("two.csv", np.column_stack([t, data]), delimiter=" ; ", header="t, in s; q, in m", comments="")
+    printed = []
+    for name in ("two.csv", "two.txt"):
+        assert main(["fit", "case.toml", name, *WANTED, "--quiet"]) == 0
+        printed.append(capsys.readouterr().out)
+    assert printed[0] == printed[1]
 
 
 def test_a_run_that_fails_has_exit_code_1(files, tmp_path, capsys):

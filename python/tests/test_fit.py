@@ -336,3 +336,41 @@ def test_other_arguments_get_one_sentence():
     parts = seiche.Problem(M=np.eye(2), z0=[1, 0])
     with pytest.raises(ValueError, match="by formulas, or by its name"):
         seiche.fit(parts, T, exact(T), {"gamma": 0.1})
+
+
+@pytest.mark.parametrize(
+    ("section", "taken"),
+    [
+        ('[method]\nname = "seisav"\nC = 2.0\n', "seisav"),
+        ('[method] # how\nh = 0.1\n\n  name = "savf"\n', "savf"),
+        ('method = { C = 2.0, name = "seisav" }\n', "seisav"),
+        ('method.name = "egc6"\n', "egc6"),
+        ('[method]\nname = "auto"\n', "egc4"),
+        ("[method]\nh = 0.1\n", "egc4"),
+        ("", "egc4"),
+    ],
+)
+def test_the_method_of_the_case_is_taken(section, taken, tmp_path):
+    problem = (
+        '[problem]\nname = "custom"\nfields = ["q", "p"]\nH = "p^2/2 + q^2/2"\nD = { p = "c" }\n'
+        'parameters = { c = 0.2 }\ninitial = { q = 1, p = 0 }\n'
+    )
+    at_top = section.startswith("method")
+    (tmp_path / "case.toml").write_text(section + problem if at_top else problem + section + "[time]\nend = 20.0\n")
+    case = seiche.load(tmp_path / "case.toml")
+    found = seiche.fit(case, T, exact(T) + noise(1), {"c": (0.2, 0, 1)}, sigma=0.02)
+    assert {result.method for result in found.results} == {taken}
+    assert found.parameters["c"] == pytest.approx(0.1, abs=0.02)
+    if "C =" not in section:
+        assert seiche.fit(case, T, exact(T) + noise(1), {"c": 0.2}, sigma=0.02, method="egc2").results[0].method == "egc2"
+    if section == "":
+        case = seiche.load(tmp_path / "case.toml", **{"method.name": "egc6"})
+        assert seiche.fit(case, T, exact(T) + noise(1), {"c": 0.2}, sigma=0.02).results[0].method == "egc6"
+
+
+def test_an_ensemble_is_no_record(tmp_path):
+    (tmp_path / "case.toml").write_text(
+        '[problem]\nname = "oscillator"\n[time]\nend = 20.0\n[ensemble]\nmembers = 2\ngamma = { uniform = [0.1, 0.2] }\n'
+    )
+    with pytest.raises(ValueError, match=r"^fit takes one run: remove \[ensemble\] from .*case\.toml$"):
+        seiche.fit(seiche.load(tmp_path / "case.toml"), T, exact(T), {"gamma": 0.1})

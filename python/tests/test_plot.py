@@ -1,6 +1,7 @@
 """Figures of seiche.plot: what they show, and the conventions that they share with `seiche plot` (docs/conventions.md)."""
 
 import re
+import shutil
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -99,6 +100,10 @@ def test_planes_go_through_the_middle_of_a_result_in_space():
         assert np.array_equal(plane, of_u.T)
     with pytest.raises(ValueError, match="slices draws fields over 2 axes"):
         seiche.plot.slices(r)
+    figure = plt.figure()
+    mine = figure.add_axes([0, 0, 0.1, 0.1])
+    axes = seiche.plot.planes(r, figure=figure)
+    assert len(axes) == 6 and mine not in list(axes) and [ax.get_title() for ax in axes[:2]] == ["$t$ = 0", "$t$ = 1"]
 
 
 @pytest.fixture(scope="module")
@@ -118,6 +123,25 @@ def test_a_film_shows_every_state_and_says_how_far_it_is(plane, tmp_path):
         seiche.plot.film(r, tmp_path / "nowhere/film")
     with pytest.raises(ValueError, match="has no field 'w'"):
         seiche.plot.film(r, tmp_path / "film", "w")
+
+
+def test_a_film_takes_the_name_that_was_given(plane, tmp_path):
+    from PIL import features
+
+    r = seiche.solve(plane, 0.5, h=0.25)
+    (tmp_path / "wave.mp4").write_text("mine")
+    named = seiche.plot.film(r, tmp_path / "wave.v1")
+    assert named.stem == "wave.v1" and (tmp_path / "wave.mp4").read_text() == "mine"
+    starts = {".apng": (b"\x89PNG", 0), ".png": (b"\x89PNG", 0)}
+    if features.check("webp_anim"):
+        starts[".webp"] = (b"RIFF", 0)
+    if shutil.which("ffmpeg"):
+        starts |= {".webm": (b"\x1a\x45\xdf\xa3", 0), ".mp4": (b"ftyp", 4)}
+    for ending, (start, place) in starts.items():
+        file = seiche.plot.film(r, tmp_path / f"film{ending}")
+        assert file == tmp_path / f"film{ending}" and file.read_bytes()[place : place + 4] == start
+    with pytest.raises(ValueError, match=r"^unknown ending '.gif' of a film. Allowed: .mp4, .webm, .webp, .apng, .png$"):
+        seiche.plot.film(r, tmp_path / "wave.gif")
 
 
 def test_a_report_has_the_pictures_that_the_program_draws(plane, tmp_path):

@@ -56,7 +56,7 @@ def test_a_case_and_an_ensemble_that_leave_files_tell_where_they_are(tmp_path):
     for name in ("one", "many"):
         told = []
         done = seiche.run(tmp_path / f"{name}.toml", tmp_path / name, progress=lambda *where: told.append(where))
-        assert len(told) > 1 and told[-1][:2] == (400.0, 400.0)
+        assert len(told) > 1 and told[-1] == (400.0, 400.0, 400_000)
         assert [where[0] for where in told] == sorted(where[0] for where in told)
         assert done.success
 
@@ -106,6 +106,16 @@ def test_a_bar_in_a_file_is_a_line_now_and_then(monkeypatch):
     seiche.solve("oscillator", **LONG, progress=True)
     assert all(re.match(r" *\d+ % ", line) for line in sys.stderr.getvalue().splitlines())
     assert "\r" not in sys.stderr.getvalue() and sys.stderr.getvalue().endswith("left\n")
+
+
+@pytest.mark.parametrize("progress", [True, np.True_, np.False_])
+def test_a_bar_needs_a_place(progress, monkeypatch):
+    monkeypatch.setattr(sys, "stderr", None)
+    assert seiche.solve("oscillator", **LONG, progress=progress).success
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    monkeypatch.setenv("TERM", "xterm")
+    seiche.solve("oscillator", **LONG, progress=progress)
+    assert bool(sys.stderr.getvalue()) == bool(progress)
 
 
 def test_without_progress_a_run_is_silent(capfd):

@@ -1,5 +1,6 @@
 """A result that is saved is a run that the program takes for its own."""
 
+import hashlib
 import json
 import os
 import subprocess
@@ -111,3 +112,62 @@ def test_a_folder_of_others_is_left_alone(tmp_path):
     with pytest.raises(ValueError, match="Seiche did not write it"):
         seiche.solve(duffing(), 1.0, h=0.1).save(tmp_path)
     assert (tmp_path / "summary.json").read_text() == "mine"
+
+
+@pytest.mark.parametrize("name", ["summary.json", "case.toml"])
+def test_an_initial_file_of_others_is_left_alone(name, tmp_path):
+    result = seiche.solve(duffing(), 1.0, [0.5, 0.25], h=0.1)
+    for file in ("initial.txt", name):
+        (tmp_path / file).write_text("mine")
+    with pytest.raises(ValueError, match="Seiche did not write it"):
+        result.save(tmp_path)
+    assert {file.name: file.read_text() for file in tmp_path.iterdir()} == {"initial.txt": "mine", name: "mine"}
+    (tmp_path / name).unlink()
+    result.save(tmp_path)
+    assert (tmp_path / "initial.txt").read_text() == "mine"
+    assert 'initial = { file = "initial_2.txt" }' in (tmp_path / "case.toml").read_text()
+    assert np.array_equal(np.loadtxt(tmp_path / "initial_2.txt"), [0.5, 0.25])
+
+
+def test_a_saved_start_moves_with_its_folder(tmp_path):
+    result = seiche.solve(duffing(), 1.0, [0.5, 0.25], h=0.1)
+    done = result.save(tmp_path / "run")
+    assert 'initial = { file = "initial.txt" }' in (tmp_path / "run/case.toml").read_text()
+    assert "initial = { file = &quot;initial.txt&quot; }" in (tmp_path / "run/report.html").read_text()
+    hashed = hashlib.sha256((tmp_path / "run/case.toml").read_bytes()).hexdigest()
+    assert json.loads((tmp_path / "run/summary.json").read_text())["sha256"] == done["sha256"]
+    assert done["sha256"]["case.toml"] == hashed
+    result.save(tmp_path / "run")  # the same once more
+    assert not (tmp_path / "run/initial_2.txt").exists()
+    (tmp_path / "run").rename(tmp_path / "moved")
+    assert np.array_equal(seiche.solve(seiche.load(tmp_path / "moved/case.toml")).y, result.y)
+
+
+@pytest.mark.parametrize("t_eval", [np.linspace(0, 4, 9), [0.3, 1.0, 3.9], [0.01, 4.0]])
+@pytest.mark.parametrize("z0", [None, [0.9, 0.1]])
+def test_times_beside_a_tolerance_are_saved(t_eval, z0, tmp_path):
+    result = seiche.solve(duffing(), 4.0, z0, method="egc6", tolerance=1e-6, t_eval=t_eval)
+    done = result.save(tmp_path / "run")
+    assert done["steps"] == result.steps and done["energy"]["final"] == result.report["energy"]["final"]
+    assert states(tmp_path / "run", ["q", "p"])[0].size == result.steps + 1
+
+
+@pytest.mark.parametrize("z0", [None, [0.9, 0.1]])
+def test_a_run_that_differs_is_not_kept(z0, tmp_path):
+    result = seiche.solve(duffing(), 1.0, z0, h=0.1)
+    result.y[0, -1] += 1e-15
+    with pytest.raises(RuntimeError, match="^a run of the same case differs from this result, which is not saved$"):
+        result.save(tmp_path / "run")
+    assert not (tmp_path / "run").exists() or not list((tmp_path / "run").iterdir())
+
+
+def test_what_the_caller_changes_later_is_not_saved(tmp_path):
+    z0, times = np.array([0.5, 0.25]), np.array([0.5, 1.0])
+    result = seiche.solve(duffing(), 1.0, z0, h=0.125, t_eval=times)
+    z0[:], times[:] = 7, 0.1
+    result.save(tmp_path / "run")
+    assert np.array_equal(states(tmp_path / "run", ["q", "p"])[0], [0, 0.5, 1.0])
+
+
+def test_an_empty_list_of_events_is_none(tmp_path):
+    assert seiche.solve(duffing(), 1.0, h=0.1, events=[]).save(tmp_path / "run").success

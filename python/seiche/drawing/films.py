@@ -18,6 +18,8 @@ _WIDTH, _DPI = 3.6, 200  # inches; an even number of points
 # What a film does not say about its colours each player guesses from its size, and not all alike.
 _COLOURS = "scale=out_color_matrix=bt709:out_range=tv -color_range tv -colorspace bt709 -color_primaries bt709 -color_trc bt709"
 _CODECS = (("mp4", "-c:v libx264 -crf 20 -movflags +faststart"), ("webm", "-c:v libvpx-vp9 -b:v 0 -crf 32"))
+_PICTURES = ("webp", "apng", "png")
+ENDINGS = (*(ending for ending, _ in _CODECS), *_PICTURES)
 
 
 def frames(solution: runs.Solution) -> np.ndarray:
@@ -57,11 +59,14 @@ class _Ffmpeg:
 class _Animation:
     """The same as a picture that moves: WebP, or PNG where Pillow has none. Pillow wants all frames at once, small as they are."""
 
-    def __init__(self, stem: pathlib.Path):
+    def __init__(self, stem: pathlib.Path, ending: str):
         from PIL import features
 
-        self._webp = features.check("webp_anim")
-        self.file = stem.with_suffix(".webp" if self._webp else ".apng")
+        can = features.check("webp_anim")
+        if ending == "webp" and not can:
+            raise ValueError("this Pillow writes no WebP that moves: let the film end in .apng")
+        self._webp = can if ending not in _PICTURES else ending == "webp"
+        self.file = _with_ending(stem, ending if ending in _PICTURES else "webp" if can else "apng")
         self._frames: list[typing.Any] = []
 
     def add(self, frame: np.ndarray) -> None:
@@ -89,20 +94,29 @@ class Scene(typing.NamedTuple):
 
 
 def draw(
-    scene: Scene, progress: typing.Callable[[float], None], stem: pathlib.Path | None = None
+    scene: Scene, progress: typing.Callable[[float], None], stem: pathlib.Path | None = None, ending: str = ""
 ) -> dict[str, typing.Any]:
     """One film, by default in the working directory: {"file": its name, "frames": how many, "note": why it is no film but a
-    picture that moves, or ""}. `progress` is told each part of it that is done."""
+    picture that moves, or ""}. `ending` is one of ENDINGS, or "" for the first that can be had. `progress` is told each part of
+    it that is done."""
     stem = pathlib.Path(f"film_{scene.field}{scene.ground.suffix}") if stem is None else stem
     said = "was not found on the PATH (Debian package ffmpeg)"
     count = len(frames(scene.solution))
     for extension, codec in _CODECS if shutil.which("ffmpeg") else ():
-        file, failure = _drawn(scene, lambda size: _Ffmpeg(stem.with_suffix("." + extension), size, codec), progress)
+        if ending not in ("", extension):
+            continue
+        file, failure = _drawn(scene, lambda size: _Ffmpeg(_with_ending(stem, extension), size, codec), progress)
         if not failure:
             return {"file": file.name, "frames": count, "note": ""}
         said = f"failed: {failure}"  # built without this codec, most likely
-    file, _ = _drawn(scene, lambda _: _Animation(stem), progress)
-    return {"file": file.name, "frames": count, "note": f"an animated picture, since ffmpeg {said}"}
+    file, _ = _drawn(scene, lambda _: _Animation(stem, ending), progress)
+    note = "" if ending in _PICTURES else f"an animated picture, since ffmpeg {said}"
+    return {"file": file.name, "frames": count, "note": note}
+
+
+def _with_ending(stem: pathlib.Path, ending: str) -> pathlib.Path:
+    """Behind the name, of which a part may look like an ending."""
+    return stem.with_name(f"{stem.name}.{ending}")
 
 
 def _drawn(
