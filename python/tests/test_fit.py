@@ -353,7 +353,7 @@ def test_other_arguments_get_one_sentence():
 def test_the_method_of_the_case_is_taken(section, taken, tmp_path):
     problem = (
         '[problem]\nname = "custom"\nfields = ["q", "p"]\nH = "p^2/2 + q^2/2"\nD = { p = "c" }\n'
-        'parameters = { c = 0.2 }\ninitial = { q = 1, p = 0 }\n'
+        "parameters = { c = 0.2 }\ninitial = { q = 1, p = 0 }\n"
     )
     at_top = section.startswith("method")
     (tmp_path / "case.toml").write_text(section + problem if at_top else problem + section + "[time]\nend = 20.0\n")
@@ -362,7 +362,9 @@ def test_the_method_of_the_case_is_taken(section, taken, tmp_path):
     assert {result.method for result in found.results} == {taken}
     assert found.parameters["c"] == pytest.approx(0.1, abs=0.02)
     if "C =" not in section:
-        assert seiche.fit(case, T, exact(T) + noise(1), {"c": 0.2}, sigma=0.02, method="egc2").results[0].method == "egc2"
+        assert (
+            seiche.fit(case, T, exact(T) + noise(1), {"c": 0.2}, sigma=0.02, method="egc2").results[0].method == "egc2"
+        )
     if section == "":
         case = seiche.load(tmp_path / "case.toml", **{"method.name": "egc6"})
         assert seiche.fit(case, T, exact(T) + noise(1), {"c": 0.2}, sigma=0.02).results[0].method == "egc6"
