@@ -51,12 +51,12 @@ def bundle(staging, libraries, licences):
         shutil.copyfile(f"/usr/share/doc/{package}/copyright", licences / f"{package}.txt")
     everything = ours + [libraries / name for name in new.values()]
     for path in everything:
-        changes = ["--set-rpath", os.path.join("$ORIGIN", os.path.relpath(libraries, path.parent))]
+        _printed("patchelf", "--set-rpath", os.path.join("$ORIGIN", os.path.relpath(libraries, path.parent)), path)
         if path not in ours:
-            changes += ["--set-soname", path.name]
-        for needed in set(_printed("patchelf", "--print-needed", path).split()) & set(new):
-            changes += ["--replace-needed", needed, new[needed]]
-        _printed("patchelf", *changes, path)
+            _printed("patchelf", "--set-soname", path.name, path)
+        for needed in sorted(set(_printed("patchelf", "--print-needed", path).split()) & set(new)):
+            # One at a time: patchelf 0.14 mistakes the libraries of the symbols' versions where it renames several.
+            _printed("patchelf", "--replace-needed", needed, new[needed], path)
     runtime = _newest(rb"GLIBCXX_3\.4\.", everything)
     here = int(platform.libc_ver()[1].split(".")[1])
     glibc = max(_newest(rb"GLIBC_2\.", everything), min((g for n, g in LIBSTDCXX.items() if n >= runtime), default=here))

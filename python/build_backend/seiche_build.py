@@ -39,7 +39,11 @@ def version():
     return re.search(r"^ *VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)[1]
 
 
-def _metadata(bundled=False):
+def _bundled(settings):
+    return (settings or {}).get("bundle") == "yes"
+
+
+def _metadata(bundled):
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     fields = [
         ("Metadata-Version", "2.1"),
@@ -94,13 +98,20 @@ def _build(staging):
     _cmake("--install", tree, "--component", "python", "--prefix", staging, "--strip")
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Without it pip builds a wheel to read these lines, and then another one."""
+    info = pathlib.Path(metadata_directory) / f"seiche-{version()}.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(_metadata(_bundled(config_settings)), encoding="utf-8")
+    return info.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     platform, info, data = re.sub("[-.]", "_", sysconfig.get_platform()), f"seiche-{version()}.dist-info", f"seiche-{version()}.data"
     with tempfile.TemporaryDirectory() as folder:
         staging = pathlib.Path(folder)
         _build(staging)
-        bundled = (config_settings or {}).get("bundle") == "yes"
-        if bundled:
+        if _bundled(config_settings):
             import bundle
 
             platform = bundle.bundle(staging, staging / "seiche.libs", staging / info / "licenses")
@@ -109,7 +120,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     tag = f"{python}-{python}-{platform}"
     name = f"seiche-{version()}-{tag}.whl"
     files[f"{data}/scripts/seiche"] = LAUNCHER
-    files[f"{info}/METADATA"] = _metadata(bundled).encode()
+    files[f"{info}/METADATA"] = _metadata(_bundled(config_settings)).encode()
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: seiche\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     record = ""
@@ -121,7 +132,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         for path, content in files.items():
             entry = zipfile.ZipInfo(path)
             runs = content.startswith((b"\x7fELF", b"#!"))
-            entry.external_attr = (0o755 if runs else 0o644) << 16
+            entry.external_attr = (0o100755 if runs else 0o100644) << 16  # pip heeds those of regular files
             entry.compress_type = zipfile.ZIP_DEFLATED
             wheel.writestr(entry, content)
     return name
@@ -136,6 +147,6 @@ def build_sdist(sdist_directory, config_settings=None):
         for path in filter(None, listed.split("\0")):
             archive.add(ROOT / path, f"{stem}/{path}", recursive=False)
         info = pathlib.Path(folder) / "PKG-INFO"
-        info.write_text(_metadata(), encoding="utf-8")
+        info.write_text(_metadata(bundled=False), encoding="utf-8")
         archive.add(info, f"{stem}/PKG-INFO")
     return f"{stem}.tar.gz"
