@@ -214,7 +214,7 @@ TEST(FewDegreesOfFreedom, HaveNoModesInTheirCertificate) {
 }
 
 TEST(OrderOfComplaints, WhatTheProblemLacksComesBeforeHowItStarts) {
-  EXPECT_THAT(said("fields = [\"a\", \"b\", \"c\"]\nH = \"a^2\""), HasSubstr("problem.S is not given"));
+  EXPECT_THAT(said("fields = [\"a\", \"b\", \"c\"]\nH = \"a^2\""), HasSubstr("S is not given"));
   EXPECT_THAT(said(""), HasSubstr("[problem] has no energy"));
   EXPECT_THAT(said("H = \"p^2/2\""), HasSubstr("no initial state"));
 }
