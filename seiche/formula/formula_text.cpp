@@ -12,7 +12,6 @@ namespace {
 
 using TokenKind = FormulaToken::Kind;
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }  // in UTF-8
 
 std::size_t characters(std::string_view text) {

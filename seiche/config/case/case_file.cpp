@@ -62,7 +62,8 @@ class Sections {
   }
 
   void read_row(const KeyRow& row) {
-    r_.on(row.section, row.name, [&](const std::string& key, const CaseValue& value) { row.read(r_, key, value); });
+    r_.on(row.section, row.name,
+          [&](const std::string& key, const CaseValue& value) { row.read(r_, row, key, value); });
   }
   void read_section(const std::string& section) {
     for (const KeyRow& row : key_rows())

@@ -1,4 +1,5 @@
 #include <seiche/config/case/case_reading.hpp>
+#include <seiche/config/case/key_readers.hpp>
 #include <seiche/config/case/key_rows.hpp>
 #include <seiche/core/error.hpp>
 
@@ -13,34 +14,14 @@ namespace seiche {
 namespace {
 
 using Kind = KeyRow::Kind;
-using Read = void(CaseReading& r, const std::string& key, const CaseValue& value);
 template <class T>
 using Names = std::vector<std::pair<const char*, T>>;
-
-std::vector<std::string> or_auto(std::vector<std::string> names) {
-  std::erase(names, "auto");
-  names.emplace(names.begin(), "auto");
-  return names;
-}
 
 std::vector<std::string_view> projecting_methods() {
   std::vector<std::string_view> names;
   for (const MethodEntry& method : methods())
     if (method.projects()) names.push_back(method.name);
   return names;
-}
-
-double read_number_within(const KeyRow& row, const std::string& key, const CaseValue& value) {
-  const double number = read_number(key, value);
-  if (number < row.minimum || (row.minimum_excluded && number == row.minimum))
-    throw Error("{} = {} must be {} {}", key, value.shown(), row.minimum_excluded ? ">" : "≥", row.minimum);
-  return number;
-}
-
-long read_whole_within(const KeyRow& row, const std::string& key, const CaseValue& value) {
-  const long number = read_whole(key, value, static_cast<long>(row.minimum));
-  if (static_cast<double>(number) > row.maximum) throw Error("{} = {} must be ≤ {}", key, value.shown(), row.maximum);
-  return number;
 }
 
 template <class T>
@@ -57,139 +38,19 @@ std::string name_of(const Names<T>& names, const T& value) {
       std::find_if(names.begin(), names.end(), [&](const auto& each) { return each.second == value; })->first);
 }
 
-// An option of methods is validated alone too, so that a complaint stands at the key that caused it.
-void read_option(CaseReading& r, const std::string& key, const CaseValue& value,
-                 const std::function<void(MethodOptions&)>& set) {
-  MethodOptions alone;
-  set(alone);
-  if (!r.methods.empty()) {
-    std::optional<Error> first;
-    const bool is_known = std::any_of(r.methods.begin(), r.methods.end(), [&](const std::string& name) {
-      try {
-        alone.validate(find_method(name));
-        return true;
-      } catch (const Error& error) {
-        if (!first) first = error;
-        return false;
-      }
-    });
-    if (!is_known) throw Error(*first);
-  } else if (r.spec.method == "auto" && alone != MethodOptions{}) {
-    throw Error(
-        "{} = {} belongs to one method, and method.name = \"auto\" is yet to choose it: leave it out, or name a "
-        "method",
-        key, value.shown());
-  } else if (r.spec.method != "auto" && !r.spec.method.empty()) {
-    alone.validate(find_method(r.spec.method));
-  }
-  set(r.spec.method_options);
-}
-
-void read_method(CaseReading& r, const std::string&, const CaseValue& value) {
-  r.spec.method.clear();  // also after a complaint, so that options are not compared with another one
-  std::vector<std::string> names = method_names();
-  names.emplace_back("auto");
-  r.spec.method = read_name("method", value, names);
-}
-
-void read_step_size(CaseReading& r, const std::string& key, const CaseValue& value) {
-  const RunSpec& spec = r.spec;
-  const double h = read_number_within(key_row("method", "h"), key, value);
-  if (r.problem == nullptr && spec.duration() == 0) return;
-  if (h > spec.duration())
-    throw Error("{} = {} must be ≤ {}", key, value.shown(),
-                spec.t_start == 0 ? fmt::format("time.end = {}", spec.t_end)
-                                  : fmt::format("{}, the time from time.start to time.end", spec.duration()));
-  if (spec.duration() / h > 1e15)
-    throw Error("{} = {} would take {:.3g} steps", key, value.shown(), spec.duration() / h);
-  r.spec.h = h;
-}
-
-// Step sizes are fractions by nature: 1/256 says more than 0.00390625.
-std::string written_step_size(const RunSpec& spec) {
-  const double parts = std::round(1 / spec.h);
-  const bool is_fraction = parts >= 2 && parts < 1e9 && 1 / parts == spec.h;
-  if (spec.h == 0) return "";
-  return is_fraction ? fmt::format("\"1/{}\"", static_cast<long>(parts)) : toml_real(spec.h);
-}
-
-void read_tolerance(CaseReading& r, const std::string& key, const CaseValue& value) {
-  r.spec.tolerance = read_number_within(key_row("method", "tolerance"), key, value);
-}
-
-void read_h_max(CaseReading& r, const std::string& key, const CaseValue& value) {
-  const double h = read_number_within(key_row("method", "h_max"), key, value);
-  if (!r.asks_for_tolerance())
-    throw Error("{} = {} needs method.tolerance: it bounds steps of variable size", key, value.shown());
-  r.spec.h_max = h;
-}
-
-void read_shift(CaseReading& r, const std::string& key, const CaseValue& value) {
-  if (value.kind == CaseValue::Kind::text && value.text == "auto") return;
-  if (value.kind != CaseValue::Kind::number && value.kind != CaseValue::Kind::text)
-    throw Error("{} = {} must be a number or \"auto\"", key, value.shown());
-  const double C = read_number(key, value);
-  read_option(r, key, value, [C](MethodOptions& options) { options.C = C; });
-}
-
-void read_law(CaseReading& r, const std::string& key, const CaseValue& value) {
+void read_law(CaseReading& r, const KeyRow&, const std::string& key, const CaseValue& value) {
   const EnergyLaw law =
       read_named<EnergyLaw>({{"interval", EnergyLaw::interval}, {"guard", EnergyLaw::guard}, {"none", EnergyLaw::none}},
                             key, value);
   read_option(r, key, value, [law](MethodOptions& options) { options.law = law; });
 }
 
-void read_start(CaseReading& r, const std::string& key, const CaseValue& value) {
-  const double start = read_number(key, value);
-  // Hypotheses of the energy law are looked at from t = 0 on.
-  if (start < 0)
-    throw Error("{} = {} must be ≥ 0: rather shift the formulas in t, so that the run begins at 0", key, value.shown());
-  r.spec.t_start = start;
-}
-
-void read_end(CaseReading& r, const std::string& key, const CaseValue& value) {
-  const double end = read_number(key, value);
-  if (end <= r.spec.t_start)
-    throw Error("{} = {} must be > {}", key, value.shown(),
-                r.spec.t_start == 0 ? "0" : fmt::format("time.start = {}", r.spec.t_start));
-  r.spec.t_end = end;
-}
-
-void read_backend(CaseReading& r, const std::string&, const CaseValue& value) {
-  r.spec.backend = read_name("backend", value, or_auto(backend_names()));
-}
-
-void read_directory(CaseReading& r, const std::string& key, const CaseValue& value) {
-  r.spec.output_directory = read_text(key, value);
-  if (r.spec.output_directory.empty()) throw Error("{} must not be empty", key);
-}
-
-// How many steps of h > 0 the interval > 0 between snapshots takes. Throws Error, with the nearest number of steps,
-// where it is no multiple of h: steps of one size come to no other times than theirs.
-std::int64_t steps_between_snapshots(const std::string& key, const CaseValue& interval, double h) {
-  constexpr double round_off = 1e-9;
-  const double time = read_number(key, interval);
-  const double every = std::max(1.0, std::round(time / h));
-  if (std::abs(time - every * h) > round_off * time)
-    throw Error("{} = {} is no multiple of h = {}: write snapshot_every = {}, for one every {}, or another h", key,
-                interval.shown(), h, every, every * h);
-  return static_cast<std::int64_t>(every);
-}
-
-void read_snapshot_interval(CaseReading& r, const std::string& key, const CaseValue& value) {
-  RunSpec& spec = r.spec;
-  const double interval = read_number_within(key_row("output", "snapshot_interval"), key, value);
-  if (interval > 0 && spec.duration() / interval > 1e7)
-    throw Error("{} = {} would make {:.3g} snapshots", key, value.shown(), spec.duration() / interval);
-  if (interval == 0 || r.asks_for_tolerance()) {
-    spec.snapshot_interval = interval;
-  } else if (spec.h > 0) {
-    spec.snapshot_every = steps_between_snapshots(key, value, spec.h);
-  }
-}
-
-void read_every_seconds(CaseReading& r, const std::string& key, const CaseValue& value) {
-  r.spec.checkpoint.every_seconds = read_number_within(key_row("checkpoint", "every_seconds"), key, value);
+// Step sizes are fractions by nature: 1/256 says more than 0.00390625.
+std::string written_step_size(const RunSpec& spec) {
+  if (spec.h == 0) return "";
+  const double parts = std::round(1 / spec.h);
+  const bool is_fraction = parts >= 2 && parts < 1e9 && 1 / parts == spec.h;
+  return is_fraction ? fmt::format("\"1/{}\"", static_cast<long>(parts)) : toml_real(spec.h);
 }
 
 struct Range {
@@ -226,7 +87,7 @@ class KeyRows {
 
   // `write` gives the number, or nothing where the key may be left out.
   void number(const char* name, std::string meaning, const Range& range, const Example& example, const char* synonyms,
-              Read* read, std::optional<double> (*write)(const RunSpec&)) {
+              ReadKey* read, std::optional<double> (*write)(const RunSpec&)) {
     KeyRow& row = add(Kind::number, name, std::move(meaning), range, example, synonyms);
     row.read = read;
     row.write = [write](const RunSpec& spec) {
@@ -237,24 +98,34 @@ class KeyRows {
 
   // `of(spec)` is the number.
   template <class Of>
-  void whole(const char* name, std::string meaning, const Range& range, const char* example, const char* synonyms,
-             Of of) {
+  KeyRow& whole(const char* name, std::string meaning, const Range& range, const char* example, const char* synonyms,
+                Of of) {
     KeyRow& row = add(Kind::whole, name, std::move(meaning), range, {example}, synonyms);
-    row.read = [row, of](CaseReading& r, const std::string& key, const CaseValue& value) {
+    row.read = [of](CaseReading& r, const KeyRow& self, const std::string& key, const CaseValue& value) {
       using Number = std::remove_reference_t<decltype(of(r.spec))>;
       of(r.spec) = static_cast<Number>(
-          std::min(read_whole_within(row, key, value), static_cast<long>(std::numeric_limits<Number>::max())));
-      r.spec.sparse.validate();
+          std::min(read_whole_within(self, key, value), static_cast<long>(std::numeric_limits<Number>::max())));
     };
     row.write = [of](const RunSpec& spec) { return fmt::format("{}", of(spec)); };
+    return row;
+  }
+
+  // A number of the sparse backend, whose bounds are its own.
+  template <class Of>
+  void sparse_option(const char* name, std::string meaning, Of of) {
+    KeyRow& row = whole(name, std::move(meaning), from_0, "0", "", of);
+    row.read = [read = row.read](CaseReading& r, const KeyRow& self, const std::string& key, const CaseValue& value) {
+      read(r, self, key, value);
+      r.spec.sparse.validate();
+    };
   }
 
   // The first name is the default.
   template <class T, class Of>
-  KeyRow& choice(const char* name, std::string meaning, const Names<T>& names, Written when, Of of) {
-    KeyRow& row = add(Kind::choice, name, std::move(meaning), any, {toml_string(names.front().first)});
+  KeyRow& choice(const char* name, const std::string& meaning, const Names<T>& names, Written when, Of of) {
+    KeyRow& row = add(Kind::choice, name, meaning, any, {toml_string(names.front().first)});
     for (const auto& [choice, value] : names) row.choices.emplace_back(choice);
-    row.read = [names, of](CaseReading& r, const std::string& key, const CaseValue& value) {
+    row.read = [names, of](CaseReading& r, const KeyRow&, const std::string& key, const CaseValue& value) {
       of(r.spec) = read_named(names, key, value);
     };
     row.write = [names, when, of](const RunSpec& spec) {
@@ -265,10 +136,11 @@ class KeyRows {
   }
 
   template <class T>
-  KeyRow& option(const char* name, std::string meaning, const Names<T>& names, Written when, T MethodOptions::*member) {
+  KeyRow& option(const char* name, const std::string& meaning, const Names<T>& names, Written when,
+                 T MethodOptions::*member) {
     KeyRow& row = choice(
-        name, std::move(meaning), names, when, [member](auto& spec) -> auto& { return spec.method_options.*member; });
-    row.read = [names, member](CaseReading& r, const std::string& key, const CaseValue& value) {
+        name, meaning, names, when, [member](auto& spec) -> auto& { return spec.method_options.*member; });
+    row.read = [names, member](CaseReading& r, const KeyRow&, const std::string& key, const CaseValue& value) {
       const T chosen = read_named(names, key, value);
       read_option(r, key, value, [&](MethodOptions& options) { options.*member = chosen; });
     };
@@ -276,7 +148,7 @@ class KeyRows {
   }
 
   void text(const char* name, std::string meaning, std::vector<std::string> choices, const Example& example,
-            const char* synonyms, Read* read, std::string RunSpec::*member) {
+            const char* synonyms, ReadKey* read, std::string RunSpec::*member) {
     KeyRow& row = add(choices.empty() ? Kind::text : Kind::choice, name, std::move(meaning), any, example, synonyms);
     row.choices = std::move(choices);
     row.read = read;
@@ -354,11 +226,11 @@ void add_backend(KeyRows& rows) {
       "exponential", "sparse: pade (factorises) | lanczos (does not; S skew, M definite)",
       {{"pade", ExponentialKind::pade}, {"lanczos", ExponentialKind::lanczos}}, Written::always,
       [](auto& spec) -> auto& { return spec.sparse.exponential; });
-  rows.whole(
-      "pade_degree", "sparse: 1 to 12; 0: whatever round-off asks for", from_0, "0", "",
+  rows.sparse_option(
+      "pade_degree", "sparse: 1 to 12; 0: whatever round-off asks for",
       [](auto& spec) -> auto& { return spec.sparse.pade_degree; });
-  rows.whole(
-      "lanczos_dimension", "sparse: pairs of vectors, at least 2; 0: until nothing changes", from_0, "0", "",
+  rows.sparse_option(
+      "lanczos_dimension", "sparse: pairs of vectors, at least 2; 0: until nothing changes",
       [](auto& spec) -> auto& { return spec.sparse.lanczos_dimension; });
 }
 

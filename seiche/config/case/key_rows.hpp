@@ -12,6 +12,10 @@
 namespace seiche {
 
 struct CaseReading;
+struct KeyRow;
+
+// Of the value of a key into reading.spec. Throws Error with the key, the value and what is allowed.
+using ReadKey = void(CaseReading& reading, const KeyRow& row, const std::string& key, const CaseValue& value);
 
 struct KeyRow {
   enum class Kind { number, whole, choice, text };
@@ -27,8 +31,7 @@ struct KeyRow {
   bool is_default = true;                  // what the example says holds also where the key is not given
   std::vector<std::string> synonyms = {};  // what other programs call it: lower case, without "_"
 
-  // Into reading.spec. Throws Error with the key, the value and what is allowed.
-  std::function<void(CaseReading& reading, const std::string& key, const CaseValue& value)> read = nullptr;
+  std::function<ReadKey> read = nullptr;
   // As a case file says it; "" where the key may be left out.
   std::function<std::string(const RunSpec&)> write = nullptr;
 };

@@ -1,4 +1,5 @@
 #include <seiche/config/custom/written_summands.hpp>
+#include <seiche/core/text/characters.hpp>
 #include <seiche/formula/formula_text.hpp>
 
 namespace seiche {
@@ -8,8 +9,7 @@ namespace {
 std::string in_a_line(std::string_view text) {
   std::string line;
   for (const char c : text) {
-    const bool is_blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
-    if (!is_blank)
+    if (!is_space(c))
       line += c;
     else if (!line.empty() && line.back() != ' ')
       line += ' ';

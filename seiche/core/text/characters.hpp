@@ -8,6 +8,7 @@ namespace seiche {
 
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+constexpr bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 constexpr bool begins_name(char c) { return is_letter(c) || c == '_'; }
 
 // Without blanks and tabs at its ends.

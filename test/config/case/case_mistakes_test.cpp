@@ -36,6 +36,12 @@ TEST(CaseFile, UnknownSectionsAndKeysAreRefusedWithTheNearestName) {
   EXPECT_THAT(complaint(minimal + "[[time]]\nend = 1\n"), HasSubstr("time must be a section, [time]"));
 }
 
+TEST(CaseFile, AMistakeOfABackendIsNotBlamedOnWhatStandsBeforeIt) {
+  EXPECT_THAT(complaint("[output]\nenergy_every = 1\n[checkpoint]\nkeep = 1\n" + minimal +
+                        "[backend]\npade_degree = 99\n"),
+              AllOf(StartsWith("x.toml:8:15: "), HasSubstr("pade_degree = 99 must be between 1 and 12")));
+}
+
 TEST(CaseFile, MisspeltNamesAreRefusedWithTheNearestOne) {
   EXPECT_THAT(complaint(minimal + "[method]\nname = \"seisv\"\n"),
               StartsWith("x.toml:4:8: unknown method 'seisv'; did you mean 'seisav'? Allowed: avf, sav, lm"));
