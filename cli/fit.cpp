@@ -3,9 +3,10 @@
 #include "command_line.hpp"
 #include "load_case.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 #include <seiche/core/error.hpp>
+#include <seiche/figure/drawing.hpp>
 
 #include <cerrno>
 #include <cstdlib>
@@ -23,26 +24,27 @@ struct FitArguments {
   bool json = false, quiet = false;
 };
 
-// Another interpreter may have the package, as that of Debian where python3 belongs to an environment of its own.
+// Its first argument names the interpreters that may have the packages where this one lacks them, joined by colons.
 constexpr const char* begin_python = R"(
 import sys
 sys.path[:] = [folder for folder in sys.path if folder]  # not what lies in the folder of the data
 import os
+others = sys.argv.pop(1)
 try:
     import numpy, scipy
     from seiche.__main__ import main
 except ImportError as error:
-    other = "/usr/bin/python3"
-    if os.path.exists(other) and sys.executable != other and not os.environ.get("SEICHE_PYTHON"):
-        os.execv(other, [other, *sys.orig_argv[1:]])
+    other, _, rest = others.partition(":")
+    if os.path.exists(other):
+        os.execv(other, [other, "-c", sys.orig_argv[2], rest, *sys.argv[1:]])
     sys.exit(f"seiche: fit needs NumPy, SciPy and the Python package seiche ({error}): pip install ., or make python")
 sys.exit(main(sys.argv[1:]))
 )";
 
 std::vector<std::string> python_command(const FitArguments& a) {
-  const char* chosen = std::getenv("SEICHE_PYTHON");  // NOLINT(concurrency-mt-unsafe)
-  std::vector<std::string> words = {chosen != nullptr && *chosen != '\0' ? chosen : "python3", "-c", begin_python,
-                                    "fit"};
+  const std::vector<std::string> interpreters = python_interpreters();
+  const std::string others = fmt::format("{}", fmt::join(interpreters.begin() + 1, interpreters.end(), ":"));
+  std::vector<std::string> words = {interpreters.front(), "-c", begin_python, others, "fit"};
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) words.insert(words.end(), {option, value});
   };

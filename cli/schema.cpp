@@ -15,10 +15,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Numbers may be formulas in quotes, as in "1/256".
-Json number(const char* type, double minimum, bool minimum_excluded, double maximum) {
+template <class Key>
+Json number(const char* type, const Key& key) {
   Json schema = {{"type", type}};
-  if (std::isfinite(minimum)) schema[minimum_excluded ? "exclusiveMinimum" : "minimum"] = minimum;
-  if (std::isfinite(maximum)) schema["maximum"] = maximum;
+  if (std::isfinite(key.minimum)) schema[key.minimum_excluded ? "exclusiveMinimum" : "minimum"] = key.minimum;
+  if (std::isfinite(key.maximum)) schema["maximum"] = key.maximum;
   return {{"anyOf", {schema, {{"type", "string"}}}}};
 }
 
@@ -26,21 +27,21 @@ Json value_of(const KeyRow& row) {
   switch (row.kind) {
     case KeyRow::Kind::choice: return {{"enum", row.choices}};
     case KeyRow::Kind::text: return {{"type", "string"}};
-    case KeyRow::Kind::whole: return number("integer", row.minimum, row.minimum_excluded, row.maximum);
+    case KeyRow::Kind::whole: return number("integer", row);
     case KeyRow::Kind::number: break;
   }
-  return number("number", row.minimum, row.minimum_excluded, row.maximum);
+  return number("number", row);
 }
 
 Json value_of(const Parameter& p) {
   switch (p.kind) {
     case ParameterKind::choice: return {{"enum", p.choices}};
     case ParameterKind::matrix: return {{"type", "string"}};
-    case ParameterKind::integer: return number("integer", p.minimum, p.minimum_excluded, p.maximum);
+    case ParameterKind::integer: return number("integer", p);
     case ParameterKind::rate:
     case ParameterKind::real: break;
   }
-  return number("number", p.minimum, p.minimum_excluded, p.maximum);
+  return number("number", p);
 }
 
 // What a key is where it is not given, from its text in TOML.

@@ -37,6 +37,7 @@ class Case:
     ledger: bool
     output_directory: str
     notes: list[str]
+    def gives(self, key: str) -> bool: ...  # a key such as "method.name", be it by an override
     @property
     def is_ensemble(self) -> bool: ...
     def text(self) -> str: ...

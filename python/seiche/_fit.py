@@ -182,8 +182,8 @@ def _search(model: Model, dof: int, h: Size | None) -> tuple[Any, Any, float, fl
     shortest = max(r.t[-1] - r.start for r in model.records) / _MOST_STEPS
     low, high, size = (np.array([getattr(p, name) for p in model.parameters]) for name in ("low", "high", "size"))
     for attempt in range(_MOST_SEARCHES):
-        # In units of the parameters' sizes, since SciPy compares the length of a step with that of all of them together.
-        # A step of _NEGLIGIBLE standard deviations changes χ², about dof, by _NEGLIGIBLE². Of slopes only zero ends it.
+        # In units of the parameters' sizes, since SciPy compares the length of a step with that of all of them.
+        # A step of _NEGLIGIBLE standard deviations changes χ², about dof, by _NEGLIGIBLE². Of slopes only 0 ends it.
         found = least_squares(
             lambda u: model.residuals(np.clip(u * size, low, high)),
             x / size,

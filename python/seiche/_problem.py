@@ -6,7 +6,6 @@ import difflib
 import numbers
 import operator
 import os
-import re
 from typing import Any, Callable, Mapping, Sequence, cast
 
 import numpy as np
@@ -325,14 +324,6 @@ def _of_case_file(*case: Any) -> Problem:
     return Case(*case).problem
 
 
-# In its section, with a dot, or in a table on one line. Python 3.9 reads no TOML.
-_METHOD_NAMES = (
-    r"""(?m)^[ \t]*\[[ \t]*["']?method["']?[ \t]*\].*\n(?:[ \t]*(?!\[).*\n)*?[ \t]*["']?name["']?[ \t]*=""",
-    r"""(?m)^[ \t]*["']?method["']?[ \t]*\.[ \t]*["']?name["']?[ \t]*=""",
-    r"""(?m)^[ \t]*["']?method["']?[ \t]*=[ \t]*\{.*\bname["']?[ \t]*=""",
-)
-
-
 class Case:
     """A case file as it was when it was read: a problem, and how to run it. Give it to `solve`, `solve_ensemble` or `check`."""
 
@@ -373,10 +364,8 @@ class Case:
     @property
     def _given_method(self) -> str | None:
         """The method that the case file, or a key that was replaced, asks for by its name; None for "auto", or none."""
-        written = self._written if isinstance(self._written, str) else self._written.decode(errors="replace")
-        is_given = any(re.match(r"\s*method\.name\s*=", change) for change in self._overrides)
-        is_given = is_given or any(re.search(pattern, written) for pattern in _METHOD_NAMES)
-        return self._core.method if is_given and self._core.method != "auto" else None
+        is_given = self._core.gives("method.name") and self._core.method != "auto"
+        return self._core.method if is_given else None
 
     def __repr__(self) -> str:
         return f"<seiche.Case {self._file}: {self.problem.name} by {self._core.method}>"

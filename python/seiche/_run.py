@@ -124,9 +124,7 @@ def _records(result: Result) -> list[dict[str, Any]]:
     if asked.t_eval is None:
         return [every_step | {"energy_every": asked.record_every, "output.snapshot_every": asked.record_every}]
     later = asked.t_eval[asked.t_eval > asked.start]
-    if (
-        h is None
-    ):  # steps by a tolerance, of which only the first depends on t_eval: it may have been a third of the way
+    if h is None:  # by a tolerance: of the steps only the first depends on t_eval, and may have been a third of the way
         return [every_step] + [every_step | {"h": (later[0] - asked.start) / 3}] * (later.size > 0)
     steps = np.diff(np.append(asked.start, later)) / h
     every = np.round(steps)

@@ -199,6 +199,7 @@ def solve(
         notes.append(f'method = "auto": {solution.method_reason}')
     say([*notes, f"{stated.name} by {solution.method}: {solution.message}"], solution.remarks)
     result = result_of(solution, stated, notes=notes, has_events=events is not None, has_ledger=with_ledger)
-    asked = Asked(given, options, start, None if z0 is None else np.array(z0, dtype=float), None if times is None else times.copy(), record_every)
+    state = None if z0 is None else np.array(z0, dtype=float)
+    asked = Asked(given, options, start, state, None if times is None else times.copy(), record_every)
     object.__setattr__(result, "_asked", asked)
     return result

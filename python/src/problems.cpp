@@ -144,6 +144,7 @@ void bind_problems(py::module_& module) {
       .def_readonly("ledger", &RunSpec::ledger)
       .def_readonly("output_directory", &RunSpec::output_directory)
       .def_readonly("notes", &RunSpec::notes)
+      .def("gives", [](const RunSpec& spec, const std::string& key) { return spec.places.contains(key); })
       .def_property_readonly("is_ensemble", [](const RunSpec& spec) { return spec.ensemble.has_value(); })
       .def("text", &write_case);
 

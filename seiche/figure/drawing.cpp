@@ -41,15 +41,6 @@ fs::path drawing_programs() {
       self.string(), data_directory);
 }
 
-// The one that the environment names, or else the first that has the packages: where python3 belongs to an environment
-// of its own, /usr/bin/python3 may have them.
-std::vector<std::string> interpreters() {
-  const char* named = std::getenv("SEICHE_PYTHON");  // NOLINT(concurrency-mt-unsafe)
-  if (named != nullptr && *named != '\0') return {named};
-  if (!chosen().interpreter.empty()) return {chosen().interpreter};
-  return {"python3", "/usr/bin/python3"};
-}
-
 struct Drawn {
   int exit_code = 0;
   std::string failure = {};
@@ -73,10 +64,17 @@ Drawn run(const std::string& interpreter, const fs::path& programs, const std::s
 
 void draw_with(const fs::path& programs, const std::string& interpreter) { chosen() = {programs, interpreter}; }
 
+std::vector<std::string> python_interpreters() {
+  const char* named = std::getenv("SEICHE_PYTHON");  // NOLINT(concurrency-mt-unsafe)
+  if (named != nullptr && *named != '\0') return {named};
+  if (!chosen().interpreter.empty()) return {chosen().interpreter};
+  return {"python3", "/usr/bin/python3"};
+}
+
 std::string draw(const std::string& request, const fs::path& into) {
   const fs::path programs = drawing_programs();
   std::string missing;
-  for (const std::string& interpreter : interpreters()) {
+  for (const std::string& interpreter : python_interpreters()) {
     const Drawn drawn = run(interpreter, programs, request, into);
     if (drawn.failure.empty()) {
       const fs::path answer = into / "reply.json";

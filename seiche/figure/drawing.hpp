@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace seiche {
 
@@ -17,6 +18,10 @@ struct BadDrawingRequest : Error {
 // in python/seiche/drawing/__main__.py. Throws Error where Python or a package that it needs is missing, saying which,
 // or where drawing fails, and BadDrawingRequest.
 std::string draw(const std::string& request, const std::filesystem::path& into);
+
+// The interpreter that SEICHE_PYTHON or `draw_with` names; else those to try in turn: where python3 belongs to an
+// environment of its own, /usr/bin/python3 may have the packages.
+std::vector<std::string> python_interpreters();
 
 // The folder of these programs, and the interpreter that runs them, where the caller knows better than `draw`.
 void draw_with(const std::filesystem::path& programs, const std::string& interpreter);
