@@ -11,15 +11,21 @@ from . import names, style
 if typing.TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_COVERED = 0.98  # of the values of each picture, where a few large ones would leave everything else pale
+_NEARLY_ALL = 0.98  # of the values of a picture; whether they have both signs is asked of these
+Range = tuple[float, float]
 
 
 class Look(typing.NamedTuple):
     """What one asks for. A range is that of the scale; a centre is the value of the middle colour."""
 
-    range: tuple[float, float] | None = None
+    range: Range | None = None
     centre: float | None = None
     palette: str | None = None
+    ranges: typing.Mapping[str, Range] = {}  # of single fields, instead of that of all
+
+    def of(self, field: str) -> Look:
+        """What is asked for of one field."""
+        return self._replace(range=self.ranges.get(field, self.range), ranges={})
 
 
 class Scale(typing.NamedTuple):
@@ -29,7 +35,6 @@ class Scale(typing.NamedTuple):
     palette: str | None = None  # instead of that of the house
     least: float = 0.0  # of all values
     most: float = 0.0
-    is_asked_for: bool = False
 
     def style(self, ax: "Axes") -> dict[str, typing.Any]:
         """Keywords of an image."""
@@ -42,32 +47,29 @@ class Scale(typing.NamedTuple):
         beyond += [f"up to {names.number(self.most)}"] * (self.most > self.high)
         if not beyond:
             return ""
-        why = "" if self.is_asked_for else ", so that small values are seen"
         return (
-            f" The scale goes from {names.number(self.low)} to {names.number(self.high)}{why}; beyond its pointed ends, "
+            f" The scale goes from {names.number(self.low)} to {names.number(self.high)}; beyond its pointed ends, "
             f"{' and '.join(beyond)}, colours stay as they are there."
         )
 
 
 class Extent(typing.NamedTuple):
-    """What a scale has to know of a picture: its smallest and its largest value, those between which nearly all lie, the middle one,
-    and how far nearly all are from the centre."""
+    """Of a picture: its smallest and its largest value, those between which nearly all lie, and the middle one."""
 
     least: float
     most: float
     low: float
     high: float
     rest: float
-    near: float
 
 
-def extent_of(values: np.ndarray, look: Look = Look()) -> Extent:
+def extent_of(values: np.ndarray) -> Extent:
+    """Of the values that are finite."""
     values = values[np.isfinite(values)]
     if not values.size:
         values = np.zeros(1)
-    low, rest, high = (float(x) for x in np.quantile(values, (1 - _COVERED, 0.5, _COVERED)))
-    near = float(np.quantile(np.abs(values - (look.centre or 0.0)), _COVERED))
-    return Extent(float(values.min()), float(values.max()), low, high, rest, near)
+    low, rest, high = (float(x) for x in np.quantile(values, (1 - _NEARLY_ALL, 0.5, _NEARLY_ALL)))
+    return Extent(float(values.min()), float(values.max()), low, high, rest)
 
 
 def _have_both_signs(whole: Extent) -> bool:
@@ -80,37 +82,33 @@ def _have_both_signs(whole: Extent) -> bool:
 
 
 def common_scale(extents: typing.Sequence[Extent], look: Look = Look()) -> Scale:
-    """One scale for several pictures.
-
-    Where values lie on both sides of zero in earnest it is as long on both, and else it goes from the lowest to the highest. Where
-    that leaves nearly all of every picture in the inner half of the colours, it ends where it covers 98 per cent of each.
+    """One scale for several pictures. It holds every finite value, since a soliton covers little of a picture and its height
+    is what one looks for, unless a range is asked for; where values lie on both sides of zero in earnest it is as long on both.
     """
     least, low = (min(getattr(one, name) for one in extents) for name in ("least", "low"))
-    most, high, near = (max(getattr(one, name) for one in extents) for name in ("most", "high", "near"))
+    most, high = (max(getattr(one, name) for one in extents) for name in ("most", "high"))
     rest = max((one.rest for one in extents), key=abs)
-    is_asked_for = look.range is not None or look.centre is not None
     is_diverging = (
-        look.centre is not None or least == most == 0 or _have_both_signs(Extent(least, most, low, high, rest, near))
+        look.centre is not None or least == most == 0 or _have_both_signs(Extent(least, most, low, high, rest))
     )
 
     def scale(begin: float, end: float, is_diverging: bool = is_diverging) -> Scale:
-        return Scale(begin, end, is_diverging, look.palette, least, most, is_asked_for)
+        return Scale(begin, end, is_diverging, look.palette, least, most)
 
     if look.range is not None:  # zero stays the middle of colours from both sides of it
         return scale(*look.range, is_diverging and look.range[0] == -look.range[1])
     if is_diverging:
         centre = look.centre or 0.0
-        far = max(most - centre, centre - least)
-        far = (near if 0 < near <= 0.5 * far else far) or 1.0
+        far = max(most - centre, centre - least) or 1.0
         return scale(centre - far, centre + far)
     if least == most:
         return scale(min(0.0, 2 * most), max(0.0, 2 * most))
-    return scale(low, high) if 0 < high - low <= 0.5 * (most - least) else scale(least, most)
+    return scale(least, most)
 
 
 def scale_of(pictures: typing.Sequence[np.ndarray], look: Look = Look()) -> Scale:
     """common_scale of their extents."""
-    return common_scale([extent_of(values, look) for values in pictures], look)
+    return common_scale([extent_of(values) for values in pictures], look)
 
 
 def scales_of(pictures: typing.Sequence[np.ndarray], look: Look = Look()) -> list[Scale]:

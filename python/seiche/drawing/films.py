@@ -28,7 +28,9 @@ def frames(solution: runs.Solution) -> np.ndarray:
 
 def common_scale(solution: runs.Solution, field: str, look: colours.Look) -> colours.Scale:
     """Of all frames."""
-    return colours.common_scale([colours.extent_of(solution.plane(field, k)[2], look) for k in frames(solution)], look)
+    return colours.common_scale(
+        [colours.extent_of(solution.plane(field, k)[2]) for k in frames(solution)], look.of(field)
+    )
 
 
 class _Ffmpeg:

@@ -74,15 +74,25 @@ def _known_palette(name: str | None) -> str | None:
     )
 
 
+def _look(request: dict[str, typing.Any], fields: list[str]) -> colours.Look:
+    limits, ranges = request.get("range"), request.get("ranges", {})
+    for field, (low, high) in ranges.items():
+        if field not in fields:
+            raise BadRequest(
+                f"--range {field}={low:g},{high:g}: there is no field '{field}'; the fields are {', '.join(fields)}"
+            )
+    ranges = {field: tuple(of_field) for field, of_field in ranges.items()}
+    palette = _known_palette(request.get("palette"))
+    return colours.Look(tuple(limits) if limits else None, request.get("centre"), palette, ranges)
+
+
 class RunStudio:
     """All that a process needs to draw its share of the pictures and films of a run."""
 
     def __init__(self, request: dict[str, typing.Any]):
         self.title, self.warning = request["title"], request["warning"]
-        limits = request.get("range")
-        palette = _known_palette(request.get("palette"))
-        look = colours.Look(tuple(limits) if limits else None, request.get("centre"), palette)
         self.solution = runs.Solution(os.path.join(request["run"], "solution.h5"))
+        look = _look(request, self.solution.fields)
         self.pictures = runs.pictures_of(self.solution, request["history"], look)
         self.films: list[str] = []
         if len(self.solution.axes) == 2 and len(self.solution.t) > 1:

@@ -142,7 +142,7 @@ def _space_time(solution: Solution, name: str, look: colours.Look) -> Picture:
     place, x = solution.axes[0]
     every = maps.every_seen(len(x))
     x, values = x[::every], solution.values(name, chosen, every)
-    scale = colours.scale_of([values], look)
+    scale = colours.scale_of([values], look.of(name))
     caption = f"{names.in_text(name)} over {place} and t, from {len(solution.t)} states.{scale.remark()}"
 
     def draw(ax: typing.Any) -> None:
@@ -156,7 +156,7 @@ def planes(solution: Solution, name: str, look: colours.Look, is_box: bool) -> P
     chosen = curves.spread(len(solution.t), 2 if is_box else 4)
     pairs = ((0, 1), (0, 2), (1, 2)) if is_box else ((0, 1),)
     panels = [(solution.plane(name, k, a, b), a, b, solution.t[k]) for a, b in pairs for k in chosen]
-    scales = colours.scales_of([picture for (_, _, picture), *_ in panels], look)
+    scales = colours.scales_of([picture for (_, _, picture), *_ in panels], look.of(name))
     columns = min(2, len(panels))
     rows = -(-len(panels) // columns)
     common = all(scale == scales[0] for scale in scales)
