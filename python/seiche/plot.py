@@ -215,7 +215,7 @@ def profiles(result: _result.Result, field: str | None = None, count: int = 5, a
     name = _named(result, field, 1, "profiles")
     held, times = _Held(result), _curves.spread(len(result.t), _problem.whole_number("count", count))
     ax = _axes(ax)
-    _curves.profiles(ax, result.t[times], held.axes[0], held.field(name, times), held.is_numbered)
+    _curves.profiles(ax, result.t[times], held.axes[0], held.field(name, times))
     ax.set(title=_title(result, f"{_names.symbol(name)} at some times"))
     return ax
 

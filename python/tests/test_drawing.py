@@ -156,7 +156,7 @@ def test_a_scale_holds_a_soliton_that_covers_little_of_the_picture():
     soliton = 1.7 / np.cosh(3 * (x - 10 - t[:, None])) ** 2
     for values in (soliton, soliton - 1e-3 * np.sin(x), soliton + 0.2 * np.sin(x)):
         scale = colours.scale_of([values])
-        assert scale.high == values.max() and scale.low <= values.min() and scale.remark() == ""
+        assert scale.high == values.max() and scale.low <= values.min() and "pointed" not in scale.remark()
     soliton[3, 4], soliton[5, 6] = np.inf, np.nan
     assert colours.scale_of([soliton]).high < 2
     peak = np.exp(-(x[:, None] ** 2) - x**2)
@@ -170,6 +170,22 @@ def test_a_scale_that_ends_before_the_values_has_pointed_ends():
         scale = colours.scale_of([values], colours.Look(range=limits))
         mesh = maps.image(ax, np.arange(3), np.arange(2), values, scale)
         assert colours.add_bar(mesh, ax, scale, "u").extend == extend and bool(scale.remark()) == (limits is not None)
+
+
+def test_a_caption_says_which_range_shows_what_a_kick_leaves_pale():
+    kick = 0.1 * np.sin(np.linspace(0, 60, 1000))
+    kick[7] = 1.0
+    assert colours.scale_of([kick]).remark().endswith("between −0.1 and 0.1: --range -0.1,0.1 shows those with more colours.")
+    assert colours.scale_of([kick], colours.Look(range=(-1, 1))).remark() == colours.scale_of([kick[8:]]).remark() == ""
+    assert colours.scale_of([kick**2 + 3]).usual == pytest.approx((3, 3.01))
+
+
+def test_a_grid_is_shown_from_its_end_at_zero_and_a_lattice_from_its_first_mass():
+    for places, begin, left in ((np.arange(1, 9) / 4, 0, 0), (np.arange(1.0, 9), 0.5, 1), (np.arange(8) + 0.5, 0, 0.5)):
+        values, axes = np.ones((2, 8)), plt.figure().subplots(1, 2)
+        maps.space_time(axes[0], np.arange(2), ("x", places), values, colours.Scale(0, 2, False), "u")
+        curves.profiles(axes[1], np.arange(2), ("x", places), curves.Field("u", "", values))
+        assert (axes[0].get_ylim()[0], axes[1].get_xlim()[0]) == (begin, left)
 
 
 def test_a_range_of_one_field_leaves_the_others_alone(tmp_path):
@@ -250,6 +266,16 @@ def test_a_warning_stands_below_however_many_lines_a_title_has():
             title, warning = (text.get_window_extent() for text in (figure._suptitle, figure.texts[-1]))
             lines = figure._suptitle.get_text().count("\n")
             assert warning.y1 <= title.y1 - 0.85 * (title.height * lines / (lines + 1)) and title.x1 <= figure.bbox.x1
+
+
+def test_a_title_stands_at_the_same_place_on_both_grounds(tmp_path, monkeypatch):
+    places = []
+    pictures(tmp_path, {"name": "sine_gordon", "points": [6, 6], "length": [1.0, 1.0]}, t_end=0.5)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(plt, "close", lambda figure: places.append(figure._suptitle.get_position()))
+    drawing = render._Draw(request(tmp_path / "run", formats=["png"], films=[]))
+    drawing.do(("picture", [one.stem for one in drawing.studio.pictures].index("slices_u"), ""))
+    assert len(places) == 2 and places[0] == pytest.approx(places[1])
 
 
 def test_planes_go_through_the_middle_of_a_box(tmp_path):

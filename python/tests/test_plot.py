@@ -86,6 +86,23 @@ def test_profiles_are_the_states_at_some_times(wave):
         seiche.plot.profiles(seiche.solve(oscillator(), 1.0, h=0.125))
 
 
+def test_the_legend_of_profiles_covers_neither_curves_nor_labels(wave):
+    ax = seiche.plot.profiles(seiche.solve(wave, 1.0, h=0.0625))
+    ax.figure.canvas.draw()
+    legend, frame = ax.get_legend().get_window_extent(), ax.get_window_extent()
+    assert legend.x0 >= frame.x1 and legend.x1 <= ax.figure.bbox.x1 and frame.y0 <= legend.y0 <= legend.y1 <= frame.y1
+
+
+@pytest.mark.parametrize("points", [6, 9, 16, 33])
+def test_the_axis_of_a_ring_has_ticks_at_its_masses_alone(points):
+    ring = seiche.problem("chain", points=points, boundary="periodic", initial="kick")
+    r = seiche.solve(ring, 1.0, h=0.125)
+    for axis in (seiche.plot.profiles(r).xaxis, seiche.plot.space_time(r).yaxis):
+        low, high = axis.get_view_interval()
+        ticks = [tick for tick in axis.get_majorticklocs() if low <= tick <= high]
+        assert len(ticks) > 2 and set(ticks) <= set(range(1, points + 1))
+
+
 def test_planes_go_through_the_middle_of_a_result_in_space():
     start = {"u": "exp(-4*((x-1)^2 + (y-1)^2 + (z-1)^2))", "v": "0"}
     box = seiche.problem(

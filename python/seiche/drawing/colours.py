@@ -35,6 +35,7 @@ class Scale(typing.NamedTuple):
     palette: str | None = None  # instead of that of the house
     least: float = 0.0  # of all values
     most: float = 0.0
+    usual: Range | None = None  # between which nearly all lie, where those have few of the colours
 
     def style(self, ax: "Axes") -> dict[str, typing.Any]:
         """Keywords of an image."""
@@ -42,15 +43,19 @@ class Scale(typing.NamedTuple):
         return {"cmap": cmap, "vmin": self.low, "vmax": self.high}
 
     def remark(self) -> str:
-        """Where values lie beyond the scale, a sentence, with a blank before it."""
+        """Where values lie beyond the scale, or nearly all have few of its colours, a sentence, with a blank before it."""
         beyond = [f"down to {names.number(self.least)}"] * (self.least < self.low)
         beyond += [f"up to {names.number(self.most)}"] * (self.most > self.high)
-        if not beyond:
+        if beyond:
+            return (
+                f" The scale goes from {names.number(self.low)} to {names.number(self.high)}; beyond its pointed ends, "
+                f"{' and '.join(beyond)}, colours stay as they are there."
+            )
+        if self.usual is None:
             return ""
-        return (
-            f" The scale goes from {names.number(self.low)} to {names.number(self.high)}; beyond its pointed ends, "
-            f"{' and '.join(beyond)}, colours stay as they are there."
-        )
+        low, high = self.usual
+        between = f"{names.number(low)} and {names.number(high)}"
+        return f" Nearly all values lie between {between}: --range {low:.6g},{high:.6g} shows those with more colours."
 
 
 class Extent(typing.NamedTuple):
@@ -93,7 +98,8 @@ def common_scale(extents: typing.Sequence[Extent], look: Look = Look()) -> Scale
     )
 
     def scale(begin: float, end: float, is_diverging: bool = is_diverging) -> Scale:
-        return Scale(begin, end, is_diverging, look.palette, least, most)
+        usual = None if look.range else _usual(begin, end, Extent(least, most, low, high, rest), is_diverging)
+        return Scale(begin, end, is_diverging, look.palette, least, most, usual)
 
     if look.range is not None:  # zero stays the middle of colours from both sides of it
         return scale(*look.range, is_diverging and look.range[0] == -look.range[1])
@@ -104,6 +110,16 @@ def common_scale(extents: typing.Sequence[Extent], look: Look = Look()) -> Scale
     if least == most:
         return scale(min(0.0, 2 * most), max(0.0, 2 * most))
     return scale(least, most)
+
+
+def _usual(begin: float, end: float, whole: Extent, is_diverging: bool) -> Range | None:
+    """Ends of a scale of nearly all values, of two digits, where they have less than a quarter of this one."""
+    far = max(abs(whole.low - (begin + end) / 2), abs(whole.high - (begin + end) / 2))
+    low, high = ((begin + end) / 2 - far, (begin + end) / 2 + far) if is_diverging else (whole.low, whole.high)
+    if not 0 < high - low < 0.25 * (end - begin):
+        return None
+    digit = 10.0 ** (np.floor(np.log10(high - low)) - 1)
+    return float(np.floor(low / digit) * digit), float(np.ceil(high / digit) * digit)
 
 
 def scale_of(pictures: typing.Sequence[np.ndarray], look: Look = Look()) -> Scale:

@@ -66,9 +66,20 @@ def legend(ax: "Axes", is_below: bool = False) -> None:
         ax.legend(loc="best")
 
 
-def number_points(axis: typing.Any, name: str) -> None:
-    """Ticks at whole numbers, along an axis of numbered points."""
-    if name == "point":
+def are_numbered(name: str, places: np.ndarray) -> bool:
+    """Points 1, 2, 3, … with nothing between them: those without a place, and the masses of a lattice."""
+    return name == "point" or np.array_equal(places, np.arange(1, len(places) + 1))
+
+
+def begin_of(places: np.ndarray) -> float | None:
+    """The end of a line at 0 where the places on it are Δx, 2Δx, …, so that an axis shows it, or None."""
+    is_grid = len(places) > 1 and np.isclose(places[0], places[1] - places[0]) and not are_numbered("", places)
+    return 0.0 if is_grid else None
+
+
+def number_points(axis: typing.Any, name: str, places: np.ndarray) -> None:
+    """Ticks at points that there are, along an axis of numbered points."""
+    if are_numbered(name, places):
         from matplotlib.ticker import MaxNLocator
 
         axis.set_major_locator(MaxNLocator(integer=True))
@@ -223,23 +234,19 @@ def over_time(ax: "Axes", t: np.ndarray, fields: typing.Sequence[Field]) -> None
     legend(ax)
 
 
-def profiles(ax: "Axes", t: np.ndarray, axis: tuple[str, np.ndarray], field: Field, is_lattice: bool) -> None:
-    """A field along a line at some times, in a sequence of colours; points of a lattice are dots on a thin line."""
+def profiles(ax: "Axes", t: np.ndarray, axis: tuple[str, np.ndarray], field: Field) -> None:
+    """A field along a line at some times, in a sequence of colours; numbered points are dots on a thin line."""
+    is_dotted = are_numbered(*axis) and len(axis[1]) <= 200
+    dots = {"marker": "o", "markersize": 1.8} if is_dotted else {}
     for k in range(len(t)):
-        share = k / max(len(t) - 1, 1)
-        dots = {"marker": "o", "markersize": 1.8} if is_lattice and len(axis[1]) <= 200 else {}
         width = (0.5 if dots else 0.8) * (1.6 if k in (0, len(t) - 1) else 1)
-        ax.plot(
-            axis[1],
-            field.values[k],
-            color=style.in_sequence(ax, share),
-            linewidth=width,
-            label=f"$t$ = {t[k]:.4g}",
-            **dots,
-        )
+        look = {"color": style.in_sequence(ax, k / max(len(t) - 1, 1)), "linewidth": width} | dots
+        ax.plot(axis[1], field.values[k], label=f"$t$ = {t[k]:.4g}", **look)
     ax.set(xlabel=names.place(axis[0]), ylabel=field.label)
-    number_points(ax.xaxis, axis[0])
-    legend(ax)
+    ax.margins(x=0)
+    ax.set_xlim(left=begin_of(axis[1]))
+    number_points(ax.xaxis, *axis)
+    ax.legend(loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.3, handlelength=1.4)  # where there are no curves
 
 
 def _mean_corner(x: np.ndarray, y: np.ndarray) -> float:

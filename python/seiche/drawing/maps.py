@@ -38,11 +38,12 @@ def every_seen(points: int) -> int:
 
 
 def _edges(x: np.ndarray) -> np.ndarray:
-    """Of the cells around points."""
+    """Of the cells around points; the first reaches to the end of the line at 0."""
     if len(x) == 1:
         return np.array([x[0] - 0.5, x[0] + 0.5])
     middles = (x[1:] + x[:-1]) / 2
-    return np.concatenate([[2 * x[0] - middles[0]], middles, [2 * x[-1] - middles[-1]]])
+    begin = curves.begin_of(x)
+    return np.concatenate([[2 * x[0] - middles[0] if begin is None else begin], middles, [2 * x[-1] - middles[-1]]])
 
 
 def space_time(
@@ -58,7 +59,7 @@ def space_time(
     mesh = image(ax, t, axis[1], values, scale, given)
     colours.add_bar(mesh, ax, scale, label)
     ax.set(xlabel="time $t$", ylabel=names.place(axis[0]), xlim=(t[0], t[-1]))
-    curves.number_points(ax.yaxis, axis[0])
+    curves.number_points(ax.yaxis, *axis)
 
 
 def planes(

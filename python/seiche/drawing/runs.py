@@ -190,7 +190,8 @@ def planes(solution: Solution, name: str, look: colours.Look, is_box: bool) -> P
         return ""
 
     tall = max(float(np.ptp(y) / (np.ptp(x) or 1.0)) for (x, y, _), *_ in panels)
-    height = rows * (0.76 / columns * min(1.6, max(0.25, tall)) + (0.14 if is_box else 0.07)) + 0.09
+    wide = (0.66 if common else 0.54) / columns  # of a panel beside one bar, or with its own
+    height = rows * (wide * min(1.6, max(0.25, tall)) + (0.165 if is_box or not common else 0.085)) + 0.1
     what = " in the middle planes" if is_box else " at some times"
     caption = (
         f"{names.in_text(name)} in the three planes through the middle of the box, at the first and the last time."
@@ -210,7 +211,7 @@ def _profiles(solution: Solution, name: str) -> Picture:
         f"profiles_{name}",
         f"{names.in_text(name)} at some times",
         caption,
-        lambda ax: curves.profiles(ax, solution.t[chosen], solution.axes[0], field, solution.is_numbered),
+        lambda ax: curves.profiles(ax, solution.t[chosen], solution.axes[0], field),
     )
 
 

@@ -110,11 +110,12 @@ def title(figure: "Figure", text: str, warning: str) -> None:
     letters = int(points / (0.58 * _title_size()))  # of a line
     lines = textwrap.wrap(text, letters) or [""]
     plain = {"ha": "left", "parse_math": False}
-    figure.suptitle("\n".join(lines) + ("\n" if warning else ""), x=0.012, **plain)
+    top = 1 - 0.03 / figure.get_figheight()  # where a layout puts it, and it stands without one
+    figure.suptitle("\n".join(lines) + ("\n" if warning else ""), x=0.012, **plain).set_y(top)
     if warning:
         # On the line that is left empty: whoever lays out a figure makes room for its title alone.
         height = 1.2 * _title_size() / 72 / figure.get_figheight()
-        at = 0.985 - len(lines) * height
+        at = top - len(lines) * height
         figure.text(0.012, at, warning, color=_WARNING, va="top", fontsize=_title_size(), **plain)
 
 
