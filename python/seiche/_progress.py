@@ -18,7 +18,7 @@ _OFTEN, _SELDOM = 0.1, 10.0  # seconds between two looks at a screen, and two li
 
 
 class Bar:
-    """One line, drawn over itself where there is a terminal or a notebook; in a file now and then a whole one."""
+    """One line, drawn over itself where there is a terminal or a notebook; in a file now and then a whole one in words."""
 
     def __init__(self) -> None:
         self._file = sys.stderr
@@ -36,11 +36,14 @@ class Bar:
         share = min(1.0, max(0.0, (t - self._first) / whole)) if whole > 0 else 1.0
         seconds = time.monotonic() - self._begin
         left = _clock(seconds * (1 - share) / share) if share > 0 else "?"
-        bar = "━" * round(_WIDTH * share)
-        self.show(f"{100 * share:3.0f} % {bar:<{_WIDTH}} t = {t:<10.6g} {steps / seconds:.3g} steps/s, {left} left")
+        self.show(f"{self._done(share)} t = {t:<10.6g} {steps / seconds:.3g} steps/s, {left} left")
 
     def part(self, share: float) -> None:
-        self.show(f"{100 * share:3.0f} % {'━' * round(_WIDTH * share):<{_WIDTH}} drawing")
+        self.show(f"{self._done(share)} drawing")
+
+    def _done(self, share: float) -> str:
+        bar = f" {'━' * round(_WIDTH * share):<{_WIDTH}}" if self._is_screen else ""
+        return f"{100 * share:3.0f} %{bar}"
 
     def search(self, tried: int, chi2: float) -> None:
         self.show(f"{tried} sets of parameters tried, χ² = {chi2:.6g}")

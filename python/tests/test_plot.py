@@ -142,6 +142,19 @@ def test_a_film_shows_every_state_and_says_how_far_it_is(plane, tmp_path):
         seiche.plot.film(r, tmp_path / "film", "w")
 
 
+def test_a_film_writes_whole_lines_without_a_bar_into_a_file(plane, tmp_path, monkeypatch):
+    import io
+    import sys
+
+    from seiche import _progress
+
+    monkeypatch.setattr(_progress, "_SELDOM", 0.0)
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    seiche.plot.film(seiche.solve(plane, 1.0, h=0.25), tmp_path / "wave.webp", progress=True)
+    lines = sys.stderr.getvalue().splitlines(keepends=True)
+    assert lines == [f"{share:3d} % drawing\n" for share in (20, 40, 60, 80, 100)]
+
+
 def test_a_film_takes_the_name_that_was_given(plane, tmp_path):
     from PIL import features
 
