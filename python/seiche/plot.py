@@ -132,14 +132,20 @@ def _named(result: _result.Result, field: str | None, dimension: int, caller: st
 
 
 def _energy_of_members(result: _ensemble.EnsembleResult, ax: "Axes", style: dict[str, _typing.Any]) -> None:
-    for name, label, dash in (("energy", "$H$", "-"), ("modified_energy", "modified energy", "--")):
-        statistics = result[name]
-        if statistics is None:
-            continue
-        line = _curves.add(ax, (result.t, statistics["mean"]), style, linestyle=dash, label=f"{label}, mean")
-        band = {"color": line.get_color(), "alpha": 0.2, "linewidth": 0}
-        if name == "energy":  # that of the modified energy would lie on it
-            ax.fill_between(result.t, statistics["q05"], statistics["q95"], label="$H$, 5 to 95 per cent", **band)
+    H, modified = result.energy, result.modified_energy
+    means = {"mean of $H$": (result.t, H["mean"])}
+    line = _curves.add(ax, means["mean of $H$"], style, label="mean of $H$")
+    if modified is not None:
+        means["mean of modified energy"] = (result.t, modified["mean"])
+        _curves.add(ax, means["mean of modified energy"], style, linestyle="--", label="mean of modified energy")
+    if not style:
+        _curves.nest(ax, _curves.coinciding(means), {name: name for name in means})
+    # That of the modified energy would lie on it.
+    band = {"color": line.get_color(), "alpha": 0.25, "linewidth": 0, "zorder": 1}
+    ax.fill_between(result.t, H["q05"], H["q95"], label="5 to 95 per cent of members", **band)
+    if all(_curves.falls_by_decades(H[name]) for name in ("q05", "mean", "q95")):
+        ax.set_yscale("log")
+        _curves.number_decades(ax.yaxis)
     ax.legend()
 
 

@@ -263,6 +263,8 @@ def test_the_energy_of_an_ensemble_is_its_mean_and_spread(wave):
     ax = seiche.plot.energy(e)
     assert np.array_equal(ax.lines[0].get_ydata(), e.energy["mean"])
     assert np.array_equal(ax.lines[1].get_ydata(), e.modified_energy["mean"])
+    wide, narrow = (line.get_linewidth() for line in ax.lines)
+    assert wide >= 2 * narrow, "they coincide, and both are seen"
     low, high = ax.collections[0].get_paths()[0].get_extents().get_points()[:, 1]
     assert low == e.energy["q05"].min() and high == e.energy["q95"].max()
     assert ax.get_title() == "klein_gordon, seisav, $h = 2^{-4}$: energy of 20 members, law holds"

@@ -99,7 +99,7 @@ def number_decades(axis: typing.Any) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def _falls_by_decades(values: np.ndarray) -> bool:
+def falls_by_decades(values: np.ndarray) -> bool:
     values = values[np.isfinite(values)]
     return bool(values.size and values.min() > 0 and values.max() >= 100 * values.min())
 
@@ -175,7 +175,7 @@ def energy(ax: "Axes", H: Curve, modified: Curve | None = None, given: Style = {
     if modified is not None:
         curves["the modified energy"] = (modified[0], modified[1] - shift)
         add(ax, curves["the modified energy"], given, linestyle="--", label="modified energy")
-    if not is_change and all(_falls_by_decades(y) for _, y in curves.values()):
+    if not is_change and all(falls_by_decades(y) for _, y in curves.values()):
         ax.set_yscale("log")
         number_decades(ax.yaxis)
     ax.set(xlabel="time $t$", ylabel=symbol if is_change else "energy $H$")
