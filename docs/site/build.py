@@ -2,9 +2,11 @@
 """Puts the pages together and makes the site: build.py PROGRAM
 
 Pages of docs/site and the other documents of docs/ go to build/docs_pages. The pages of the gallery are played
-(test/documentation/run_blocks.py), and their pictures drawn from what their runs left. The reference is asked of the program. Then
-mkdocs, Debian's version with a theme of its own, makes build/docs. Nothing is downloaded.
+(test/documentation/run_blocks.py), and their pictures drawn from what their runs left. At the same time tutorials are
+run as notebooks (notebooks.py), with the Python package that lies beside the program. The reference is asked of the
+program. Then mkdocs, Debian's version with a theme of its own, makes build/docs. Nothing is downloaded.
 """
+import concurrent.futures
 import html
 import pathlib
 import re
@@ -21,6 +23,7 @@ NO_ROWS = "# Verification: every row\n\n`make verify` writes the rows; it had no
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(SOURCE / "test/documentation"), str(SITE)]
 import check_site  # noqa: E402
+import notebooks  # noqa: E402
 import run_blocks  # noqa: E402
 
 
@@ -120,10 +123,34 @@ def show_files():
         page.write_text(re.sub(r"<!-- file: (\S+) -->\n", file_of, text), encoding="utf-8")
 
 
-def add_first_run(program):
+def add_notebook(name, program, package):
+    """Runs a tutorial as a notebook, beside the pages, and keeps the pictures that its page shows."""
+    page = SITE / f"tutorials/{name}.md"
     with tempfile.TemporaryDirectory() as work:
-        run = play(SITE / "tutorials/first_run.md", program, work) / "out/wave"
-        both_grounds(run, "space_time_u", PAGES / "tutorials/first_run.png")
+        folder = pathlib.Path(work) / name
+        try:
+            made = notebooks.run(page, program, package, folder)
+        except run_blocks.Mistake as mistake:
+            sys.exit(f"{page}, {mistake}")
+        (PAGES / f"notebooks/{name}.ipynb").write_text(made, encoding="utf-8")
+        for picture, drawn in notebooks.PICTURES.items():
+            if f"({picture})" in page.read_text(encoding="utf-8"):
+                both_grounds((folder / drawn).parents[1], pathlib.Path(drawn).stem, PAGES / "tutorials" / picture)
+
+
+def start_notebooks(program, pool):
+    """The runs of all notebooks, which have begun, and links to them on their pages."""
+    package = program.parent / "python"
+    names = [name for name in notebooks.TUTORIALS
+             if run_blocks.has_package(package) or not notebooks.imports_seiche(SITE / f"tutorials/{name}.md")]
+    if len(names) < len(notebooks.TUTORIALS):
+        print(f"notebooks: {', '.join(names)} alone, since the others need the Python package (make python)", flush=True)
+    (PAGES / "notebooks").mkdir()
+    for name in names:
+        page = PAGES / f"tutorials/{name}.md"
+        link = f'[Download this page as a notebook](../notebooks/{name}.ipynb){{ .notebook download="" }}'
+        page.write_text(page.read_text(encoding="utf-8").replace("\n", f"\n\n{link}\n", 1), encoding="utf-8")
+    return [pool.submit(add_notebook, name, program, package) for name in names]
 
 
 def add_project():
@@ -147,8 +174,11 @@ def main():
     show_files()
     add_project()
     subprocess.run([sys.executable, SITE / "reference.py", program, PAGES / "reference"], check=True)
-    add_first_run(program)
-    add_gallery(program)
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        runs = start_notebooks(program, pool)
+        add_gallery(program)
+    for run in runs:
+        run.result()
     switch_pictures(PAGES)
     if subprocess.run(["mkdocs", "build", "--clean", "-q", "-f", SOURCE / "docs/mkdocs.yml"]).returncode != 0:
         sys.exit(1)  # it has said what is wrong

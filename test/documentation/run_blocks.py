@@ -100,18 +100,30 @@ def first_difference(shown, printed):
     return agree + 1, line
 
 
-def write_file(block, directory):
-    first = block.text.split("\n", 1)[0]
-    named = re.match(r"#\s*([\w.-]+\.toml)\b", first)
+def file_of(block):
+    """The name of the file that a toml block is."""
+    named = re.match(r"#\s*([\w.-]+\.toml)\b", block.text)
     if not named:
         raise Mistake("a toml block begins with the name of its file, as in  # wave.toml")
-    (directory / named.group(1)).write_text(block.text, encoding="utf-8")
+    return named.group(1)
+
+
+def is_make(block):
+    """Whether a sh block has commands of `make` alone."""
+    lines = [line for line in block.text.splitlines() if line.strip()]
+    return bool(lines) and all(line.startswith("make ") for line in lines)
+
+
+def compare(block, printed):
+    """A text block with what was printed."""
+    _, line = first_difference(block.text.splitlines(), printed.splitlines())
+    if line is not None:
+        raise Mistake(f"not printed:\n{line}\nbut this was:\n{printed}")
 
 
 def run_shell(block, directory, environment):
-    lines = [line for line in block.text.splitlines() if line.strip()]
-    if lines and all(line.startswith("make ") for line in lines):
-        for line in lines:
+    if is_make(block):
+        for line in filter(str.strip, block.text.splitlines()):
             done = subprocess.run(["bash", "-c", line.split("#")[0].replace("make ", "make -n ", 1)], cwd=SOURCE, text=True,
                                   env=environment, capture_output=True)
             if done.returncode:
@@ -150,17 +162,22 @@ def check_program(block):
         raise Mistake("this is not the text of a file in examples/ or test/package/, so nothing compiles it")
 
 
+def environment_in(directory, program):
+    """The environment of commands in this folder, with the program on their PATH."""
+    path = directory / ".bin"
+    path.mkdir(parents=True)
+    (path / "seiche").symlink_to(pathlib.Path(program).resolve())
+    return {**os.environ, "PATH": f"{path}:{os.environ['PATH']}", "NO_COLOR": "1", "LC_ALL": "C.UTF-8"}
+
+
 def play(page, program, directory, package=None):
     """Runs the blocks of a page in a directory, and says how many and how many were left out; throws Mistake with the line."""
     directory = pathlib.Path(directory)
-    path = directory / ".bin"
-    path.mkdir(parents=True)
+    environment = environment_in(directory, program)
     built = directory / "build/release"  # where README.md calls it
     built.mkdir(parents=True)
-    for place in (path, built):
-        (place / "seiche").symlink_to(pathlib.Path(program).resolve())
+    (built / "seiche").symlink_to(pathlib.Path(program).resolve())
     (directory / "cases").symlink_to(SOURCE / "cases")
-    environment = {**os.environ, "PATH": f"{path}:{os.environ['PATH']}", "NO_COLOR": "1", "LC_ALL": "C.UTF-8"}
     printed, left_out = {}, set()
     text = pathlib.Path(page).read_text(encoding="utf-8")
     for shown in re.findall(r"<!-- file: (\S+) -->", text):  # which the site shows there
@@ -170,7 +187,7 @@ def play(page, program, directory, package=None):
     for index, block in enumerate(blocks):
         try:
             if block.language == "toml":
-                write_file(block, directory)
+                (directory / file_of(block)).write_text(block.text, encoding="utf-8")
             elif block.language == "sh":
                 printed[index] = run_shell(block, directory, environment)
             elif block.language == "python":
@@ -188,9 +205,7 @@ def play(page, program, directory, package=None):
             elif printed.get(block.follows) is None:
                 raise Mistake("no sh or python block just before it that would print this")
             else:
-                _, line = first_difference(block.text.splitlines(), printed[block.follows].splitlines())
-                if line is not None:
-                    raise Mistake(f"not printed:\n{line}\nbut this was:\n{printed[block.follows]}")
+                compare(block, printed[block.follows])
         except Mistake as mistake:
             raise Mistake(f"line {block.line}: {mistake}") from None
     return len(blocks) - len(left_out), len(left_out)

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """The test of the documentation sees what it should: a wrong digit, a missing line, a block that nothing runs. And the site has
 its pictures for light and for dark ground."""
+import importlib.util
+import json
 import math
 import pathlib
 import re
@@ -21,6 +23,7 @@ sys.path[:0] = [str(SITE), str(SITE / "gallery")]
 import build  # noqa: E402
 import check_site  # noqa: E402
 import hooks  # noqa: E402
+import notebooks  # noqa: E402
 import reference  # noqa: E402
 
 
@@ -148,6 +151,58 @@ class Site(unittest.TestCase):
         self.assertEqual(reference.tex("u_tt − βu_xxt + ∂_x(σu^{k+1}) = 0, periodic"),
                          r"u_{tt} − βu_{xxt} + ∂_x(σu^{k+1}) = 0, \text{ periodic }")
         self.assertEqual(reference.tex("ż = q̈ + α sin u"), r"\dot z = \ddot q + α \sin u")
+
+
+class Notebooks(unittest.TestCase):
+    def setUp(self):
+        if any(importlib.util.find_spec(name) is None for name in ("nbconvert", "ipykernel")):
+            self.skipTest("nbconvert or ipykernel is not installed")
+
+    def run_page(self, text):
+        """Cells of the notebook of a page."""
+        with tempfile.TemporaryDirectory() as directory:
+            page = pathlib.Path(directory) / "page.md"
+            page.write_text(text, encoding="utf-8")
+            return json.loads(notebooks.run(page, "/bin/true", directory, pathlib.Path(directory) / "work"))["cells"]
+
+    def test_every_block_of_a_page_is_in_its_notebook_in_order(self):
+        for name in notebooks.TUTORIALS:
+            text = (SITE / f"tutorials/{name}.md").read_text(encoding="utf-8")
+            notebook, origins = notebooks.of_page(text)
+            sources, at, shown = [cell.source for cell in notebook.cells], 0, 0
+            for block in run_blocks.blocks_of(text):
+                if block.language == "text":
+                    shown += 1
+                    continue
+                while block.text.strip("\n") not in sources[at]:
+                    at += 1
+                    self.assertLess(at, len(sources), f"{name}, line {block.line}: not in the notebook, or not in order")
+            self.assertEqual(sum(printed is not None for _, printed in origins), shown, name)
+            self.assertNotRegex("".join(sources), r"\]\(\.|\.md\)|" + re.escape(str(run_blocks.SOURCE)))
+
+    def test_cells_run_and_leave_what_they_print(self):
+        cells = self.run_page("# Title\n\nA [page](x.md) with $x$.\n\n```toml\n# a.toml\nh = 1\n```\n\n```sh\nseiche; cat a.toml\necho no >&2\n"
+                              "```\n\n```text\n# a.toml\nh = 1\nno\n```\n\n```sh\nmake help\n```\n\n```python\nprint(6 * 7)\n```\n")
+        self.assertEqual([cell["cell_type"] for cell in cells], ["markdown", "code", "code", "markdown", "code"])
+        self.assertIn("A page with $x$.", "".join(cells[0]["source"]))
+        self.assertIn("make help", "".join(cells[3]["source"]))
+        self.assertEqual(cells[4]["outputs"], [{"name": "stdout", "output_type": "stream", "text": ["42\n"]}])
+        self.assertTrue(all(cell["metadata"] == {} for cell in cells), "no times")
+
+    def test_a_cell_that_fails_ends_the_build(self):
+        with self.assertRaisesRegex(run_blocks.Mistake, "^line 7: a cell of the notebook fails: said$"):
+            self.run_page("# Title\n\n```python\nx = 1\n```\n\n```sh\necho said >&2; false | cat\necho after\n```\n")
+
+    def test_a_cell_that_prints_something_else_ends_the_build(self):
+        def said(source, shown=None, printed="", **error):
+            outputs = [{"output_type": "stream", "text": printed}] + ([{"output_type": "error", **error}] if error else [])
+            with self.assertRaises(run_blocks.Mistake) as caught:
+                notebooks.check(source, outputs, run_blocks.Block("sh", 7, source), shown, ["/work"])
+            return str(caught.exception)
+
+        self.assertEqual(said("x", ename="NameError", evalue="no x"), "line 7: a cell of the notebook fails: NameError: no x")
+        self.assertRegex(said("pwd", printed="/work/here"), "^line 7: .* prints a path of this machine: /work/here$")
+        self.assertEqual(said("echo 5", run_blocks.Block("text", 11, "6\n"), "5\n"), "line 11: not printed:\n6\nbut this was:\n5\n")
 
 
 class Grounds(unittest.TestCase):
