@@ -106,6 +106,14 @@ def methods(program):
             + table(["name", "order", "law", "closure", "propagator", "composition", "projection", "source"], rows))
 
 
+OF_THE_PAPER = {
+    "klein_gordon": " `paper` is $u = \\tanh(\\sqrt2\\,x)/\\sqrt5$, $v = -3\\sqrt2/(10\\sqrt5)\\,\\operatorname{sech}^2(\\sqrt2\\,x)$, "
+                    "which jumps where a periodic grid closes, so that $H\\Delta x$ grows with the number of points.",
+    "alpha_fpu": " `paper` is a function of the grid index, which does not meet $u = 0$ at the right end.",
+    "gkdv": " `paper` is $u = 0.4\\,e^{-(x - L/2)^2/2}$.",
+}
+
+
 def problems(program):
     text = "# Problems\n\n`problem.name = …`. `seiche new NAME` prints a case file with these keys.\n\n"
     for problem in json.loads(ask(program, "list", "problems", "--json")):
@@ -114,7 +122,7 @@ def problems(program):
         text += f"## {problem['title'] or 'Your own'}: `{problem['name']}`\n\n$$\n{tex(problem['equation'])}\n$$\n\n"
         text += f"Source: {problem['reference']}. "
         text += f"Fields {', '.join(map(code, problem['fields']))}; "
-        text += f"initial states {', '.join(map(code, problem['initial']))}, a file, or formulas.\n\n"
+        text += f"initial states {', '.join(map(code, problem['initial']))}, a file, or formulas.{OF_THE_PAPER.get(problem['name'], '')}\n\n"
         if problem["name"] == "custom":  # its comments go on from line to line
             section = re.search(r"\[problem\].*?(?=\n# friction)", case, re.DOTALL).group()
             text += CUSTOM + "```toml\n" + section + "\n```\n\n"
