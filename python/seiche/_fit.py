@@ -59,28 +59,17 @@ class FitResult(Answer):
     """
 
     def plot(self, axes: "matplotlib.axes.Axes | None" = None, record: int = 0) -> "matplotlib.axes.Axes":
-        """The measurements, the solution and its band of two standard deviations."""
-        if axes is None:
-            import matplotlib.pyplot
+        """The measurements, the solution and its band of two standard deviations; in a figure of its own residuals below."""
+        from . import plot
 
-            _, axes = matplotlib.pyplot.subplots(layout="constrained")
-        one = self._records[record]
-        rows = zip(one.data, one.observe(self.results[record]), np.atleast_2d(self._bands[record]))
-        for k, (data, fitted, wide) in enumerate(rows):
-            axes.plot(one.t, data, ".", color=f"C{k}", markersize=3, label="measured" if k == 0 else None)
-            axes.plot(one.t, fitted, color=f"C{k}", label="fitted" if k == 0 else None)
-            axes.fill_between(one.t, fitted - 2 * wide, fitted + 2 * wide, color=f"C{k}", alpha=0.3, linewidth=0)
-        axes.set_xlabel("time t")
-        axes.set_ylabel(one.name)
-        axes.legend()
-        return axes
+        return plot._fit(self, record, axes)
+
+    def _values(self) -> dict[str, str]:
+        return {name: _with_error(value, self["std"][name]) for name, value in self["parameters"].items()}
 
     def __repr__(self) -> str:
         width = max(map(len, self["parameters"]))
-        lines = [
-            f"{name:<{width}} = {_with_error(value, self['std'][name])}" for name, value in self["parameters"].items()
-        ]
-        return "\n".join([*lines, self["message"]])
+        return "\n".join([*(f"{name:<{width}} = {text}" for name, text in self._values().items()), self["message"]])
 
 
 def _with_error(value: float, std: float) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math as _math
 import os as _os
 import pathlib as _pathlib
+import re as _re
 import sys as _sys
 import typing as _typing
 
@@ -65,7 +66,7 @@ def _size(h: float | None, tolerance: float | None) -> str:
     if h is None:
         return ""
     mantissa, exponent = _math.frexp(h)
-    return f"$h = 2^{{{exponent - 1}}}$" if mantissa == 0.5 else f"$h$ = {h:g}"
+    return f"$h$ = $2^{{{exponent - 1}}}$" if mantissa == 0.5 else f"$h$ = {h:g}"
 
 
 def _heading(result: _result.Result | _ensemble.EnsembleResult, size: _typing.Callable[..., str]) -> str:
@@ -78,6 +79,24 @@ def _heading(result: _result.Result | _ensemble.EnsembleResult, size: _typing.Ca
 
 def _title(result: _result.Result | _ensemble.EnsembleResult, what: str) -> str:
     return "\n".join(filter(None, (f"{_heading(result, _size)}: {what}", _shortfall(result))))
+
+
+def _entitle(ax: "Axes", result: _result.Result | _ensemble.EnsembleResult, what: str) -> None:
+    ax.set_title(_in_lines(ax.figure, _title(result, what)))
+
+
+def _in_lines(figure: _typing.Any, text: str) -> str:
+    """A title on as many lines as a narrow figure needs: layouts make no room for those of Matplotlib's own wrapping."""
+    from matplotlib import font_manager, rcParams
+
+    size = font_manager.FontProperties(size=rcParams["axes.titlesize"]).get_size_in_points()
+    most = 72 * (figure.get_figwidth() - 0.7) / (0.52 * size)  # letters, above axes that stand beside the middle
+    lines = [""]
+    for word in _re.split(r"( |\n)", text):
+        if word == "\n" or len(_re.sub(r"[${}^\\]", "", lines[-1] + word)) > most:
+            lines.append("")
+        lines[-1] += word.strip() if not lines[-1] else word
+    return "\n".join(line.rstrip() for line in lines)
 
 
 def _shortfall(result: _result.Result | _ensemble.EnsembleResult) -> str:
@@ -158,11 +177,12 @@ def energy(result: _result.Result | _ensemble.EnsembleResult, ax: "Axes | None" 
         _energy_of_members(result, ax, style)
         members, held = len(result.law), result.law.count("holds")
         law = "law holds" if held == members else f"law holds for {held}"
-        ax.set(xlabel="time $t$", ylabel="energy $H$", title=_title(result, f"energy of {members} members, {law}"))
+        ax.set(xlabel="time $t$", ylabel="energy $H$")
+        _entitle(ax, result, f"energy of {members} members, {law}")
         return ax
     modified = result.modified_energy
     _curves.energy(ax, (result.t, result.energy), None if modified is None else (result.t, modified), style)
-    ax.set(title=_title(result, f"energy, law {result.law}"))
+    _entitle(ax, result, f"energy, law {result.law}")
     return ax
 
 
@@ -176,8 +196,7 @@ def space_time(
     place = result.problem._core.layout["axes"][0][0]
     axis = place, result.problem.axes[0]
     _maps.space_time(ax, result.t, axis, values, _colours.scale_of([values]), _label(result, name), style)
-    what = f"{_names.symbol(name)} in space and time"
-    ax.set(title=_title(result, what))
+    _entitle(ax, result, f"{_names.symbol(name)} in space and time")
     return ax
 
 
@@ -212,8 +231,28 @@ def slices(
     _maps.planes(
         axes, list(values[times]), [(x, y)] * len(times), scales, _label(result, name), _names.symbol(name), style
     )
-    axes[0].figure.suptitle(_title(result, f"{_names.symbol(name)} at some times"))
+    axes[0].figure.suptitle(_in_lines(axes[0].figure, _title(result, f"{_names.symbol(name)} at some times")))
     return _np.asarray(axes)
+
+
+def _fit(found: _typing.Any, record: int, ax: "Axes | None") -> "Axes":
+    """What FitResult.plot draws: one record, and below it in a figure of its own the residuals."""
+    one, result, below = found._records[record], found.results[record], None
+    if ax is None:
+        import matplotlib.pyplot as plt
+
+        shares = {"height_ratios": (3, 1)}
+        ax, below = plt.subplots(2, 1, sharex=True, layout="constrained", gridspec_kw=shares)[1]
+    rows = one.data, one.observe(result), _np.atleast_2d(found._bands[record])
+    _curves.fitted(ax, one.t, *rows)
+    ax.set_ylabel(one.name if one.function is not None else _label(result, one.name))
+    values = ", ".join(f"{_names.symbol(name)} = {text}" for name, text in found._values().items())
+    _entitle(ax, result, f"fit, {values}" if len(values) < 60 else f"fit of {len(found.parameters)} parameters")
+    lowest = ax if below is None else below
+    if below is not None:
+        _curves.residuals(below, one.t, (one.data - rows[1]) / _np.atleast_2d(found.sigma[record]))
+    lowest.set_xlabel("time $t$")
+    return ax
 
 
 def profiles(result: _result.Result, field: str | None = None, count: int = 5, ax: "Axes | None" = None) -> "Axes":
@@ -222,7 +261,7 @@ def profiles(result: _result.Result, field: str | None = None, count: int = 5, a
     held, times = _Held(result), _curves.spread(len(result.t), _problem.whole_number("count", count))
     ax = _axes(ax)
     _curves.profiles(ax, result.t[times], held.axes[0], held.field(name, times))
-    ax.set(title=_title(result, f"{_names.symbol(name)} at some times"))
+    _entitle(ax, result, f"{_names.symbol(name)} at some times")
     return ax
 
 
@@ -241,7 +280,7 @@ def planes(
         figure = plt.figure(figsize=(6.4, 6.4 * picture.height))
     before = len(figure.axes)
     picture.draw(figure)
-    figure.suptitle(_title(result, picture.what))
+    figure.suptitle(_in_lines(figure, _title(result, picture.what)))
     return _np.asarray(figure.axes[before : before + 6])
 
 
@@ -348,7 +387,7 @@ def phase_portrait(
     ax = _axes(ax)
     meanings = {name: meaning for name, (_, meaning) in zip(fields, result.problem._core.layout["fields"])}
     _curves.portrait(ax, _curves.Field(x, meanings[x], across), _curves.Field(y, meanings[y], up), style)
-    ax.set(title=_title(result, "phase portrait"))
+    _entitle(ax, result, "phase portrait")
     return ax
 
 
@@ -374,7 +413,9 @@ def spectrum(
     ax.plot(of["numerical_frequency"], of["numerical_decay"], ".", color=colour, label=study["method"])
     ax.update_datalim([(of["exact_frequency"][0], 0.0)])  # or round-off would fill the axis
     ax.autoscale_view()
-    ax.set(xlabel="frequency", ylabel="decay rate", title=f"{study['problem']}, h = {study['h']:.4g}")
+    ax.set(xlabel="frequency", ylabel="decay rate")
+    size = _size(study["h"], None)
+    ax.set_title(_in_lines(ax.figure, f"{study['problem']}, {study['method']}, {size}: decay of the modes"))
     ax.legend()
     return ax
 
@@ -388,12 +429,16 @@ def work_precision(
     **options: _typing.Any,
 ) -> "Axes":
     """The error of methods at several step sizes over the CPU time it took, against a tight reference."""
-    rows = _studies.converge(problem, methods, h, t_end, **options)["rows"]
+    study = _studies.converge(problem, methods, h, t_end, **options)
+    rows = study["rows"]
     ax = _axes(ax)
     for method in dict.fromkeys(row["method"] for row in rows):
         mine = [row for row in rows if row["method"] == method and row["error"] and row["cpu_seconds"]]
         x, y = ([row[key] for row in mine] for key in ("cpu_seconds", "error"))
         ax.loglog(x, y, **_styles.of_method(ax, method), label=method)
+    for axis in (ax.xaxis, ax.yaxis):
+        _curves.number_decades(axis)
     ax.set(xlabel="CPU time in seconds", ylabel="error (max norm)")
+    ax.set_title(_in_lines(ax.figure, f"{study['problem']}: work and precision"))
     ax.legend()
     return ax

@@ -344,6 +344,13 @@ def test_zeros_stand_on_a_line_below_all_other_values_and_the_rest_is_left_out()
             figure.canvas.draw()
 
 
+def test_round_off_does_not_fill_an_axis():
+    for values, low, high in ((0.05 + 1e-16 * np.arange(4), 0, 0.055), (-1 - 1e-15 * np.arange(4), -1.1, 0)):
+        ax = plt.figure().subplots()
+        curve_pictures.draw(ax, described({"a": (H, values)}, y_log=False, slope=False))
+        assert ax.get_ylim() == pytest.approx((low, high))
+
+
 def test_curves_that_hide_one_another_are_told_apart_and_named():
     ax = plt.figure().subplots()
     curves_of = {"a": (H, 3 * H**2), "b, c": (H, 1.01 * H**2), "d": (H, H**2)}

@@ -71,7 +71,9 @@ def test_a_phase_portrait_shows_its_states_where_they_are_few():
     assert line(25) == (".", "-")
     assert line(6) == (".", "None")
     several = seiche.solve(oscillator(points=3), 1.0, h=0.125)
-    assert len(seiche.plot.phase_portrait(several).lines) == 9
+    ax = seiche.plot.phase_portrait(several)
+    assert len(ax.lines) == 9
+    assert ax.get_legend_handles_labels()[1] == ["point 1", "point 2", "point 3", "start", "end"]
     assert len(seiche.plot.phase_portrait(several, "p", "q", point=2).lines) == 3
     with pytest.raises(ValueError, match="there is no point 3"):
         seiche.plot.phase_portrait(several, point=3)
@@ -101,6 +103,25 @@ def test_the_axis_of_a_ring_has_ticks_at_its_masses_alone(points):
         low, high = axis.get_view_interval()
         ticks = [tick for tick in axis.get_majorticklocs() if low <= tick <= high]
         assert len(ticks) > 2 and set(ticks) <= set(range(1, points + 1))
+
+
+@pytest.mark.parametrize("points", [1, 3])
+def test_a_fit_shows_residuals_and_its_legend_covers_no_curve(points):
+    pytest.importorskip("scipy")
+    t, noise = np.linspace(0.5, 10, 40), 0.03 * np.random.default_rng(1).standard_normal((points, 40))
+    swings = oscillator(points=points, gamma=0.2)
+    found = seiche.fit(swings, t, seiche.solve(swings, 10.0, h=0.05, t_eval=t).field("q").T + noise, {"gamma": (0.3, 0, 1)})
+    ax = found.plot()
+    assert ax.get_ylabel() == "displacement $q$" and r"fit, $\gamma$ = 0." in ax.get_title()
+    below = ax.figure.axes[1]
+    assert below.get_xlabel() == "time $t$" and below.get_ylabel() == "residual / σ"
+    shown = np.array([line.get_ydata() for line in below.lines[:points]])
+    assert np.allclose(shown, np.atleast_2d(found.residuals[0] / found.sigma[0]))
+    assert ax.lines[0].get_color() == style.CURVES[0] and ax.lines[1].get_color() == style.CURVES[0]
+    ax.figure.canvas.draw()
+    legend = ax.transData.inverted().transform(ax.get_legend().get_window_extent())[0, 1]
+    assert legend > max(line.get_ydata().max() for line in ax.lines)
+    assert len(found.plot(plt.figure().subplots()).figure.axes) == 1
 
 
 def test_planes_go_through_the_middle_of_a_result_in_space():
@@ -267,7 +288,7 @@ def test_the_energy_of_an_ensemble_is_its_mean_and_spread(wave):
     assert wide >= 2 * narrow, "they coincide, and both are seen"
     low, high = ax.collections[0].get_paths()[0].get_extents().get_points()[:, 1]
     assert low == e.energy["q05"].min() and high == e.energy["q95"].max()
-    assert ax.get_title() == "klein_gordon, seisav, $h = 2^{-4}$: energy of 20 members, law holds"
+    assert ax.get_title() == "klein_gordon, seisav, $h$ = $2^{-4}$: energy of 20 members, law holds"
     for draw in (seiche.plot.space_time, seiche.plot.slices, seiche.plot.phase_portrait):
         with pytest.raises(ValueError, match=f"^{draw.__name__} draws one run, and an ensemble keeps the last states alone"):
             draw(e)
@@ -304,6 +325,24 @@ def test_below_the_title_stands_what_a_run_falls_short_of(wave):
     assert title(members)[1] == "1 of 2 members failed"
 
 
+def test_a_narrow_figure_has_room_for_titles_and_for_the_numbers_of_its_axes(wave):
+    def narrow():
+        return plt.figure(figsize=(3, 2.4), layout="constrained")
+
+    r, figures = seiche.solve(wave, 1.0, h=0.0625), [narrow() for _ in range(3)]
+    seiche.plot.energy(r, figures[0].subplots())
+    seiche.plot.spectrum(wave, "seisav", 0.1, ax=figures[1].subplots())
+    work = seiche.plot.work_precision("oscillator", ["seisav", "egc4"], [0.1, 0.05], 1.0, ax=figures[2].subplots())
+    for figure in figures:
+        figure.canvas.draw()
+        title = figure.axes[0].title.get_window_extent()
+        assert figure.axes[0].get_title() and title.x0 >= 0 and title.x1 <= figure.bbox.x1 and title.y1 <= figure.bbox.y1
+    low, high = work.get_xlim()
+    shown = [tick.label1.get_window_extent() for tick in work.xaxis.get_major_ticks() if low <= tick.get_loc() <= high]
+    assert shown and all(a.x1 < b.x0 for a, b in zip(shown, shown[1:]))
+    assert not any(tick.label1.get_text() for tick in work.xaxis.get_minor_ticks())
+
+
 def test_titles_are_those_of_the_program(tmp_path):
     case = tmp_path / "swing.toml"
     case.write_text(
@@ -311,7 +350,7 @@ def test_titles_are_those_of_the_program(tmp_path):
         'initial = { theta = "1", p1 = "0" }\n[method]\nh = 0.125\n[time]\nend = 2\n'
     )
     r = seiche.solve(seiche.load(case))
-    assert seiche.plot.energy(r).get_title() == f"swing, seisav, $h = 2^{{-3}}$: energy, law {r.law}"
+    assert seiche.plot.energy(r).get_title() == f"swing, seisav, $h$ = $2^{{-3}}$: energy, law {r.law}"
     ax = seiche.plot.phase_portrait(r)
     assert (ax.get_xlabel(), ax.get_ylabel()) == (r"$\theta$", "$p_{1}$")
     by_tolerance = seiche.solve(seiche.load(case), method="egc6", tolerance=1e-6)

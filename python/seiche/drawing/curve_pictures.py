@@ -78,6 +78,13 @@ def _zeros_on_a_line(ax: "Axes", points: list[curves.Curve]) -> bool:
     return True
 
 
+def _from_zero(ax: "Axes") -> None:
+    """Shows zero too where values differ by round-off alone, which would fill the axis."""
+    low, high = ax.dataLim.intervaly
+    if 0 < high - low < 1e-9 * max(abs(low), abs(high)):
+        ax.set_ylim(min(0.0, 1.1 * low), max(0.0, 1.1 * high))
+
+
 def draw(ax: "Axes", picture: Description) -> str:
     """Returns what the caption has to say beyond."""
     drawn = [(series, *_shown(picture, series)) for series in picture["series"]]
@@ -118,6 +125,8 @@ def draw(ax: "Axes", picture: Description) -> str:
         curves.number_decades(ax.xaxis)
     if ax.get_yscale() == "log":
         curves.number_decades(ax.yaxis)
+    else:
+        _from_zero(ax)
     ax.set(xlabel=picture["x"]["label"], ylabel=picture["y"]["label"])
     if picture["x"]["log"]:
         ax.margins(x=0.05)

@@ -234,6 +234,31 @@ def over_time(ax: "Axes", t: np.ndarray, fields: typing.Sequence[Field]) -> None
     legend(ax)
 
 
+def fitted(ax: "Axes", t: np.ndarray, data: np.ndarray, fit: np.ndarray, std: np.ndarray) -> None:
+    """Measurements as dots, what was fitted as lines in a band of two standard deviations; one row for each point."""
+    few = 1 < len(data) <= FEW_POINTS
+    for k, (measured, line, wide) in enumerate(zip(data, fit, 2 * std)):
+        first = {name: name if k == 0 else None for name in ("measured", "fitted", "± 2 standard deviations")}
+        colour = style.on_ground(ax, style.CURVES[k % len(style.CURVES)])
+        ax.plot(t, measured, "o", mfc="none", markersize=3, color=colour, label=first["measured"])
+        ax.plot(t, line, color=colour, label=f"fitted, point {k + 1}" if few else first["fitted"])
+        band = {"color": colour, "alpha": 0.3, "linewidth": 0, "label": first["± 2 standard deviations"]}
+        ax.fill_between(t, line - wide, line + wide, **band)
+    low, high = ax.get_ylim()
+    ax.set_ylim(top=high + (0.28 if few else 0.17) * (high - low))  # room for the legend above all curves
+    ax.legend(loc="upper center", ncols=3, columnspacing=1.2)
+
+
+def residuals(ax: "Axes", t: np.ndarray, weighted: np.ndarray) -> None:
+    """Measurement minus solution in standard deviations, with lines at two of them."""
+    for k, row in enumerate(weighted):
+        ax.plot(t, row, "o", mfc="none", markersize=3, color=style.on_ground(ax, style.CURVES[k % len(style.CURVES)]))
+    for level, width in ((-2, 0.5), (0, 0.8), (2, 0.5)):
+        ax.axhline(level, color=style.on_ground(ax, "#000000"), linewidth=width, zorder=1)
+    most = max(3.0, 1.1 * float(np.abs(weighted).max(initial=0)))
+    ax.set(ylabel="residual / σ", ylim=(-most, most), yticks=(-2, 0, 2))
+
+
 def profiles(ax: "Axes", t: np.ndarray, axis: tuple[str, np.ndarray], field: Field) -> None:
     """A field along a line at some times, in a sequence of colours; numbered points are dots on a thin line."""
     is_dotted = are_numbered(*axis) and len(axis[1]) <= 200
@@ -277,9 +302,9 @@ def portrait(ax: "Axes", across: Field, up: Field, given: Style = {}) -> str:
     ink = style.on_ground(ax, "#000000")
     for place, (a, b) in enumerate(pairs):
         add(ax, (a, b), given, **dots, **({"label": f"point {place + 1}"} if 1 < len(pairs) <= FEW_POINTS else {}))
-        ends = {"label": "start"}, {"label": "end"}
-        ax.plot(a[0], b[0], "o", mfc="none", color=ink, **(ends[0] if place == 0 else {}))
-        ax.plot(a[-1], b[-1], "s", color=ink, **(ends[1] if place == 0 else {}))
+        start, end = ("start", "end") if place == len(pairs) - 1 else (None, None)  # below the points in the legend
+        ax.plot(a[0], b[0], "o", mfc="none", color=ink, label=start)
+        ax.plot(a[-1], b[-1], "s", color=ink, label=end)
     ax.set(xlabel=across.label, ylabel=up.label)
     ax.margins(0.05)
     legend(ax)
