@@ -5,6 +5,7 @@
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/problems.hpp>
 
 #include <fmt/format.h>
 
@@ -130,6 +131,7 @@ ExampleStudy study_example(const PaperExample& example, const ExampleOptions& op
   ExampleEvidence& evidence = study.evidence;
   evidence.key = result.key = example.key;
   result.title = example.title;
+  result.equation = find_problem(example.problem.name).equation;
   result.parameters = example.parameters;
   result.t_end = example.t_end;
   result.step_sizes = example.step_sizes;

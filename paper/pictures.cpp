@@ -97,6 +97,8 @@ std::vector<Series> series_of_curves(const std::vector<Curve>& curves) {
 std::string axis_label(const std::string& words) {
   if (words == "time step h") return step_label;
   if (words == "t") return time_label;
+  if (words == "maximal error") return error_label;
+  if (words == "maximal energy error") return R"($\max_n\,|H(z^n) - H(z(t_n))|$)";
   std::string text;
   for (const char c : words) text += c == '$' ? std::string("\\$") : std::string(1, c);
   return text;

@@ -2,7 +2,9 @@
 #include <paper/report.hpp>
 #include <paper/report_tables.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/core/text/characters.hpp>
 #include <seiche/figure/html.hpp>
+#include <seiche/figure/mathml.hpp>
 #include <seiche/figure/report_figure.hpp>
 #include <seiche/figure/report_style.hpp>
 #include <seiche/output/file/atomic_file.hpp>
@@ -34,6 +36,23 @@ std::string plural(std::size_t count, const char* thing) {
 std::size_t count_of(const PaperResults& results, Outcome outcome) {
   return static_cast<std::size_t>(std::count_if(results.verdicts.begin(), results.verdicts.end(),
                                                 [&](const Verdict& verdict) { return verdict.outcome == outcome; }));
+}
+
+std::string formula(std::string_view text) { return mathml(text, Notation::printed); }
+
+// "L = 2, ω² = 0.2, …; SAV constant C automatic": what equals a number, as formulas.
+std::string typeset_parameters(std::string_view text) {
+  std::string html;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(",;("), text.size());
+    const std::string_view part = text.substr(0, end);
+    const bool is_formula = part.find(" = ") != std::string_view::npos && part.find(" with ") == std::string_view::npos;
+    html += is_formula ? (part.starts_with(' ') ? " " : "") + formula(trimmed(part)) + (part.ends_with(' ') ? " " : "")
+                       : html_escaped(std::string(part));
+    html += text.substr(end, 1);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return html;
 }
 
 // A link to each of the files that is there.
@@ -125,8 +144,10 @@ double smallest_error(const ExampleResult& example) {
 std::string how_measured(const PaperResults& results) {
   std::string text =
       "<h2 id=\"measured\">How this was measured</h2>\n<ul class=\"text\">\n"
-      "<li>The error of a run is max<sub>n</sub> ‖zⁿ − z(tₙ)‖<sub>∞</sub> over all its steps, the energy error "
-      "max<sub>n</sub> |H(zⁿ) − H(z(tₙ))|, with z(t) from the reference below.</li>\n"
+      "<li>The error of a run is " +
+      formula("max_n ‖zⁿ − z(t_n)‖_∞") + " over all its steps, the energy error " +
+      formula("max_n |H(zⁿ) − H(z(t_n))|") + ", with " + formula("z(t)") +
+      " from the reference below.</li>\n"
       "<li>The order compares the error with that at the next larger time step of the same method.</li>\n"
       "<li>CPU time is that of the time stepping alone: the median of repeated runs after a warm-up, in which the methods "
       "take turns. Ratios between methods carry over to other machines far better than the times themselves.</li>\n"
@@ -144,9 +165,10 @@ std::string how_measured(const PaperResults& results) {
 }
 
 std::string example_section(const Page& page, const ExampleResult& example) {
-  std::string text =
-      fmt::format("<h2 id=\"{}\">{}</h2>\n<p class=\"parameters\">{}</p>\n<div class=\"pictures\">\n",
-                  html_escaped(example.key), html_escaped(example.title), html_escaped(example.parameters));
+  std::string text = fmt::format(
+      "<h2 id=\"{}\">{}</h2>\n<p class=\"equation\">{}</p>\n<p class=\"parameters\">{}</p>\n<div class=\"pictures\">\n",
+      html_escaped(example.key), html_escaped(example.title), formula(example.equation),
+      typeset_parameters(example.parameters));
   for (const CurvePicture& picture : example_pictures(example, page.results.quick)) text += figure(page, picture.stem);
   if (example.key == "alpha_fpu_dissipative") {
     if (const auto picture = formulations_picture(page.results)) text += figure(page, picture->stem);

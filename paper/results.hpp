@@ -12,6 +12,7 @@ namespace seiche {
 struct ExampleResult {
   std::string key;         // file-name stem: "klein_gordon", "alpha_fpu_conservative", …
   std::string title;       // "Example 1: damped nonlinear Klein–Gordon equation"
+  std::string equation;    // "u_tt + γu_t − κΔu + ω²u + αu³ = 0"
   std::string parameters;  // one line
   double t_end = 0.0;
   std::vector<std::string> methods;  // in the order of legends
