@@ -65,6 +65,7 @@ std::mutex& algebra_mutex() {
 // CLN may serve others than this library, on other threads: their numbers are not bounded, and the hook that stood
 // there comes back.
 thread_local bool numbers_are_bounded = false;
+thread_local double work = 0;  // products of machine words, as many as a multiplication of each number takes
 void* (*allocate)(std::size_t) = nullptr;
 
 }  // namespace
@@ -74,9 +75,14 @@ AlgebraLock::AlgebraLock() : lock_(algebra_mutex()) {
   cln::malloc_hook = [](std::size_t size) {
     if (numbers_are_bounded && size > largest)
       throw Error("computer algebra meets exact numbers of more than {} digits", largest * 12 / 5);
+    constexpr double most_work = 1e9;
+    const double words = static_cast<double>(size) / sizeof(void*);
+    if (numbers_are_bounded && (work += words * words) > most_work)
+      throw Error("computer algebra meets too many exact numbers of hundreds of digits");
     return allocate(size);
   };
   numbers_are_bounded = true;
+  work = 0;
 }
 
 AlgebraLock::~AlgebraLock() {

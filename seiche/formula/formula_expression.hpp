@@ -17,7 +17,8 @@ using Expression = GiNaC::ex;
 using Symbols = std::vector<GiNaC::realsymbol>;  // real, or the derivative of abs speaks of conjugates
 
 // One thread at a time: GiNaC counts references without atomics, also of objects that all expressions share. While it
-// is held, exact numbers of more than `largest` bytes throw Error, wherever algebra makes them.
+// is held, exact numbers of more than `largest` bytes throw Error, wherever algebra makes them, and so does work on
+// long ones that would take longer than some seconds.
 class AlgebraLock {
  public:
   static constexpr std::size_t largest = std::size_t{1} << 15U;

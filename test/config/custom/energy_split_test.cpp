@@ -127,6 +127,12 @@ TEST(EnergySplit, NumbersOfTooManyDigitsEndTheAlgebra) {
               }),
               HasSubstr("exact numbers of more than 78643 digits"));
   EXPECT_EQ(GiNaC::ex_to<GiNaC::numeric>(power()).int_length(), 1'584'963) << "without the lock";
+  EXPECT_THAT(error_of([&] {
+                const AlgebraLock lock;
+                const GiNaC::ex small = GiNaC::pow(GiNaC::numeric(3), GiNaC::numeric(-200));
+                GiNaC::pow(GiNaC::symbol("x") + small, 600).expand();
+              }),
+              HasSubstr("too many exact numbers of hundreds of digits"));
 }
 
 TEST(EnergySplit, AConstantOfThePlaceAloneStaysWithPoints) {
