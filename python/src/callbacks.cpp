@@ -94,7 +94,7 @@ Progress::Progress(const py::object& function, double t_end) : t_end_(t_end) {
 
 void Progress::operator()(double t, std::int64_t steps) {
   if (!function_ || std::chrono::steady_clock::now() < next_) return;
-  with_gil([&] { return function_->get()(t, t_end_, steps); });
+  between_steps([&] { function_->get()(t, t_end_, steps); });
   next_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
 }
 

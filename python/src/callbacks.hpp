@@ -73,6 +73,18 @@ auto with_gil(const Call& call) {
   throw Error("interrupted inside a Python function");
 }
 
+// call(): with the GIL held, after a step is done. Ctrl-C inside it is noted, and the run ends with this step.
+template <class Call>
+void between_steps(const Call& call) {
+  const py::gil_scoped_acquire gil;
+  try {
+    call();
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+    Interruption::note();
+  }
+}
+
 // call(): with the GIL released. Where a function that it called was interrupted and it had no way to end well, the
 // KeyboardInterrupt is raised after all.
 template <class Call>

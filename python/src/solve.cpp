@@ -57,10 +57,9 @@ SolveEvent event_from(const py::tuple& parts) {
 
 std::function<bool(const SolveStep&)> observer_from(const py::object& function) {
   return [observer = Callable(function)](const SolveStep& step) {
-    return with_gil([&] {
-      const py::object answer = observer.get()(step.t, array_of(step.z), step.energy.H);
-      return !is_false(answer);
-    });
+    bool goes_on = true;
+    between_steps([&] { goes_on = !is_false(observer.get()(step.t, array_of(step.z), step.energy.H)); });
+    return goes_on;
   };
 }
 
