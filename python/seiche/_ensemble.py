@@ -75,9 +75,13 @@ class EnsembleResult(Answer):
             shown: (("member", *names), self.field(name).reshape(shape), about_it(f"{meaning} at the end"))
             for name, (shown, meaning) in zip(self.problem.fields, layout["fields"])
         }
-        for name, meaning in {"energy": "energy H = ½zᵀMz + V(z), summed over points", "modified_energy": "modified energy"}.items():
-            if self[name] is not None:
-                data[name] = (("statistic", "t"), np.array(list(self[name].values())), about_it(meaning))
+        energies = {
+            "H": (self.energy, "energy H = ½zᵀMz + V(z), summed over points"),
+            "H_modified": (self.modified_energy, "modified energy"),
+        }
+        for name, (energy, meaning) in energies.items():
+            if energy is not None:
+                data[name] = (("statistic", "t"), np.array(list(energy.values())), about_it(meaning))
         data["final_energy"] = ("member", self.final_energy, about_it("energy at the end"))
         data["running"] = ("t", self.running, {"long_name": "members that still run"})
         for name in ("status", "law", "message"):

@@ -257,7 +257,7 @@ class Result(Answer):
     def to_xarray(self) -> "xarray.Dataset":
         """The fields on their grid and the energies as an `xarray.Dataset`.
 
-        Dimensions, and the attributes long_name and units, are those of solution.h5: points without a grid have the dimension
+        Names, dimensions, and the attributes long_name and units, are those of solution.h5: points without a grid have the dimension
         "point", a single one has none.
         """
         import xarray
@@ -270,9 +270,9 @@ class Result(Answer):
             shown: (("t", *names), self.field(name).reshape(shape), about_it(meaning))
             for name, (shown, meaning) in zip(self.problem.fields, layout["fields"])
         }
-        data["energy"] = ("t", self.energy, about_it("energy H = ½zᵀMz + V(z), summed over points"))
+        data["H"] = ("t", self.energy, about_it("energy H = ½zᵀMz + V(z), summed over points"))
         if self.modified_energy is not None:
-            data["modified_energy"] = ("t", self.modified_energy, about_it("modified energy, whose law the method keeps"))
+            data["H_modified"] = ("t", self.modified_energy, about_it("modified energy, whose law the method keeps"))
         about = {key: self[key] for key in ("method", "backend", "message", "law", "steps")}
         about.update(problem=self.problem.name, status=self.status.word)
         return xarray.Dataset(data, coords=coordinates, attrs=about)

@@ -55,14 +55,14 @@ def test_fields_are_those_of_the_last_states():
 def test_ensembles_as_xarray():
     wave, e = ensemble(8)
     data = e.to_xarray()
-    assert data["u"].dims == ("member", "x") and data["energy"].dims == ("statistic", "t")
+    assert data["u"].dims == ("member", "x") and data["H"].dims == ("statistic", "t")
     assert np.array_equal(data["v"], e.field("v")) and np.array_equal(data["x"], wave.axes[0])
-    assert np.array_equal(data["energy"].sel(statistic="mean"), e.energy["mean"])
+    assert np.array_equal(data["H"].sel(statistic="mean"), e.energy["mean"])
     assert np.array_equal(data["final_energy"], e.final_energy)
     assert list(data["member"]) == [0, 1, 2] and list(data["law"]) == ["holds"] * 3
-    assert "modified_energy" in data and data.attrs["method"] == "seisav"
+    assert "H_modified" in data and data.attrs["method"] == "seisav"
     oscillators = seiche.solve_ensemble("oscillator", 1.0, [[1, 0], [2, 0]], method="seavf", h=0.1).to_xarray()
-    assert oscillators["q"].dims == ("member",) and "modified_energy" not in oscillators
+    assert oscillators["q"].dims == ("member",) and "H_modified" not in oscillators
 
 
 def test_members_on_grids_of_different_lengths_have_no_common_places():
