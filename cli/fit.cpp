@@ -101,9 +101,9 @@ void add_fit(CLI::App& app, Action& action) {
       ->type_name("");
   command
       ->add_option("--parameter", a->parameters,
-                   "What is looked for, a key of [problem], from a guess within bounds: gamma=0.1:0:1, initial.q=2; "
-                   "once for each")
-      ->type_name("NAME=GUESS[:LEAST:MOST]")
+                   "What is looked for, a key of [problem], from the value in the case, or from a guess within bounds: "
+                   "gamma, gamma=0.1:0:1, initial.q=2; once for each")
+      ->type_name("NAME[=GUESS[:LEAST:MOST]]")
       ->expected(1)
       ->take_all();
   command

@@ -43,8 +43,9 @@ def _parser() -> argparse.ArgumentParser:
         help="measurements: columns of the time, the measurement and, if known, its standard deviation",
     )
     parser.add_argument(
-        "--parameter", metavar="NAME=GUESS[:LEAST:MOST]", action="append", default=[],
-        help="what is looked for, a key of [problem] such as gamma or initial.q; once for each",
+        "--parameter", metavar="NAME[=GUESS[:LEAST:MOST]]", action="append", default=[],
+        help="what is looked for, a key of [problem] such as gamma or initial.q; from the case's own value or a guess; "
+        "once for each",
     )  # fmt: skip
     parser.add_argument(
         "--observe",
@@ -70,11 +71,13 @@ def _number(text: str, otherwise: float) -> float:
 
 
 def _parameter(text: str) -> tuple[str, Any]:
-    name, _, numbers = text.partition("=")
+    name, equals, numbers = text.partition("=")
     parts = numbers.split(":")
     try:
         if not name.strip() or len(parts) not in (1, 3):
             raise ValueError
+        if not equals:
+            return name.strip(), None
         guess = float(parts[0])
         return name.strip(), guess if len(parts) == 1 else (
             guess,
@@ -82,7 +85,7 @@ def _parameter(text: str) -> tuple[str, Any]:
             _number(parts[2], math.inf),
         )
     except ValueError:
-        raise ValueError(f"--parameter {text} must be NAME=GUESS, or NAME=GUESS:LEAST:MOST") from None
+        raise ValueError(f"--parameter {text} must be NAME, NAME=GUESS, or NAME=GUESS:LEAST:MOST") from None
 
 
 def _parameters(texts: Sequence[str]) -> dict[str, Any]:
@@ -111,12 +114,15 @@ def _measurements(file: str) -> Array:
             continue
         cells = _cells(line, f"{file}:{place}")
         wrong = [cell for cell in cells if not _is_number(cell)]
+        gaps = [] if wrong else [cell for cell in cells if not math.isfinite(float(cell))]
         if may_be_header and len(wrong) == len(cells):
             may_be_header = False
             continue
         may_be_header = False
         if wrong:
             raise ValueError(f"{file}:{place}: '{wrong[0]:.40}' is not a number")
+        if gaps:
+            raise ValueError(f"{file}:{place}: {gaps[0]:.40} is not finite; leave out what was not measured")
         if len(cells) not in (2, 3) or (rows and len(cells) != len(rows[0])):
             columns = (
                 f"{len(rows[0])}, as above"
@@ -124,6 +130,8 @@ def _measurements(file: str) -> Array:
                 else "2 or 3: the time, the measurement and, if known, its standard deviation"
             )
             raise ValueError(f"{file}:{place}: {len(cells)} column{'s' * (len(cells) != 1)}, which must be {columns}")
+        if rows and float(cells[0]) <= rows[-1][0]:
+            raise ValueError(f"{file}:{place}: times must ascend, and {cells[0]:.40} follows {rows[-1][0]:g}")
         rows.append([float(cell) for cell in cells])
     if not rows:
         raise ValueError(f"{file} holds no measurements")

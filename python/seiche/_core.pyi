@@ -39,6 +39,8 @@ class Case:
     notes: list[str]
     def gives(self, key: str) -> bool: ...  # a key such as "method.name", be it by an override
     @property
+    def parameters(self) -> dict[str, str]: ...  # keys of [problem] with one value, as a case file writes them
+    @property
     def is_ensemble(self) -> bool: ...
     def text(self) -> str: ...
 

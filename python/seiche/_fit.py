@@ -84,7 +84,7 @@ def fit(
     problem: Problem | Case | Sequence[Problem | Case],
     t: Any,
     data: Any,
-    parameters: Mapping[str, Any],
+    parameters: Mapping[str, Any] | Sequence[str],
     observe: str | Observation | Sequence[Any] | None = None,
     sigma: Any = None,
     *,
@@ -107,8 +107,9 @@ def fit(
         records a list of such arrays.
     data : (times,) array, or (observed, times)
         What was measured; for several records a list.
-    parameters : dict
-        Name → first guess, or (first guess, least, most). Names are keys of the problem, ``"gamma"``, with a dot those of
+    parameters : dict or list of names
+        Name → first guess, or (first guess, least, most); None, or a name in a list, begins with the problem's own value.
+        Names are keys of the problem, ``"gamma"``, with a dot those of
         a table in it, ``"initial.q"``, ``"friction.coefficient"``, or the parameters that formulas name. ``"initial.q[0]"`` is
         that of the first record alone.
     observe : str or function
@@ -142,7 +143,7 @@ def fit(
     if isinstance(problem, str):
         problem = as_problem(problem)
     records = records_of(problem, t, data, observe, sigma)
-    wanted = parameters_of(parameters, len(records))
+    wanted = parameters_of(parameters, records)
     for record in records:
         record.method = method or record.method
     model = Model(records, wanted, options)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+import difflib
 import math
 import re
-from typing import Any, Callable, Mapping
+from fractions import Fraction
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 
-from ._problem import Case, Problem, as_problem, of_text, override, real_array
+from ._problem import Case, Problem, as_problem, of_text, override, parse_keywords, real_array
 from ._progress import Report
 from ._result import Result, quietly
 from ._solve import solve
@@ -164,7 +166,9 @@ class Parameter:
         return abs(self.start) or (1e-2 * width if math.isfinite(width) else 1.0)
 
 
-def parameters_of(given: Mapping[str, Any], records: int) -> list[Parameter]:
+def parameters_of(given: Mapping[str, Any] | Sequence[str], records: list[Record]) -> list[Parameter]:
+    if isinstance(given, (list, tuple)) and all(isinstance(name, str) for name in given):
+        given = dict.fromkeys(given)
     if not isinstance(given, Mapping) or not given:
         raise ValueError(
             'parameters must name what is looked for: {"gamma": (0.1, 0, 1)}, its first guess and its bounds'
@@ -176,20 +180,53 @@ def parameters_of(given: Mapping[str, Any], records: int) -> list[Parameter]:
             raise ValueError(
                 f"parameters: {name!r} is no name; write gamma, initial.q, or initial.q[0] of one record alone"
             )
-        numbers = np.atleast_1d(real_array(f"parameters[{name!r}]", value))
-        if numbers.shape not in ((1,), (3,)) or np.isnan(numbers).any():
-            raise ValueError(f"parameters[{name!r}] = {value!r} must be a first guess, or (guess, least, most)")
-        start, low, high = [*numbers, -np.inf, np.inf] if numbers.size == 1 else list(numbers)
-        if not low < high or not low <= start <= high or not math.isfinite(start):
-            raise ValueError(f"parameters[{name!r}] = {value!r}: least ≤ guess ≤ most, and least < most")
         record = None if only[2] is None else int(only[2])
-        if record is not None and record >= records:
-            raise ValueError(f"parameters: {name!r} is of record {record}, and there are {records}")
-        made = Parameter(name, float(start), float(low), float(high), record)
+        if record is not None and record >= len(records):
+            raise ValueError(f"parameters: {name!r} is of record {record}, and there are {len(records)}")
+        own = _own_numbers(records[record or 0])
+        _refuse_what_cannot_change_a_little(only[1], own)
+        start, low, high = _guess_and_bounds(name, _own_value(only[1], own) if value is None else value)
+        made = Parameter(name, start, low, high, record)
         if any(made.key == other.key and None in (record, other.record) for other in found):
             raise ValueError(f"parameters: {only[1]} is one of all records, or one of each, and not both")
         found.append(made)
     return found
+
+
+def _own_numbers(record: Record) -> Mapping[str, str]:
+    """Keys of the problem with one value, as a case file writes them."""
+    given = record.given
+    text = as_problem(given)._text or ""
+    case = given._core if isinstance(given, Case) else parse_keywords(text, as_problem(given)._overrides)
+    return case.parameters
+
+
+def _refuse_what_cannot_change_a_little(name: str, own: Mapping[str, str]) -> None:
+    if re.fullmatch(r"\d+", own.get(name, "")):
+        raise ValueError(f"parameters: {name} is a whole number, and what is looked for changes by a little")
+    if name in ("H", "V") and name not in own:
+        raise ValueError(
+            f"parameters: {name} is a formula; look for a number in it, which the parameters of the problem name"
+        )
+
+
+def _own_value(name: str, own: Mapping[str, str]) -> float:
+    try:
+        return float(Fraction(own.get(name, "")))
+    except ValueError:
+        near = () if name in own else difflib.get_close_matches(name, own, 1)
+        hint = f"; did you mean {near[0]!r}?" if near else f", as in {{{name!r}: 0.1}}"
+        raise ValueError(f"parameters: {name} needs a first guess{hint}") from None
+
+
+def _guess_and_bounds(name: str, value: Any) -> tuple[float, float, float]:
+    numbers = np.atleast_1d(real_array(f"parameters[{name!r}]", value))
+    if numbers.shape not in ((1,), (3,)) or np.isnan(numbers).any():
+        raise ValueError(f"parameters[{name!r}] = {value!r} must be a first guess, or (guess, least, most)")
+    start, low, high = [*map(float, numbers), -math.inf, math.inf] if numbers.size == 1 else map(float, numbers)
+    if not low < high or not low <= start <= high or not math.isfinite(start):
+        raise ValueError(f"parameters[{name!r}] = {value!r}: least ≤ guess ≤ most, and least < most")
+    return start, low, high
 
 
 class Model:

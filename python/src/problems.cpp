@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/config/custom/field_potential.hpp>
+#include <seiche/core/text/number_text.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/output/solution_layout.hpp>
@@ -11,7 +12,9 @@
 #include <seiche/problem/problems.hpp>
 #include <seiche/problem/sparse.hpp>
 
+#include <map>
 #include <optional>
+#include <string>
 
 namespace seiche::python {
 namespace {
@@ -119,6 +122,14 @@ py::dict layout_of(const Problem& problem) {
   return py::dict("fields"_a = fields, "axes"_a = axes);
 }
 
+// Every key of [problem] with one value, and the numbers that formulas name, as a case file writes them.
+std::map<std::string, std::string> numbers_of(const RunSpec& spec) {
+  std::map<std::string, std::string> texts(spec.parameter_texts.begin(), spec.parameter_texts.end());
+  if (spec.custom)
+    for (const auto& [name, value] : spec.custom->parameters) texts[name] = toml_real(value);
+  return texts;
+}
+
 }  // namespace
 
 void bind_problems(py::module_& module) {
@@ -145,6 +156,7 @@ void bind_problems(py::module_& module) {
       .def_readonly("output_directory", &RunSpec::output_directory)
       .def_readonly("notes", &RunSpec::notes)
       .def("gives", [](const RunSpec& spec, const std::string& key) { return spec.places.contains(key); })
+      .def_property_readonly("parameters", &numbers_of)
       .def_property_readonly("is_ensemble", [](const RunSpec& spec) { return spec.ensemble.has_value(); })
       .def("text", &write_case);
 

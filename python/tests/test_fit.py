@@ -283,10 +283,18 @@ def test_bad_data_get_one_sentence(data, parameters, sentence):
 
 def test_what_cannot_change_a_little_is_no_parameter():
     wave = seiche.problem("klein_gordon", points=16)
-    with pytest.raises(ValueError, match=r"^points = 15\.\d+ must be a whole number$"):
+    with pytest.raises(ValueError, match=r"^parameters: points is a whole number, and what is looked for changes"):
         seiche.fit(wave, T, exact(T), {"points": 16}, lambda t, y: y[0])
-    with pytest.warns(seiche.SeicheWarning, match="the data do not depend on H"):
-        assert seiche.fit(oscillator(), T, exact(T), {"H": 0.1}).std == {"H": np.inf}
+    with pytest.raises(ValueError, match="^parameters: H is a formula; look for a number in it"):
+        seiche.fit(oscillator(), T, exact(T), {"H": 0.1})
+    with pytest.raises(ValueError, match=r"^parameters: initial.q needs a first guess, as in \{'initial.q': 0.1\}$"):
+        seiche.fit(oscillator(), T, exact(T), ["gamma", "initial.q"])
+
+
+def test_a_search_may_begin_with_the_value_of_the_problem():
+    begins = seiche.fit(oscillator(0.2), T, exact(T) + noise(1), {"gamma": 0.2}, sigma=0.02)
+    for parameters in (["gamma"], {"gamma": None}):
+        assert seiche.fit(oscillator(0.2), T, exact(T) + noise(1), parameters, sigma=0.02).parameters == begins.parameters
 
 
 def test_parameters_of_all_sizes_are_found_side_by_side():
