@@ -65,7 +65,7 @@ std::string RunReport::remark_on_widened() const {
   if (widened == 0) return "";
   return fmt::format(
       "in {} of {} h does not resolve a layer or an oscillation that the damping acts on, whose dissipation no quadrature "
-      "sees; the interval for H was widened by what may be missed",
+      "sees; the interval for H was widened by what may be missed: take a smaller h",
       widened, counted_steps(steps));
 }
 

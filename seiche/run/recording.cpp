@@ -227,8 +227,10 @@ void Recording::complete_message(const std::string& remark) {
   if (report_.status == RunReport::Status::success)
     report_.message = fmt::format("reached t = {:.9g} in {}{}", state_.t, counted_steps(report_.steps), remark);
   report_.judge_replaced();
+  // Where a step failed, what became of the energies up to there is the same news again.
+  const bool is_told = report_.step_failed;
   constexpr double lost = 1e6;  // times the energy at the start: of H̃ − H no more than some ten digits are left
-  if (report_.has_modified_energy && state_.energy_scale > 0 && state_.shift > lost * state_.energy_scale)
+  if (!is_told && report_.has_modified_energy && state_.energy_scale > 0 && state_.shift > lost * state_.energy_scale)
     report_.message += fmt::format(
         "; C was raised to {:.3g} ({:.1g} × the initial energy), and the modified energy has lost digits to round-off: "
         "reduce h, or use seilm or egc4",
@@ -236,11 +238,11 @@ void Recording::complete_message(const std::string& remark) {
   for (const std::string& unresolved : {report_.remark_on_widened(), report_.remark_on_halved()})
     if (!unresolved.empty()) report_.message += "; " + unresolved;
   for (const std::string& energies : {report_.remark_on_drift(), report_.remark_on_parting()})
-    if (!energies.empty()) report_.message += "; " + energies;
+    if (!is_told && !energies.empty()) report_.message += "; " + energies;
   if (report_.unresolved > 0)
     report_.message += fmt::format("; {} scalar equations were not resolved", report_.unresolved);
   if (report_.law == LawVerdict::not_promised) report_.message += "; no energy law is promised: " + report_.law_reason;
-  if (report_.law == LawVerdict::violated)
+  if (!is_told && report_.law == LawVerdict::violated)
     report_.message += "; the promised energy law was violated: " + report_.law_reason;
 }
 
