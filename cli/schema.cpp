@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <seiche/config/case/friction_kinds.hpp>
 #include <seiche/config/case/key_rows.hpp>
 #include <seiche/config/custom/custom_case.hpp>
 #include <seiche/version.hpp>
@@ -14,14 +15,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers may be formulas in quotes, as in "1/256".
+// Numbers may be computed in quotes, as in "1/256".
 template <class Key>
 Json number(const char* type, const Key& key) {
   Json schema = {{"type", type}};
   if (std::isfinite(key.minimum)) schema[key.minimum_excluded ? "exclusiveMinimum" : "minimum"] = key.minimum;
   if (std::isfinite(key.maximum)) schema["maximum"] = key.maximum;
-  return {{"anyOf", {schema, {{"type", "string"}}}}};
+  return {{"anyOf", {schema, {{"type", "string"}, {"pattern", "[0-9]|pi|^auto$"}}}}};
 }
+
+const Json formula = {{"type", {"string", "number"}}};
 
 Json value_of(const KeyRow& row) {
   switch (row.kind) {
@@ -38,7 +41,7 @@ Json value_of(const Parameter& p) {
     case ParameterKind::choice: return {{"enum", p.choices}};
     case ParameterKind::matrix: return {{"type", "string"}};
     case ParameterKind::integer: return number("integer", p);
-    case ParameterKind::rate:
+    case ParameterKind::rate: return formula;
     case ParameterKind::real: break;
   }
   return number("number", p);
@@ -57,6 +60,27 @@ Json described(Json schema, const std::string& meaning) {
 
 Json table(Json keys) { return {{"type", "object"}, {"properties", std::move(keys)}, {"additionalProperties", false}}; }
 
+// A kind, and the keys of this kind.
+Json friction_table() {
+  Json names = Json::array(), kinds = Json::array();
+  for (const FrictionKind& kind : friction_kinds()) {
+    names.push_back(kind.name);
+    Json keys = {{"kind", Json::object()}}, required = {"kind"};
+    for (const FrictionKey& key : kind.keys) {
+      const Json bounds = {{"type", "number"}, {key.is_positive ? "exclusiveMinimum" : "minimum", 0}};
+      keys[key.name] = key.is_formula ? formula : Json{{"anyOf", {bounds, {{"type", "string"}}}}};
+      if (key.default_value.empty()) required.push_back(key.name);
+    }
+    Json of_kind = table(std::move(keys));
+    of_kind["required"] = std::move(required);
+    kinds.push_back({{"if", {{"properties", {{"kind", {{"const", kind.name}}}}}}}, {"then", std::move(of_kind)}});
+  }
+  return {{"type", "object"},
+          {"required", {"kind"}},
+          {"properties", {{"kind", {{"enum", std::move(names)}}}}},
+          {"allOf", std::move(kinds)}};
+}
+
 Json keys_of_problem(const ProblemEntry& problem) {
   Json keys = {{"name", {{"const", problem.name}}}};
   for (const Parameter& parameter : problem.parameters) {
@@ -67,18 +91,25 @@ Json keys_of_problem(const ProblemEntry& problem) {
   }
   keys["initial"] = described({{"anyOf", {{{"enum", problem.presets}}, {{"type", "object"}}}}},
                               "one of these, { file = … }, or a formula in x, y, z and j for every field");
-  keys["friction"] =
-      described({{"type", "object"}, {"required", {"kind"}}}, "friction beyond D: a kind and its coefficients");
-  keys["force"] = described(Json::object(), "a force on fields, by formulas in t, x, y and z");
+  keys["friction"] = described(friction_table(), "friction beyond D: a kind and its coefficients");
+  keys["force"] = described({{"type", {"string", "number", "object"}}, {"additionalProperties", formula}},
+                            "a force on fields, by formulas in t, x, y and z");
   return keys;
 }
 
 // Numbers of one's own may stand beside the keys.
 Json custom_problem_table() {
   Json keys = keys_of_problem(custom_in_list());
-  for (const std::string& key : custom_keys()) keys[key] = Json::object();
+  const Json row = {{"type", "array"}, {"items", formula}};
+  const Json of_fields = {{"type", {"object", "array", "string", "number"}},
+                          {"additionalProperties", formula},
+                          {"items", row}};
+  for (const std::string& key : custom_keys()) keys[key] = of_fields;  // M, S and D
+  keys["fields"] = {{"type", "array"}, {"items", {{"type", "string"}}}};
+  keys["parameters"] = {{"type", "object"}, {"additionalProperties", formula}};
+  keys["H"] = keys["V"] = formula;
   Json schema = table(std::move(keys));
-  schema["additionalProperties"] = {{"type", {"number", "string"}}};
+  schema["additionalProperties"] = formula;
   return schema;
 }
 

@@ -20,6 +20,13 @@ def printed(*arguments):
     return subprocess.run([PROGRAM, *arguments], capture_output=True, check=True, text=True).stdout
 
 
+def toml(case):
+    def value(v):
+        return "{ " + ", ".join(f"{k} = {value(w)}" for k, w in v.items()) + " }" if isinstance(v, dict) else json.dumps(v)
+
+    return "".join(f"[{name}]\n" + "".join(f"{k} = {value(v)}\n" for k, v in keys.items()) for name, keys in case.items())
+
+
 def complaints(case):
     return [error.message for error in VALIDATOR.iter_errors(case)]
 
@@ -69,13 +76,16 @@ class Schema(unittest.TestCase):
             ("method", "law", "strong"), ("backend", "plan", "patient"), ("backend", "pade_degree", -1), ("time", "start", -1.0),
             ("time", "end", 0), ("output", "energy_every", 0), ("output", "energy_every", 1.5), ("output", "ledger", True),
             ("output", "directory", 3), ("checkpoint", "keep", 3), ("checkpoint", "every_seconds", -1), ("ensemble", "members", 0),
-            ("ensemble", "alpha", 0.5), ("meethod", "h", 0.125),
+            ("ensemble", "alpha", 0.5), ("meethod", "h", 0.125), ("problem", "alpha", "one"), ("problem", "gamma", [0.1]),
+            ("problem", "friction", {"kind": "quadratc", "coefficient": 0.1}), ("problem", "friction", {"kind": "tanh"}),
+            ("problem", "friction", {"kind": "dry", "coefficient": 0.1, "width": 1.0}),
+            ("problem", "friction", {"kind": "dry", "coefficient": -0.1}), ("problem", "force", [1.0]),
         ]
         self.assertEqual(complaints(good), [])
         for section, key, value in mistakes:
             bad = copy.deepcopy(good)
             bad.setdefault(section, {})[key] = value
-            text = "".join(f"[{name}]\n" + "".join(f"{k} = {json.dumps(v)}\n" for k, v in keys.items()) for name, keys in bad.items())
+            text = toml(bad)
             with self.subTest(f"{section}.{key} = {value}"), tempfile.TemporaryDirectory() as folder:
                 self.assertNotEqual(complaints(bad), [])
                 file = pathlib.Path(folder) / "case.toml"

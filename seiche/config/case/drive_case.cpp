@@ -1,5 +1,6 @@
 #include <seiche/config/case/case_parameters.hpp>
 #include <seiche/config/case/drive_case.hpp>
+#include <seiche/config/case/friction_kinds.hpp>
 #include <seiche/config/case/friction_names.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/momenta.hpp>
@@ -15,30 +16,6 @@
 
 namespace seiche {
 namespace {
-
-struct FrictionKey {
-  std::string name;
-  bool is_formula = false;
-  std::string default_value = {};  // empty: it must be given
-};
-
-struct FrictionKind {
-  std::string name;
-  std::vector<FrictionKey> keys;
-};
-
-const std::vector<FrictionKind>& friction_kinds() {
-  static const std::vector<FrictionKind> kinds = {
-      {"quadratic", {{"coefficient"}, {"linear", false, "0"}}},
-      {"cubic", {{"coefficient"}}},
-      {"tanh", {{"coefficient"}, {"width"}}},
-      {"dry", {{"coefficient"}}},
-      {"isotropic", {{"coefficient"}}},
-      {"position", {{"coefficient", true}}},
-      {"formula", {{"r", true}}},
-  };
-  return kinds;
-}
 
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
@@ -158,8 +135,8 @@ FrictionSpec read_friction(const std::string& key, const CaseValue& value, const
     } else if (!k.is_formula) {
       const double number =
           given->kind == CaseValue::Kind::text ? named_number(name, *given, constants) : read_number(name, *given);
-      if (number < 0 || (k.name == "width" && number == 0))
-        throw Error("{} = {} must be {} 0", name, given->shown(), k.name == "width" ? ">" : "≥");
+      if (number < 0 || (k.is_positive && number == 0))
+        throw Error("{} = {} must be {} 0", name, given->shown(), k.is_positive ? ">" : "≥");
       spec.texts[k.name] = given->text;
     } else {
       if (given->kind != CaseValue::Kind::text && given->kind != CaseValue::Kind::number)
