@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <seiche/backend/backends.hpp>
+#include <seiche/config/case/key_rows.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/study/lists.hpp>
@@ -42,6 +43,13 @@ std::string backends_text() {
   return text;
 }
 
+std::string keys_text() {
+  std::string text;
+  for (const KeyRow& row : key_rows())
+    text += fmt::format("{:<26} {}\n", fmt::format("{}.{}", row.section, row.name), row.meaning);
+  return text;
+}
+
 struct List {
   std::string name;
   std::string (*json)();
@@ -49,7 +57,8 @@ struct List {
 };
 const std::vector<List> lists = {{"methods", methods_json, methods_text},
                                  {"problems", problems_json, problems_text},
-                                 {"backends", backends_json, backends_text}};
+                                 {"backends", backends_json, backends_text},
+                                 {"keys", keys_json, keys_text}};
 
 ExitCode print_list(const std::string& name, bool json) {
   std::vector<std::string> names;
@@ -59,7 +68,7 @@ ExitCode print_list(const std::string& name, bool json) {
     print_data(json ? list.json() + "\n" : list.text());
     return success;
   }
-  if (name.empty()) throw Error("say what to list: {}", fmt::join(names, ", "));
+  if (name.empty()) throw Error("say what to list: seiche list {}", fmt::join(names, ", seiche list "));
   throw unknown_name("list", name, names);
 }
 
@@ -71,8 +80,8 @@ void add_list(CLI::App& app, Action& action) {
     bool json = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("list", "List methods, problems or backends");
-  command->add_option("WHAT", arguments->name, "methods, problems or backends");
+  CLI::App* command = app.add_subcommand("list", "List methods, problems, backends, or keys of case files");
+  command->add_option("WHAT", arguments->name, "methods, problems, backends or keys");
   command->add_flag("--json", arguments->json, "One JSON array on stdout");
   command->callback(
       [arguments, &action] { action = [arguments] { return print_list(arguments->name, arguments->json); }; });

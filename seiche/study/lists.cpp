@@ -1,4 +1,5 @@
 #include <seiche/backend/backends.hpp>
+#include <seiche/config/case/key_rows.hpp>
 #include <seiche/config/custom/custom_case.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/study/lists.hpp>
@@ -61,6 +62,16 @@ std::string problems_json() {
 std::string backends_json() {
   Json list = Json::array();
   for (const BackendEntry& backend : backends()) list.push_back({{"name", backend.name}, {"summary", backend.summary}});
+  return list.dump(2);
+}
+
+std::string keys_json() {
+  Json list = Json::array();
+  for (const KeyRow& row : key_rows())
+    list.push_back({{"name", fmt::format("{}.{}", row.section, row.name)},
+                    {"default", row.is_default ? Json(row.example) : Json(nullptr)},
+                    {"choices", row.choices},
+                    {"meaning", row.meaning}});
   return list.dump(2);
 }
 

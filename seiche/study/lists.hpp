@@ -18,5 +18,6 @@ std::vector<ProblemEntry> listed_problems();  // with the one that is written do
 std::string methods_json();
 std::string problems_json();
 std::string backends_json();
+std::string keys_json();  // of case files, beside those of [problem] that belong to one problem
 
 }  // namespace seiche

@@ -88,7 +88,7 @@ TEST_F(Cli, WhatWasMeantByAnArgumentIsSaid) {
   EXPECT_THAT(refused("run case.toml --out out --threads all"), HasSubstr("'all' is no whole number from 1 to 1024"));
   EXPECT_THAT(refused("converge case.toml --methods avf seisav"),
               HasSubstr("the values of --methods are joined by commas"));
-  EXPECT_THAT(refused("list"), HasSubstr("say what to list: methods, problems, backends"));
+  EXPECT_THAT(refused("list"), HasSubstr("say what to list: seiche list methods, seiche list problems"));
   EXPECT_THAT(refused(""), AllOf(HasSubstr("run "), HasSubstr("seiche: a command is missing")));
   std::filesystem::create_directory(directory / "empty");
   for (const char* command : {"audit", "plot"})

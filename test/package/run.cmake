@@ -45,11 +45,12 @@ endforeach()
 
 # What bash completes, as a user who types a tab sees it.
 foreach(typed IN ITEMS "seiche re;recover resume" "seiche run --thr;--threads" "seiche new kl;klein_gordon"
-    "seiche run x --set method.name=egc8;method.name=egc8")
+    "seiche run x --set method.name=egc8;egc8" "seiche run x --set method.na;method.name="
+    "seiche run x --set time.end=1 backend.plan=m;measure" "seiche converge x --methods crkn;crkn4 crkn6")
   list(GET typed 0 words)
   list(GET typed 1 wanted)
   execute_process(COMMAND "${bash}" -c "PATH='${prefix}/bin':$PATH; source '${prefix}/share/bash-completion/completions/seiche'
-    COMP_WORDS=(${words}); COMP_CWORD=$((\${#COMP_WORDS[@]} - 1)); _seiche; sort <<<\"$(printf '%s\\n' \"\${COMPREPLY[@]}\")\" | xargs"
+    COMP_LINE='${words}'; COMP_POINT=\${#COMP_LINE}; COMP_WORDS=(${words}); COMP_CWORD=$((\${#COMP_WORDS[@]} - 1)); _seiche; sort <<<\"$(printf '%s\\n' \"\${COMPREPLY[@]}\")\" | xargs"
     OUTPUT_VARIABLE completed OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   if(NOT completed STREQUAL wanted)
     message(FATAL_ERROR "'${words}' is completed to '${completed}' and not to '${wanted}'")
