@@ -124,7 +124,10 @@ ExitCode plot(const PlotArguments& arguments) {
   const RunFiles run = read_run(arguments.directory);
   const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
   if (!std::filesystem::exists(run.directory / "solution.h5"))
-    throw Error("{} is no directory of a finished run: it has no solution.h5", run.directory.string());
+    throw Error(
+        "{0} has no solution.h5 and nothing to draw: its run ended before a state was written, or the file was removed; "
+        "`seiche run {0}/case.toml --restart` computes it again",
+        run.directory.string());
   if (!arguments.film_fields.empty())
     options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.directory / "solution.h5"));
   const FolderLock lock{Folder(run.directory)};
