@@ -222,6 +222,8 @@ class Problem:
         discretisation: Discretisation | None = None,
         **written: Any,
     ):
+        if right_hand_side and isinstance(right_hand_side[0], str):
+            raise TypeError(f"a problem by its name is seiche.problem({right_hand_side[0]!r})")
         if right_hand_side:
             raise _no_right_hand_side(right_hand_side[0])
         words = {"boundary": boundary, "discretisation": discretisation}

@@ -259,11 +259,26 @@ class Parser {
     names.emplace_back("pi");
     for (const FormulaFunction& function : formula_functions())
       if (may_vary(function)) names.emplace_back(function.name);
-    const std::string said = advice_ ? advice_(shortened(name.text), !nearest_name(name.text, names).empty()) : "";
+    const bool is_called = token().is('(');
+    const bool is_near_another = is_called || !nearest_name(name.text, names).empty();
+    const std::string said = advice_ ? advice_(shortened(name.text), is_near_another) : "";
+    if (said.empty() && is_called) return unknown_function(name);
     if (said.empty()) return formula_error(text_, name.position, unknown_name("name", name.text, names).what());
     return formula_error(text_, name.position,
                          fmt::format("unknown name '{}': {}. Allowed: {}", shortened(name.text), said,
                                      fmt::join(names, ", ")));
+  }
+
+  Error unknown_function(const FormulaToken& name) const {
+    std::vector<std::string> names;
+    for (const FormulaFunction& function : formula_functions())
+      if (may_vary(function)) names.emplace_back(function.name);
+    if (!nearest_name(name.text, names).empty())
+      return formula_error(text_, name.position, unknown_name("function", name.text, names).what());
+    return formula_error(text_, name.position,
+                         fmt::format("unknown function '{0}': write out what {0}( ) is, or {0}*( ) for a product. "
+                                     "Allowed: {1}",
+                                     shortened(name.text), fmt::join(names, ", ")));
   }
 
   bool may_vary(const FormulaFunction& function) const {

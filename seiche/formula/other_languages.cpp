@@ -70,7 +70,7 @@ constexpr std::array<Entry, 46> names_elsewhere = {{
     {"rand", "numbers by chance are drawn in [ensemble]"},
 }};
 
-constexpr std::array<Entry, 36> characters_elsewhere = {{
+constexpr std::array<Entry, 28> characters_elsewhere = {{
     {"=", "; a formula is a value, not an equation"},
     {"[", "; write ( )"},
     {"{", "; write ( )"},
@@ -98,16 +98,10 @@ constexpr std::array<Entry, 36> characters_elsewhere = {{
     {"∫", "; an energy is given per point, and its sum is taken"},
     {"∑", "; an energy is given per point, and its sum is taken"},
     {"Σ", "; an energy is given per point, and its sum is taken"},
-    {"≤", "; write step( )"},
-    {"≥", "; write step( )"},
-    {"<", "; write step( )"},
-    {">", "; write step( )"},
-    {"?", "; write step( )"},
-    {":", "; write step( )"},
-    {"&", "; write step( )"},
-    {"!", "; write step( )"},
     {"π", "; write pi"},
 }};
+
+constexpr std::array<std::string_view, 7> comparisons = {"≤", "≥", "<", ">", ":", "&", "!"};
 
 constexpr std::array<Entry, 24> greek_letters = {{
     {"α", "alpha"}, {"β", "beta"}, {"γ", "gamma"}, {"δ", "delta"}, {"ε", "epsilon"}, {"ϵ", "epsilon"},
@@ -146,6 +140,9 @@ std::string advice_on_character(std::string_view text, std::size_t at, std::stri
   }
   if (const std::string_view letter = second_of(greek_letters, character); !letter.empty())
     return fmt::format("; names are in Latin letters: write {}", letter);
+  const bool chooses = character == "?" && text.find(':', at) != std::string_view::npos;
+  if (chooses || std::find(comparisons.begin(), comparisons.end(), character) != comparisons.end())
+    return fmt::format("; {}", switching);
   return std::string(second_of(characters_elsewhere, character));
 }
 

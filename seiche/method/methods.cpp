@@ -14,6 +14,7 @@
 #include <seiche/method/splitting/chin.hpp>
 #include <seiche/method/splitting/crkn.hpp>
 #include <seiche/method/splitting/strang_exact.hpp>
+#include <seiche/method/unknown_method.hpp>
 
 #include <algorithm>
 #include <array>
@@ -209,7 +210,7 @@ std::vector<std::string> method_names() { return names_of(methods()); }
 
 const MethodEntry& find_method(std::string_view name) {
   if (const MethodEntry* entry = find_row(methods(), name)) return *entry;
-  throw unknown_name("method", name, method_names());
+  throw unknown_method(name);
 }
 
 void MethodOptions::validate(const MethodEntry& method) const {

@@ -71,7 +71,7 @@ struct MethodEntry {
 
 std::span<const MethodEntry> methods();
 std::vector<std::string> method_names();
-const MethodEntry& find_method(std::string_view name);  // throws Error with the nearest name
+const MethodEntry& find_method(std::string_view name);  // throws unknown_method(name)
 
 struct MethodOptions {
   std::optional<double> C;                             // sav: the shift; automatic if not given

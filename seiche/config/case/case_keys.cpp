@@ -32,6 +32,11 @@ const std::vector<Synonyms>& synonyms_in_problem() {
       {"boundary", {"bc", "bcs", "boundaryconditions", "boundarycondition"}},
       {"points", {"n", "nx", "gridpoints", "resolution"}},
       {"length", {"l", "lx", "domain"}},
+      {"gamma", {"damping", "dampingrate", "drag"}},
+      {"H", {"hamiltonian", "energy"}},
+      {"V", {"potential"}},
+      {"S", {"structure", "poisson"}},
+      {"D", {"damping", "dampingrate", "drag", "gamma"}},
   };
   return all;
 }
@@ -40,11 +45,28 @@ bool has(const std::vector<std::string>& keys, const std::string& key) {
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-// { "method", "h" } for "dt", { "method", "tolerance" } for "rtol".
-MeantKey meant_key(std::string_view word, const ProblemEntry* problem) {
+std::string plain_word(std::string_view word) {
   std::string plain;
   for (const char c : word)
     if (c != '_' && c != '-') plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return plain;
+}
+
+// Of what is no key, but may be asked for otherwise. "" where there is nothing to say.
+std::string where_it_stands(const std::string& section, const std::string& key, const ProblemEntry* problem) {
+  const std::string plain = plain_word(key);
+  if (has({"threads", "nthreads", "cores", "jobs"}, plain))
+    return "the number of threads changes no result, and stands on the command line: --threads 2";
+  const bool is_listed = section == of_problem && problem != nullptr && problem->name != custom_name;
+  if (is_listed && has({"h", "v", "hamiltonian", "energy", "potential"}, plain))
+    return fmt::format("the energy of {} is given; one of your own is written with name = \"{}\"", problem->name,
+                       custom_name);
+  return "";
+}
+
+// { "method", "h" } for "dt", { "method", "tolerance" } for "rtol".
+MeantKey meant_key(std::string_view word, const ProblemEntry* problem) {
+  const std::string plain = plain_word(word);
   for (const KeyRow& row : key_rows())
     if (has(row.synonyms, plain)) return {row.section, row.name};
   for (const Synonyms& key : synonyms_in_problem())
@@ -93,6 +115,12 @@ Error unknown_key(const std::string& section, const std::string& key, const Prob
   const std::string kind = "key in " + where;
   const std::vector<std::string> keys = case_keys(section, problem);
   const MeantKey meant = meant_key(key, problem);
+  if (const std::string elsewhere = where_it_stands(section, key, problem); !elsewhere.empty())
+    return Error({.sentence = fmt::format("unknown {} '{}': {}. Allowed: {}", kind, shortened(key), elsewhere,
+                                          fmt::join(keys, ", ")),
+                  .kind = kind,
+                  .name = key,
+                  .allowed = keys});
   if (meant.key.empty()) return unknown_name(kind, key, keys);
   if (meant.section != section)
     return Error({.sentence = fmt::format("unknown {} '{}'; did you mean '{}' in [{}]?", kind, shortened(key),

@@ -43,19 +43,19 @@ RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, Tim
 
 // A formula in t alone is a rate for all points. Any other is checked on the grid.
 ParameterValue read_formula_rate(const std::string& key, const Parameter& parameter, const std::string& text,
-                                 const FormulaConstants& constants, TimeSpan sampled) {
+                                 const RunSpec& spec) {
+  const FormulaConstants constants = formula_constants(spec);
   if (FormulaPointer formula = compiled(text, {"t"}, constants))
-    return checked_rate(parameter, std::move(formula), sampled);
-  return compile_space_rate(key, text, constants);
+    return checked_rate(parameter, std::move(formula), {spec.t_start, spec.duration()});
+  return compile_space_rate(key, text, constants, advice_in(formula_context(spec, FormulaContext::Kind::rate)));
 }
 
-ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, const FormulaConstants& constants,
-                         TimeSpan sampled) {
+ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, const RunSpec& spec) {
   const std::string key = "problem." + parameter.name;
   if (value.kind != CaseValue::Kind::number && value.kind != CaseValue::Kind::text)
     throw Error("{} = {} must be a number, or a formula in t (and x, y, z) such as \"0.1 + 0.05*sin(t)\"", key,
                 value.shown());
-  if (value.kind == CaseValue::Kind::text) return read_formula_rate(key, parameter, value.text, constants, sampled);
+  if (value.kind == CaseValue::Kind::text) return read_formula_rate(key, parameter, value.text, spec);
   const double gamma = read_number(key, value);
   require(out_of_bounds(parameter, gamma));
   return constant_rate(gamma);
@@ -112,14 +112,22 @@ std::string boundary_meant(std::string_view word) {
   return is_one_of({"ring", "cyclic", "Periodic"}) ? "did you mean 'periodic'?" : "";
 }
 
+// q = 1.5, p = "0"
+std::string named_values(const std::vector<std::string>& fields, const CaseValue& list) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    parts.push_back(fmt::format("{} = {}", fields[i], list.entries[i].second.shown()));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 // A number or name, checked, and how a case file writes it: 2 and 2.0 are one case.
 std::pair<ParameterValue, std::string> read_parameter(const std::string& key, const Parameter& parameter,
                                                       const CaseValue& value) {
   if (parameter.kind == ParameterKind::choice) {
     if (parameter.name == "boundary")
       if (const std::string meant = boundary_meant(value.text); !meant.empty())
-        throw Error("unknown {} '{}'; {}. Allowed: {}", key, shortened(value.text), meant,
-                    fmt::join(parameter.choices, ", "));
+        throw Error("unknown {} '{}'; {}{} Allowed: {}", key, shortened(value.text), meant,
+                    meant.ends_with('?') ? "" : ".", fmt::join(parameter.choices, ", "));
     const std::string name = read_name(key, value, parameter.choices);
     return {name, name};
   }
@@ -206,8 +214,7 @@ void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& v
     return;
   }
   if (parameter.kind == ParameterKind::rate) {
-    spec.parameters.set(parameter.name,
-                        read_rate(parameter, value, formula_constants(spec), {spec.t_start, spec.duration()}));
+    spec.parameters.set(parameter.name, read_rate(parameter, value, spec));
     spec.parameter_texts[parameter.name] = is_toml_number(value.text) ? toml_real(read_number(key, value)) : value.text;
     return;
   }
@@ -248,6 +255,8 @@ InitialData read_initial(std::string_view key, const CaseValue& value, const Run
                   fmt::join(problem.fields, " = \"…\", "));
     }
   }
+  if (value.kind == CaseValue::Kind::list && value.entries.size() == problem.fields.size())
+    throw Error("{} has a value for each field: name the fields, {{ {} }}", key, named_values(problem.fields, value));
   if (value.kind != CaseValue::Kind::table) {
     throw Error("{} = {} must be a preset ({}), {{ file = \"…\" }}, or formulas {{ {} = \"…\" }}", key, value.shown(),
                 fmt::join(problem.presets, ", "), fmt::join(problem.fields, " = \"…\", "));

@@ -1,6 +1,7 @@
 #include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/case/key_readers.hpp>
 #include <seiche/core/error.hpp>
+#include <seiche/method/unknown_method.hpp>
 
 #include <fmt/format.h>
 
@@ -75,7 +76,9 @@ void read_method(CaseReading& r, const KeyRow&, const std::string&, const CaseVa
   r.spec.method.clear();  // also after a complaint, so that options are not compared with another one
   std::vector<std::string> names = method_names();
   names.emplace_back("auto");
-  r.spec.method = read_name("method", value, names);
+  const std::string name = read_text("method", value);
+  if (std::find(names.begin(), names.end(), name) == names.end()) throw unknown_method(name, names);
+  r.spec.method = name;
 }
 
 void read_step_size(CaseReading& r, const KeyRow& row, const std::string& key, const CaseValue& value) {
@@ -140,6 +143,12 @@ void read_snapshot_interval(CaseReading& r, const KeyRow& row, const std::string
   const double interval = read_number_within(row, key, value);
   if (interval > 0 && spec.duration() / interval > 1e7)
     throw Error("{} = {} would make {:.3g} snapshots", key, value.shown(), spec.duration() / interval);
+  if (interval > 0 && r.gives("output", "snapshot_every") && spec.snapshot_every > 0) {
+    if (!r.asks_for_tolerance())
+      throw Error("{} = {} and snapshot_every = {} are both given: snapshots are taken by the one or by the other", key,
+                  value.shown(), spec.snapshot_every);
+    spec.notes.push_back(fmt::format("snapshots are taken by {}: snapshot_every has no effect", key));
+  }
   if (interval == 0 || r.asks_for_tolerance()) {
     spec.snapshot_interval = interval;
   } else if (spec.h > 0) {

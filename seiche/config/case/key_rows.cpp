@@ -252,15 +252,19 @@ void add_output(KeyRows& rows) {
   rows.whole(
       "energy_every", "steps", from_1, "1", "", [](auto& spec) -> auto& { return spec.energy_every; });
   rows.whole(
-      "snapshot_every", "steps; 0: the first and the last state only", from_0, "64", "saveevery nsave nout",
-      [](auto& spec) -> auto& { return spec.snapshot_every; });
+          "snapshot_every", "steps; 0: the first and the last state only", from_0, "64", "saveevery nsave nout",
+          [](auto& spec) -> auto& { return spec.snapshot_every; })
+      .write = [](const RunSpec& spec) {
+    return spec.snapshot_interval > 0 ? "" : fmt::format("{}", spec.snapshot_every);
+  };
   rows.choice<bool>("ledger", "on: columns of energy.csv that say where the change of H comes from",
                     {{"off", false}, {"on", true}}, Written::unless_default, ledger);
   rows.choice<bool>("report", "report.html, to which seiche plot adds pictures; off: none",
                     {{"on", true}, {"off", false}}, Written::unless_default, report);
   rows.number(
       "snapshot_interval",
-      "with a tolerance: time between snapshots; 0: by steps; not given: 512 in all, or 1024 of up to 16 unknowns",
+      "time between snapshots, in the place of steps; not given, with a tolerance: 512 in all, or 1024 of up to 16 "
+      "unknowns",
       from_0, unless_given("0.5"), "saveat dtout dtsave saveinterval", read_snapshot_interval,
       [](const RunSpec& spec) { return unless_0(spec.snapshot_interval); });
 }

@@ -39,6 +39,8 @@ std::vector<std::string> field_names(const CustomProblem& custom) {
                   name.find(',') != std::string::npos ? "; several names are a list, as in [\"u\", \"v\"]" : "");
     if (std::string_view(kind) == "parameter" && std::find(names.begin(), names.end(), name) != names.end())
       throw Error("problem.{}: {} is a field: give the parameter another name", key, shortened(name));
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw Error("problem.{}: {} is named twice: every field has a name of its own", key, shortened(name));
     if (std::find(taken.begin(), taken.end(), name) != taken.end())
       throw Error("problem.{}: the name {} stands for something else in formulas", key, shortened(name));
     if (std::find(derived.begin(), derived.end(), name) != derived.end())

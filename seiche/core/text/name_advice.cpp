@@ -87,6 +87,10 @@ class Advisor {
             "{} is a field, and D is linear: its entries are coefficients, rates in t and the place, and derivatives; damping "
             "that depends on fields is problem.friction",
             field);
+      case Kind::rate:
+        return fmt::format(
+            "{} is a field, and a rate is a formula in t and the place: damping that depends on fields is problem.friction",
+            field);
       case Kind::initial: return fmt::format("{} is a field, and its initial values are given by the place", field);
       case Kind::force:
         return fmt::format(

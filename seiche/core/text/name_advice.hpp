@@ -16,7 +16,7 @@ namespace seiche {
 using NameAdvice = std::function<std::string(std::string_view name, bool is_near_another)>;
 
 struct FormulaContext {
-  enum class Kind { energy, constant_entry, damping_entry, initial, friction, force };
+  enum class Kind { energy, constant_entry, damping_entry, rate, initial, friction, force };
   Kind kind;
   std::vector<std::string> fields;
   Index axes = 0;                 // of the grid; 0: there is no place

@@ -324,7 +324,11 @@ TEST(CaseFile, AnIntervalBetweenSnapshotsIsCountedInStepsOfOneSize) {
   EXPECT_EQ(spec.snapshot_every, 3) << "round-off is no difference";
   EXPECT_EQ(spec.snapshot_interval, 0);
   EXPECT_EQ(parse_case(write_case(spec), "again.toml").snapshot_every, 3);
-  EXPECT_EQ(parse_case(with("0.3") + "snapshot_every = 64\n", "x.toml").snapshot_every, 3) << "as with a tolerance";
+  EXPECT_THAT(complaint(with("0.3") + "snapshot_every = 64\n"), HasSubstr("snapshot_every = 64 are both given"));
+  EXPECT_EQ(parse_case(with("0") + "snapshot_every = 64\n", "x.toml").snapshot_every, 64);
+  const RunSpec adaptive =
+      parse_case(minimal + "[method]\ntolerance = 1e-6\n[output]\nsnapshot_interval = 0.3\n", "x.toml");
+  EXPECT_THAT(write_case(adaptive), Not(HasSubstr("snapshot_every"))) << "of the two, the one that holds";
   EXPECT_THAT(complaint(with("0.25")),
               HasSubstr("output.snapshot_interval = 0.25 is no multiple of h = 0.1: write snapshot_every = "));
   EXPECT_THAT(complaint(with("0.01")), HasSubstr("write snapshot_every = 1, for one every 0.1"));

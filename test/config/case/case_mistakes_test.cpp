@@ -87,6 +87,21 @@ TEST(CaseFile, ValuesOutOfBoundsAreRefusedWithTheBound) {
   EXPECT_EQ(parse_case(minimal + "points = 20.0\n", "x.toml").parameters.integers("points"), std::vector<long>{20});
 }
 
+TEST(CaseFile, WhatStandsElsewhereIsSaidWithItsPlace) {
+  const auto method = [](const std::string& name) { return complaint_of_override("method.name=" + name); };
+  EXPECT_THAT(method("rk4"), HasSubstr("unknown method 'rk4'; in its place there is 'egc4', of order 4. Allowed: avf"));
+  EXPECT_THAT(method("Velocity-Verlet"), HasSubstr("in its place there is 'strang_exact', of order 2"));
+  EXPECT_THAT(method("seisv"), HasSubstr("did you mean 'seisav'?"));
+  EXPECT_THAT(complaint(minimal + "gamma = \"0.1*u\"\n"),
+              HasSubstr("damping that depends on fields is problem.friction"));
+  EXPECT_THAT(complaint(minimal + "damping = 0.1\n"), HasSubstr("did you mean 'gamma'?"));
+  EXPECT_THAT(complaint(minimal + "H = \"u^4\"\n"),
+              HasSubstr("is given; one of your own is written with name = \"custom\""));
+  EXPECT_THAT(complaint(minimal + "[backend]\nthreads = 2\n"), HasSubstr("stands on the command line: --threads 2"));
+  EXPECT_THAT(complaint(minimal + "initial = [1, \"x\"]\n"), HasSubstr("name the fields, { u = 1, v = \"x\" }"));
+  EXPECT_THAT(complaint(minimal + "boundary = \"free\"\n"), HasSubstr("did you mean 'neumann'? Allowed"));
+}
+
 TEST(CaseFile, ValuesOfTheWrongTypeAreNamed) {
   EXPECT_THAT(complaint(minimal + "kappa = true\n"), HasSubstr("problem.kappa = true must be a number"));
   EXPECT_THAT(complaint(minimal + "kappa = [1, 2]\n"), HasSubstr("problem.kappa = a list must be a number"));

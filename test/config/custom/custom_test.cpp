@@ -309,7 +309,12 @@ TEST(Custom, AMistakeIsSaidAtItsKeyWithThePlaceInTheFormula) {
   EXPECT_THAT(complaint_of_problem("fields = [\"a\", \"b\", \"c\"]\nH = \"a^2\"\ninitial = { a = 1, b = 0 }"),
               HasSubstr("S is not given, and [[0, I], [−I, 0]] needs coordinates and as many momenta"));
   EXPECT_THAT(complaint_of_problem("fields = [\"a\", \"a\"]\nH = \"a^2\"\ninitial = \"zero\""),
-              HasSubstr("the name a stands for something else"));
+              HasSubstr("a is named twice"));
+  EXPECT_THAT(complaint_of_problem("fields = [\"a\", \"pi\"]\nH = \"a^2\"\ninitial = \"zero\""),
+              HasSubstr("the name pi stands for something else"));
+  EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2 + V(q)\""),
+              HasSubstr("unknown function 'V': write out what V( ) is, or V*( ) for a product. Allowed: sin, cos"));
+  EXPECT_THAT(complaint_of_problem(start + "H = \"p^2/2\"\ngamma = 0.1"), HasSubstr("did you mean 'D'?"));
   EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2 + u_x^4\"\ninitial = \"zero\""),
               HasSubstr("derivatives stand in quadratic terms only"));
   EXPECT_THAT(complaint_of_problem("points = 8\nH = \"v^2/2 + du^3*u\"\ninitial = \"zero\""),
