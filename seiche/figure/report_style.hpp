@@ -73,6 +73,7 @@ details { margin: 1rem 0; }
 summary { cursor: pointer; color: var(--link); }
 code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace; font-size: .9em; background: var(--tint);
   border-radius: .3rem; padding: .1rem .35rem; }
+.equation { overflow-x: auto; margin: .2rem 0 1.4rem; font-size: 1.1rem; }
 .narrow { width: auto; }
 @media (max-width: 42rem) { .verdicts thead { display: none; } .verdicts td, .verdicts th { display: block; width: auto !important;
     border-bottom: 0; padding: .2rem .4rem; } .verdicts tr { display: block; border-bottom: 1px solid var(--line);
@@ -87,7 +88,6 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", Menlo, Consolas, monospace
 
 // What the report of a single run adds.
 inline constexpr std::string_view run_report_style = R"css(
-.equation { overflow-x: auto; margin: .2rem 0 1.4rem; font-size: 1.1rem; }
 .equation math[display="block"] { text-align: left; margin: .5rem 0; width: max-content; }
 .equation .matrix { border: solid; border-width: 0 1.5px; border-radius: .7em; padding: 0 .1em; }
 .equation p { margin: .5rem 0; font-size: 1rem; color: var(--soft); }
