@@ -268,6 +268,41 @@ def test_a_warning_stands_below_however_many_lines_a_title_has():
             assert warning.y1 <= title.y1 - 0.85 * (title.height * lines / (lines + 1)) and title.x1 <= figure.bbox.x1
 
 
+def test_a_title_breaks_no_equation():
+    for width in np.linspace(1, 4, 20):
+        figure = plt.figure(figsize=(width, 1))
+        style.title(figure, "Chain of masses, seisav, h = 2⁻⁶: energy", "")
+        assert "h = 2⁻⁶" in figure._suptitle.get_text().replace("\u00a0", " ")
+        plt.close(figure)
+
+
+def test_legends_cover_no_curve_that_fills_its_axes_and_stay_in_the_figure(tmp_path):
+    of, _ = pictures(tmp_path, {"name": "oscillator", "alpha": 0.0, "gamma": 0.0}, t_end=30.0)
+    truss, _ = pictures(tmp_path / "truss", {"name": "truss", "amplitude": 0.2}, t_end=0.5)
+    for picture in (of["fields"], of["portrait_q_p"], truss["bars"]):
+        with style.on(style.GROUNDS["light"], {"figure.figsize": (2.4, 1.7)}):
+            figure = plt.figure()
+            picture.draw(figure)
+            figure.canvas.draw()
+            (ax,) = figure.axes
+            box = ax.get_legend().get_window_extent()
+        assert box.x0 >= 0 and box.x1 <= figure.bbox.x1 and box.y0 >= 0
+        ends = ax.transData.transform([[0, np.nanmax(line.get_ydata())] for line in ax.lines])[:, 1]
+        assert picture.stem == "bars" or box.y0 > ends.max()
+
+
+def test_numbers_of_points_do_not_overlap_in_a_small_picture():
+    with style.on(style.GROUNDS["light"]):
+        figure = plt.figure(figsize=(2.2, 1.6))
+        ax = figure.subplots()
+        field = curves.Field("u", "displacement", np.ones((5, 32)))
+        curves.profiles(ax, np.arange(5), ("point", np.arange(1, 33)), field)
+        figure.canvas.draw()
+        low, high = ax.get_xlim()
+        shown = [tick.label1.get_window_extent() for tick in ax.xaxis.get_major_ticks() if low <= tick.get_loc() <= high]
+    assert len(shown) > 1 and all(a.x1 < b.x0 for a, b in zip(shown, shown[1:]))
+
+
 def test_a_title_stands_at_the_same_place_on_both_grounds(tmp_path, monkeypatch):
     places = []
     pictures(tmp_path, {"name": "sine_gordon", "points": [6, 6], "length": [1.0, 1.0]}, t_end=0.5)

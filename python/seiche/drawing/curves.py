@@ -59,11 +59,27 @@ def legend(ax: "Axes", is_below: bool = False) -> None:
     longest = max(map(len, labels), default=0)
     if is_below or len(labels) > 4 or (longest > 24 and len(labels) > 1):
         columns = 1 if longest > 26 else 2 if longest > 16 else 3 if longest > 12 or len(labels) > 4 else 4
+        letters = ax.figure.get_figwidth() * 72 / (0.55 * _letter_size())  # beside lines of eight
+        columns = max(1, min(columns, int(letters / (longest + 8))))
         # So many letters below the axes, behind their own numbers and label.
         below = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 4.5}
         ax.legend(ncol=columns, columnspacing=1.2, **below)
     elif len(labels) > 1:
         ax.legend(loc="best")
+
+
+def legend_above(ax: "Axes", rows: int = 1) -> None:
+    """Inside, above all curves: the axes end higher, until something more is drawn on them."""
+    low, high = ax.get_ylim()
+    ax.set_ylim(top=high + (0.06 + 0.11 * rows) * (high - low), auto=True)
+    ax.legend(loc="upper center", ncols=3, columnspacing=1.2)
+
+
+def _letter_size() -> float:
+    import matplotlib
+    from matplotlib.font_manager import FontProperties
+
+    return float(FontProperties(size=matplotlib.rcParams["legend.fontsize"]).get_size_in_points())
 
 
 def are_numbered(name: str, places: np.ndarray) -> bool:
@@ -82,7 +98,7 @@ def number_points(axis: typing.Any, name: str, places: np.ndarray) -> None:
     if are_numbered(name, places):
         from matplotlib.ticker import MaxNLocator
 
-        axis.set_major_locator(MaxNLocator(integer=True))
+        axis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 5, 10], integer=True))
 
 
 def number_decades(axis: typing.Any) -> None:
@@ -197,7 +213,7 @@ def ledger(ax: "Axes", H: Curve, causes: typing.Mapping[str, Curve]) -> str:
     for place, (name, curve) in enumerate(shown.items()):
         add(ax, curve, label=name, linestyle=_dash(place), linewidth=1.2)
     ax.plot(*change, color=style.on_ground(ax, "#000000"), linewidth=0.6, label="$H - H(0)$", zorder=3)
-    ax.set(xlabel="time $t$", ylabel="change of $H$ since $t$ = 0")
+    ax.set(xlabel="time $t$", ylabel="change of $H$")
     said = nest(
         ax, coinciding(shown | {"the change": change}), {name: name for name in shown} | {"the change": "$H - H(0)$"}
     )
@@ -213,6 +229,12 @@ class Field(typing.NamedTuple):
     @property
     def label(self) -> str:
         return names.label(self.meaning, self.name)
+
+
+def _legend_of_turns(ax: "Axes") -> None:
+    """Of curves that fill their axes: they leave no place inside."""
+    labels = ax.get_legend_handles_labels()[1]
+    legend_above(ax) if 1 < len(labels) <= 3 else legend(ax)
 
 
 def over_time(ax: "Axes", t: np.ndarray, fields: typing.Sequence[Field]) -> None:
@@ -231,7 +253,7 @@ def over_time(ax: "Axes", t: np.ndarray, fields: typing.Sequence[Field]) -> None
                 label=label,
             )
     ax.set(xlabel="time $t$", ylabel=", ".join(names.symbol(field.name) for field in fields))
-    legend(ax)
+    _legend_of_turns(ax)
 
 
 def fitted(ax: "Axes", t: np.ndarray, data: np.ndarray, fit: np.ndarray, std: np.ndarray) -> None:
@@ -244,9 +266,7 @@ def fitted(ax: "Axes", t: np.ndarray, data: np.ndarray, fit: np.ndarray, std: np
         ax.plot(t, line, color=colour, label=f"fitted, point {k + 1}" if few else first["fitted"])
         band = {"color": colour, "alpha": 0.3, "linewidth": 0, "label": first["± 2 standard deviations"]}
         ax.fill_between(t, line - wide, line + wide, **band)
-    low, high = ax.get_ylim()
-    ax.set_ylim(top=high + (0.28 if few else 0.17) * (high - low))  # room for the legend above all curves
-    ax.legend(loc="upper center", ncols=3, columnspacing=1.2)
+    legend_above(ax, 2 if few else 1)
 
 
 def residuals(ax: "Axes", t: np.ndarray, weighted: np.ndarray) -> None:
@@ -307,7 +327,7 @@ def portrait(ax: "Axes", across: Field, up: Field, given: Style = {}) -> str:
         ax.plot(a[-1], b[-1], "s", color=ink, label=end)
     ax.set(xlabel=across.label, ylabel=up.label)
     ax.margins(0.05)
-    legend(ax)
+    _legend_of_turns(ax)
     if not dots:
         return ""
     return f" Dots are the {len(across.values)} states of the run" + (

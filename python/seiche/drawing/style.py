@@ -108,7 +108,7 @@ def title(figure: "Figure", text: str, warning: str) -> None:
     """Above a figure, at its left end, with a line in red below it for what a run falls short of."""
     points = figure.get_figwidth() * 72
     letters = int(points / (0.58 * _title_size()))  # of a line
-    lines = textwrap.wrap(text, letters) or [""]
+    lines = textwrap.wrap(text.replace(" = ", "\u00a0=\u00a0"), letters) or [""]  # h = 0.1 stays on one line
     plain = {"ha": "left", "parse_math": False}
     top = 1 - 0.03 / figure.get_figheight()  # where a layout puts it, and it stands without one
     figure.suptitle("\n".join(lines) + ("\n" if warning else ""), x=0.012, **plain).set_y(top)
