@@ -26,7 +26,7 @@ paper: build  ## the paper's examples, figures and claims: out/paper/report.html
 	@build/release/seiche paper --out "$(OUT)" $(ARGS)
 	@echo "The report is $(OUT)/report.html"
 
-docs: build  ## this project's pages, their gallery drawn anew: build/docs/index.html
+docs: build python  ## this project's pages, their gallery drawn anew: build/docs/index.html
 	@bash scripts/install-deps --docs
 	@/usr/bin/python3 docs/site/build.py build/release/seiche
 	@echo "Open build/docs/index.html"

@@ -7,6 +7,7 @@
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/figure/drawing.hpp>
+#include <seiche/figure/ensemble_pictures.hpp>
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/folder_lock.hpp>
@@ -33,9 +34,9 @@ struct PlotArguments {
   std::string formats = "png,pdf,svg";
   std::string film_fields;
   bool no_film = false;
-  std::string range, palette;
-  std::optional<double> centre;
-  double size = 0;
+  std::vector<std::string> ranges;
+  std::string palette;
+  std::optional<double> centre, size;
   bool journal = false;
   bool xdmf = false;
 };
@@ -66,32 +67,40 @@ std::vector<std::string> parsed_fields(const std::string& text, const SolutionRe
   return fields;
 }
 
-// "0.8,1.2"
-std::optional<std::pair<double, double>> parsed_range(const std::string& text) {
-  if (text.empty()) return {};
+// "0.8,1.2" for all fields, "v=0,1.1" for one.
+void add_range(const std::string& text, PictureOptions& options) {
+  const std::size_t equals = text.find('=');
+  const std::string field = equals == std::string::npos ? "" : text.substr(0, equals);
   double low = 0, high = 0;
   char comma = 0;
-  std::istringstream words(text);
+  std::istringstream words(equals == std::string::npos ? text : text.substr(equals + 1));
   words.imbue(std::locale::classic());
   words >> low >> comma >> high;
-  if (words.fail() || comma != ',' || words.peek() != EOF || !(low < high))
-    throw Error("--range {} must be two numbers with a comma, the lower one first: --range 0.8,1.2", shortened(text));
-  return std::pair(low, high);
+  if (words.fail() || comma != ',' || words.peek() != EOF || !(low < high) || equals == 0)
+    throw Error(
+        "--range {} must be two numbers with a comma, the lower one first: --range 0.8,1.2, or of one field: "
+        "--range v=0,1.1",
+        shortened(text));
+  if (field.empty()) {
+    options.range = std::pair(low, high);
+  } else {
+    options.ranges[field] = {low, high};
+  }
 }
 
 PictureOptions picture_options(const PlotArguments& arguments) {
-  constexpr double cm_per_inch = 2.54, least = 4, most = 60, column = 8.6;
-  if (arguments.size != 0 && !(arguments.size >= least && arguments.size <= most))
-    throw Error("--size {:g} must be a width in centimetres from {:g} to {:g}", arguments.size, least, most);
-  const double width = arguments.size == 0 && arguments.journal ? column : arguments.size;
-  return {.formats = parsed_formats(arguments.formats),
-          .film = !arguments.no_film,
-          .range = parsed_range(arguments.range),
-          .centre = arguments.centre,
-          .palette = arguments.palette,
-          .width = width / cm_per_inch,
-          .journal = arguments.journal,
-          .progress = ::isatty(STDERR_FILENO) != 0};
+  constexpr double cm_per_inch = 2.54, least = 6, most = 60, column = 8.6;
+  if (arguments.size && !(*arguments.size >= least && *arguments.size <= most))
+    throw Error("--size {:g} must be a width in centimetres from {:g} to {:g}", *arguments.size, least, most);
+  PictureOptions options = {.formats = parsed_formats(arguments.formats),
+                            .film = !arguments.no_film,
+                            .centre = arguments.centre,
+                            .palette = arguments.palette,
+                            .width = arguments.size.value_or(arguments.journal ? column : 0) / cm_per_inch,
+                            .journal = arguments.journal,
+                            .progress = ::isatty(STDERR_FILENO) != 0};
+  for (const std::string& range : arguments.ranges) add_range(range, options);
+  return options;
 }
 
 // Asked where something went wrong, since all of it is read.
@@ -116,11 +125,24 @@ ExitCode write_all_times(const std::filesystem::path& directory) {
   return success;
 }
 
+ExitCode plot_ensemble(const PlotArguments& arguments, const PictureOptions& options) {
+  if (!arguments.ranges.empty() || arguments.centre || !arguments.palette.empty() || !arguments.film_fields.empty())
+    throw Error(
+        "{} holds an ensemble, whose pictures are curves: --range, --centre, --palette and --film have nothing to colour",
+        arguments.directory);
+  const std::filesystem::path directory = arguments.directory;
+  const FolderLock lock{Folder(directory)};
+  const std::size_t count = draw_ensemble(directory, options);
+  print_lines(fmt::format("{:<10} {} in {}\n", "pictures", count, (directory / "figures").string()));
+  return success;
+}
+
 ExitCode plot(const PlotArguments& arguments) {
   hdf5_without_cleanup_at_exit();  // which of a damaged file says that it does not end
   if (arguments.xdmf) return write_all_times(arguments.directory);
   PictureOptions options = picture_options(arguments);
   require_recovered(arguments.directory);
+  if (holds_ensemble(arguments.directory)) return plot_ensemble(arguments, options);
   const RunFiles run = read_run(arguments.directory);
   const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
   if (!std::filesystem::exists(run.directory / "solution.h5"))
@@ -161,8 +183,8 @@ ExitCode plot(const PlotArguments& arguments) {
 
 void add_plot(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<PlotArguments>();
-  CLI::App* command =
-      app.add_subcommand("plot", "Draw a finished run: energies, solution, film, and report.html with them");
+  CLI::App* command = app.add_subcommand(
+      "plot", "Draw a finished run: energies, solution, film, and report.html with them; of an ensemble its energies");
   command->add_option("DIR", arguments->directory, "The directory that a run left")->required()->type_name("");
   command->add_option("--format", arguments->formats, "Kinds of files: png, pdf, svg (all if not given; png always)")
       ->type_name("LIST");
@@ -173,8 +195,12 @@ void add_plot(CLI::App& app, Action& action) {
   command->add_flag("--no-film", arguments->no_film, "No film of a solution in the plane, which takes longest")
       ->excludes(film);
   CLI::Option* range =
-      command->add_option("--range", arguments->range, "Lowest and highest value of the colours: --range 0.8,1.2")
-          ->type_name("LOW,HIGH");
+      command
+          ->add_option(
+              "--range", arguments->ranges,
+              "Lowest and highest value of the colours, of all fields or of one: --range 0.8,1.2 --range v=0,1.1")
+          ->allow_extra_args(false)
+          ->type_name("[FIELD=]LOW,HIGH");
   command
       ->add_option("--centre", arguments->centre, "The value of the middle colour, for colours from both sides of it")
       ->type_name("VALUE")

@@ -49,7 +49,8 @@ void draw_curves(std::vector<CurvePicture>& pictures, const std::filesystem::pat
   }
   DrawingFolder drawing(directory);
   const Json grounds = files.dark ? Json::array({"light", "dark"}) : Json::array({"light"});
-  const Json request = {{"pictures", all}, {"formats", files.formats}, {"grounds", grounds}};
+  Json request = {{"pictures", all}, {"formats", files.formats}, {"grounds", grounds}, {"journal", files.journal}};
+  if (files.width > 0) request["width"] = files.width;
   const Json drawn = Json::parse(draw(request.dump(), drawing.path()));
   for (std::size_t i = 0; i < pictures.size(); ++i) pictures[i].caption = drawn.at("pictures").at(i).at("caption");
   drawing.commit();

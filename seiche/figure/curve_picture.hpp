@@ -46,7 +46,9 @@ struct CurvePicture {
 
 struct CurveFiles {
   std::vector<std::string> formats = {"png", "pdf"};
-  bool dark = false;  // also <stem>_dark.png, for a dark ground
+  bool dark = false;     // also <stem>_dark.png, for a dark ground
+  double width = 0;      // inches; 0: 3.4
+  bool journal = false;  // without titles
 };
 
 // Draws <stem>.png and so on; completes the captions. All of the

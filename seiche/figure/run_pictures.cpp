@@ -43,7 +43,7 @@ bool is_picture(const fs::path& file) {
   if (is_one_of({".mp4", ".webm", ".webp", ".apng"}, extension)) return begins_with_one_of(stem, {"film_"});
   if (extension.empty() || !is_one_of(picture_formats(), extension.substr(1))) return false;
   return is_one_of({"energy", "ledger", "bars", "fields"}, stem) ||
-         begins_with_one_of(stem, {"portrait_", "profiles_", "space_time_", "slices_", "planes_"});
+         begins_with_one_of(stem, {"portrait_", "profiles_", "space_time_", "slices_", "planes_", "members_"});
 }
 
 // u_0001.png and u_0001_dark.png in figures/film, where earlier versions left the frames of films.
@@ -94,6 +94,7 @@ Json request_for(const RunFiles& run, const EnergyHistory& history, const std::v
                   {"progress", options.progress}};
   if (!options.film) request["films"] = Json::array();
   if (options.range) request["range"] = {options.range->first, options.range->second};
+  for (const auto& [field, ends] : options.ranges) request["ranges"][field] = {ends.first, ends.second};
   if (options.centre) request["centre"] = *options.centre;
   if (!options.palette.empty()) request["palette"] = options.palette;
   if (options.width > 0) request["width"] = options.width;

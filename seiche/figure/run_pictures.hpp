@@ -4,6 +4,7 @@
 #include <seiche/study/energy_history.hpp>
 #include <seiche/study/run_files.hpp>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,13 +35,14 @@ struct RunPictures {
 struct PictureOptions {
   std::vector<std::string> formats = {"png", "pdf", "svg"};  // png is always among them: the report shows it
   bool film = true;
-  std::vector<std::string> film_fields = {};            // empty: the first
-  std::optional<std::pair<double, double>> range = {};  // of the colours of maps
-  std::optional<double> centre = {};                    // the value of the middle colour, of colours from both sides
-  std::string palette = {};                             // one of Matplotlib's, "" for those of the house
-  double width = 0;                                     // inches; 0: 3.4
-  bool journal = false;                                 // without titles
-  bool progress = false;                                // on the terminal
+  std::vector<std::string> film_fields = {};                     // empty: the first
+  std::optional<std::pair<double, double>> range = {};           // of the colours of maps
+  std::map<std::string, std::pair<double, double>> ranges = {};  // the same of single fields
+  std::optional<double> centre = {};  // the value of the middle colour, of colours from both sides
+  std::string palette = {};           // one of Matplotlib's, "" for those of the house
+  double width = 0;                   // inches; 0: 3.4
+  bool journal = false;               // without titles
+  bool progress = false;              // on the terminal
 };
 
 const std::vector<std::string>& picture_formats();
@@ -51,7 +53,7 @@ void require_own_figures(const std::filesystem::path& directory);
 
 // Throws Error where require_own_figures does, where Python or a package that draws is missing or fails, and where
 // solution.h5 cannot be read; then what an earlier call drew stays, and goes only where everything is drawn. Throws
-// BadDrawingRequest for a palette that there is not.
+// BadDrawingRequest for a palette or a field that there is not.
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options = {});
 
 // What draw_run left in the figures of an earlier run, so that nothing old stands beside new data; other files stay.

@@ -18,6 +18,7 @@ namespace TEST_FILE {
 namespace fs = std::filesystem;
 using test::can_draw;
 using test::text_of;
+using testing::AllOf;
 using testing::HasSubstr;
 
 using PictureChoice = test::RunFolder;
@@ -160,6 +161,9 @@ TEST_F(PictureChoice, ColoursAndSizesAreAsAskedFor) {
   };
   ASSERT_EQ(plot("--palette magma --range 0.1,0.2"), 0) << said();
   EXPECT_THAT(report(), HasSubstr("The scale goes from 0.1 to 0.2"));
+  ASSERT_EQ(plot("--range u=0.1,0.3 --range v=-0.01,0.02"), 0) << said();
+  EXPECT_THAT(report(),
+              AllOf(HasSubstr("The scale goes from 0.1 to 0.3"), HasSubstr("The scale goes from −0.01 to 0.02")));
   ASSERT_EQ(plot("--centre 0.3 --size 12"), 0) << said();
   EXPECT_NEAR(read_png(out() / "figures/energy.png").width, 12 / 2.54 * 300, 1);
   ASSERT_EQ(plot("--journal"), 0) << said();
@@ -169,10 +173,29 @@ TEST_F(PictureChoice, ColoursAndSizesAreAsAskedFor) {
         {"--range 2,1", "must be two numbers with a comma"},
         {"--range 1", "must be two numbers with a comma"},
         {"--range 1,2,3", "must be two numbers with a comma"},
+        {"--range =1,2", "must be two numbers with a comma"},
+        {"--range w=1,2", "there is no field 'w'; the fields are u, v"},
+        {"--size 0", "--size 0 must be a width in centimetres from 6 to 60"},
         {"--size 1", "must be a width in centimetres"}}) {
     EXPECT_EQ(plot(options), 2) << options;
     EXPECT_THAT(said(), HasSubstr(words));
   }
+}
+
+TEST_F(PictureChoice, AnEnsembleHasItsEnergiesAndWhatEachParameterDoes) {
+  if (!can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
+  std::ofstream(directory / "case.toml") << "[problem]\nname = \"oscillator\"\n[method]\nh = \"1/32\"\n[time]\n"
+                                            "end = 4.0\n[ensemble]\nmembers = 20\ngamma = { uniform = [0.1, 0.4] }\n";
+  ASSERT_EQ(seiche("run '" + (directory / "case.toml").string() + "' --quiet --out '" + out().string() + "'"), 0);
+  ASSERT_EQ(seiche("plot --format pdf '" + out().string() + "'"), 0) << said();
+  EXPECT_THAT(said(), HasSubstr("2 in "));
+  for (const char* file : {"energy.png", "energy_dark.png", "energy.pdf", "members_gamma.png", "members_gamma.pdf"})
+    EXPECT_GT(fs::file_size(out() / "figures" / file), 4000U) << file;
+  EXPECT_EQ(seiche("plot --range 0,1 '" + out().string() + "'"), 2);
+  EXPECT_THAT(said(), HasSubstr("have nothing to colour"));
+  fs::remove(out() / "members.csv");
+  EXPECT_EQ(seiche("plot '" + out().string() + "'"), 2);
+  EXPECT_TRUE(fs::exists(out() / "figures/energy.pdf")) << "what cannot be drawn again stays";
 }
 
 }  // namespace TEST_FILE
