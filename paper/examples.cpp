@@ -77,9 +77,12 @@ void add_curves(ExampleResult& result, const RunOutcome& outcome) {
   result.energy_errors.push_back({outcome.row.method, record.t, record.error});
 }
 
+}  // namespace
+
 // The paper's eight, and SEILM with the paper's scalar solver, in one series so that their times compare.
-void time_rows(ExampleStudy& study, const PaperExample& example, std::vector<Contender> contenders,
-               const TimingOptions& options) {
+void add_times(ExampleStudy& study, const PaperExample& example, const TimingOptions& options) {
+  std::vector<Contender> contenders;
+  for (const std::string& method : study.result.methods) contenders.push_back({method, scheme(method)});
   std::vector<StudyRow> rows = study.result.rows;
   const std::vector<Contender> beside = studied_beside();
   for (const StudyRow& row : study.evidence.others) {
@@ -94,8 +97,6 @@ void time_rows(ExampleStudy& study, const PaperExample& example, std::vector<Con
     if (row.method == plain_newton) row.cpu_seconds = rows[i++].cpu_seconds;
   }
 }
-
-}  // namespace
 
 const std::vector<std::string>& paper_methods() {
   static const std::vector<std::string> names = {"avf", "sav", "savf", "seavf", "ssav", "slm", "seisav", "seilm"};
@@ -125,7 +126,7 @@ std::vector<PaperExample> paper_examples(bool quick) {
   };
 }
 
-ExampleStudy study_example(const PaperExample& example, const ExampleOptions& options) {
+ExampleStudy study_errors(const PaperExample& example, const ExampleOptions& options) {
   ExampleStudy study;
   ExampleResult& result = study.result;
   ExampleEvidence& evidence = study.evidence;
@@ -192,7 +193,6 @@ ExampleStudy study_example(const PaperExample& example, const ExampleOptions& op
   if (!options.stop || !options.stop->load()) {
     evidence.seavf_reference_end = options.seavf_end;
     evidence.seavf_reference_distance = seavf_distance(example.problem, options.seavf_end);
-    time_rows(study, example, contenders, options.timing);
   }
   return study;
 }

@@ -37,6 +37,9 @@ struct ExampleStudy {
   ExampleResult result;
   ExampleEvidence evidence;
 };
-ExampleStudy study_example(const PaperExample& example, const ExampleOptions& options);
+// Everything but the times; may run on several threads at once.
+ExampleStudy study_errors(const PaperExample& example, const ExampleOptions& options);
+// The times of its runs, which nothing else should disturb.
+void add_times(ExampleStudy& study, const PaperExample& example, const TimingOptions& options);
 
 }  // namespace seiche

@@ -11,8 +11,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <functional>
+#include <future>
 #include <iterator>
+#include <utility>
 
 namespace seiche {
 namespace {
@@ -96,6 +100,26 @@ Json json_of(const Verdict& verdict) {
           {"measured", verdict.measured}, {"remark", verdict.remark}};
 }
 
+// The errors of all examples, several at once, each on one thread.
+std::vector<ExampleStudy> all_errors(const std::vector<PaperExample>& examples, ExampleOptions options,
+                                     const std::function<void(std::size_t)>& tell) {
+  std::vector<ExampleStudy> studies(examples.size());
+  std::atomic<std::size_t> next = 0;
+  const auto stopped = [&] { return options.stop && options.stop->load(); };
+  const auto work = [&](bool tells) {
+    for (std::size_t i = next++; i < examples.size() && !stopped(); i = next++) {
+      if (tells) tell(i);
+      studies[i] = study_errors(examples[i], options);
+    }
+  };
+  const int threads = std::exchange(options.threads, 1);
+  std::vector<std::future<void>> others;
+  for (int i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async, work, false));
+  work(true);
+  for (std::future<void>& other : others) other.get();
+  return studies;
+}
+
 }  // namespace
 
 PaperResults run_paper(const PaperOptions& options) {
@@ -111,7 +135,7 @@ PaperResults run_paper(const PaperOptions& options) {
   ExampleOptions example_options{.reference = {.kind = options.reference, .stop = options.stop},
                                  .threads = options.threads,
                                  .stop = options.stop};
-  example_options.timing.repeats = 5;
+  example_options.timing = {.repeats = 3, .seconds = 0.05};
   if (options.quick) {
     example_options.timing = {.repeats = 3, .seconds = 0.004, .warm_up_seconds = 0.001};
     example_options.seavf_end = 0.125;
@@ -120,12 +144,15 @@ PaperResults run_paper(const PaperOptions& options) {
 
   try {
     const std::vector<PaperExample> examples = paper_examples(options.quick);
+    const auto share = [&](std::size_t i) { return static_cast<double>(i) / static_cast<double>(examples.size()); };
+    std::vector<ExampleStudy> studies =
+        all_errors(examples, example_options, [&](std::size_t i) { tell(0.4 * share(i), examples[i].title); });
     for (std::size_t i = 0; i < examples.size() && !stopped(); ++i) {
-      tell(0.85 * static_cast<double>(i) / static_cast<double>(examples.size()), examples[i].title);
-      ExampleStudy study = study_example(examples[i], example_options);
+      tell(0.4 + 0.45 * share(i), examples[i].title + ": times");
+      add_times(studies[i], examples[i], example_options.timing);
       if (stopped()) break;  // its runs were cut short
-      results.examples.push_back(std::move(study.result));
-      evidence.examples.push_back(std::move(study.evidence));
+      results.examples.push_back(std::move(studies[i].result));
+      evidence.examples.push_back(std::move(studies[i].evidence));
     }
     if (!stopped()) {
       tell(0.85, "side studies");
