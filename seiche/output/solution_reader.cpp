@@ -38,7 +38,7 @@ std::vector<double> all_of(const Hdf5Dataset& data) {
 
 // So long may a processor take: damage can have HDF5 go round in circles.
 ::rlim_t longest_reading(const std::filesystem::path& solution) {
-  constexpr std::uintmax_t seconds = 5, bytes_per_second = 20'000'000;
+  constexpr std::uintmax_t seconds = 2, bytes_per_second = 20'000'000;
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(solution, unknown);
   return seconds + (unknown ? 0 : bytes / bytes_per_second);
