@@ -132,8 +132,16 @@ ExitCode plot_ensemble(const PlotArguments& arguments, const PictureOptions& opt
         arguments.directory);
   const std::filesystem::path directory = arguments.directory;
   const FolderLock lock{Folder(directory)};
-  const std::size_t count = draw_ensemble(directory, options);
-  print_lines(fmt::format("{:<10} {} in {}\n", "pictures", count, (directory / "figures").string()));
+  EnsemblePictures pictures = ensemble_pictures(directory);
+  try {
+    draw_ensemble(pictures, directory, options);
+  } catch (const BadDrawingRequest&) {
+    throw;
+  } catch (const Error& error) {
+    print_failure(error.what());
+    return computation_failed;
+  }
+  print_lines(fmt::format("{:<10} {} in {}\n", "pictures", pictures.list.size(), (directory / "figures").string()));
   return success;
 }
 
@@ -148,7 +156,7 @@ ExitCode plot(const PlotArguments& arguments) {
   if (!std::filesystem::exists(run.directory / "solution.h5"))
     throw Error(
         "{0} has no solution.h5 and nothing to draw: its run ended before a state was written, or the file was removed; "
-        "`seiche run {0}/case.toml --restart` computes it again",
+        "`seiche run {0}/case.toml --out {0} --restart` computes it again",
         run.directory.string());
   if (!arguments.film_fields.empty())
     options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.directory / "solution.h5"));

@@ -90,7 +90,7 @@ def _in_lines(figure: _typing.Any, text: str) -> str:
     from matplotlib import font_manager, rcParams
 
     size = font_manager.FontProperties(size=rcParams["axes.titlesize"]).get_size_in_points()
-    most = 72 * (figure.get_figwidth() - 0.7) / (0.52 * size)  # letters, above axes that stand beside the middle
+    most = 72 * (figure.bbox.width / figure.dpi - 0.7) / (0.52 * size)  # letters, above axes that stand beside the middle
     lines = [""]
     for word in _re.split(r"( |\n)", text):
         if word == "\n" or len(_re.sub(r"[${}^\\]", "", lines[-1] + word)) > most:

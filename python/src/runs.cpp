@@ -6,6 +6,7 @@
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/figure/drawing.hpp>
+#include <seiche/figure/ensemble_pictures.hpp>
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/folder_lock.hpp>
@@ -122,6 +123,12 @@ void report(const std::string& folder, const std::vector<std::string>& formats, 
   interruptible([&](const std::atomic<bool>*) {
     draw_with(programs, interpreter);
     require_recovered(folder);
+    if (holds_ensemble(folder)) {
+      const FolderLock lock{Folder(folder)};
+      EnsemblePictures pictures = ensemble_pictures(folder);
+      draw_ensemble(pictures, folder, {.formats = formats});
+      return 0;
+    }
     const RunFiles run = read_run(folder);
     const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
     const FolderLock lock{Folder(run.directory)};

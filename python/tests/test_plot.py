@@ -56,7 +56,11 @@ def test_slices_have_scales_of_their_own_where_a_wave_dies_down():
     scales, sizes = slices(2.0)
     assert sizes[0] > 4 * sizes[-1] and np.allclose(np.abs(scales).max(axis=1), sizes)
     scales, sizes = slices(0.0)
-    assert sizes.max() < 4 * sizes.min() and len(set(scales)) == 1 and np.abs(scales[0]).max() == pytest.approx(sizes.max())
+    assert (
+        sizes.max() < 4 * sizes.min()
+        and len(set(scales)) == 1
+        and np.abs(scales[0]).max() == pytest.approx(sizes.max())
+    )
 
 
 def test_a_phase_portrait_shows_its_states_where_they_are_few():
@@ -110,7 +114,9 @@ def test_a_fit_shows_residuals_and_its_legend_covers_no_curve(points):
     pytest.importorskip("scipy")
     t, noise = np.linspace(0.5, 10, 40), 0.03 * np.random.default_rng(1).standard_normal((points, 40))
     swings = oscillator(points=points, gamma=0.2)
-    found = seiche.fit(swings, t, seiche.solve(swings, 10.0, h=0.05, t_eval=t).field("q").T + noise, {"gamma": (0.3, 0, 1)})
+    found = seiche.fit(
+        swings, t, seiche.solve(swings, 10.0, h=0.05, t_eval=t).field("q").T + noise, {"gamma": (0.3, 0, 1)}
+    )
     ax = found.plot()
     assert ax.get_ylabel() == "displacement $q$" and r"fit, $\gamma$ = 0." in ax.get_title()
     below = ax.figure.axes[1]
@@ -126,13 +132,13 @@ def test_a_fit_shows_residuals_and_its_legend_covers_no_curve(points):
 
 def test_planes_go_through_the_middle_of_a_result_in_space():
     start = {"u": "exp(-4*((x-1)^2 + (y-1)^2 + (z-1)^2))", "v": "0"}
-    box = seiche.problem(
-        "klein_gordon", points=[6, 8, 10], length=[2.0, 2.0, 2.0], alpha=1.0, gamma=0.1, initial=start
-    )
+    box = seiche.problem("klein_gordon", points=[6, 8, 10], length=[2.0, 2.0, 2.0], alpha=1.0, gamma=0.1, initial=start)
     r = seiche.solve(box, 1.0, h=0.125)
     axes = seiche.plot.planes(r)
     assert [(ax.get_xlabel(), ax.get_title()) for ax in axes[:2]] == [("$x$", "$t$ = 0"), ("$x$", "$t$ = 1")]
-    shown = [np.reshape(ax.collections[0].get_array(), shape) for ax, shape in zip(axes[::2], [(8, 6), (10, 6), (10, 8)])]
+    shown = [
+        np.reshape(ax.collections[0].get_array(), shape) for ax, shape in zip(axes[::2], [(8, 6), (10, 6), (10, 8)])
+    ]
     u = r.field("u")[0]
     for plane, of_u in zip(shown, (u[:, :, 5], u[:, 4, :], u[3, :, :])):
         assert np.array_equal(plane, of_u.T)
@@ -191,7 +197,9 @@ def test_a_film_takes_the_name_that_was_given(plane, tmp_path):
     for ending, (start, place) in starts.items():
         file = seiche.plot.film(r, tmp_path / f"film{ending}")
         assert file == tmp_path / f"film{ending}" and file.read_bytes()[place : place + 4] == start
-    with pytest.raises(ValueError, match=r"^unknown ending '.gif' of a film. Allowed: .mp4, .webm, .webp, .apng, .png$"):
+    with pytest.raises(
+        ValueError, match=r"^unknown ending '.gif' of a film. Allowed: .mp4, .webm, .webp, .apng, .png$"
+    ):
         seiche.plot.film(r, tmp_path / "wave.gif")
 
 
@@ -226,8 +234,12 @@ def test_colours_are_from_both_sides_of_zero_only_where_values_are(wave):
         assert low == -high, "zero at the centre"
         assert mesh.cmap.name == name
         middle, ends = np.mean(mesh.cmap(0.5)[:3]), [np.mean(mesh.cmap(s)[:3]) for s in (0.0, 1.0)]
-        assert all(middle > end for end in ends) if name == "vik" else all(middle < end for end in ends), "as the ground"
-    flat = seiche.solve(seiche.problem("klein_gordon", points=16, initial={"u": "2 + sin(pi*x)", "v": "0"}), 0.1, h=0.05)
+        assert (
+            all(middle > end for end in ends) if name == "vik" else all(middle < end for end in ends)
+        ), "as the ground"
+    flat = seiche.solve(
+        seiche.problem("klein_gordon", points=16, initial={"u": "2 + sin(pi*x)", "v": "0"}), 0.1, h=0.05
+    )
     mesh = seiche.plot.space_time(flat).collections[0]
     assert mesh.cmap.name == "viridis" and mesh.get_clim() == (flat.field("u").min(), flat.field("u").max())
 
@@ -249,7 +261,9 @@ def test_curves_have_the_colours_of_the_program(wave):
     assert re.findall(r"`(#[0-9A-F]{6})`", conventions) == program == list(style.CURVES)
     rows = re.findall(r'\{"(\w+)", +"[^"]*", +\{"(#\w+)", +(\w+), +(\w+), +(\w+),', text)
     assert len(rows) == len(_styles.METHODS) == len(seiche.methods()) - 1  # "auto" is one of the others
-    assert {name: (colour, shape, filled == "true", dash) for name, colour, shape, filled, dash in rows} == _styles.METHODS
+    assert {
+        name: (colour, shape, filled == "true", dash) for name, colour, shape, filled, dash in rows
+    } == _styles.METHODS
 
     r = seiche.solve(wave, 1.0, h=0.0625)
     ax = seiche.plot.energy(r)
@@ -258,9 +272,18 @@ def test_curves_have_the_colours_of_the_program(wave):
     assert [line.get_color() for line in ax.lines] == program[:3], "one more run is one more colour"
     assert seiche.plot.energy(r, c="red").lines[0].get_color() == "red"
     ax = seiche.plot.phase_portrait(seiche.solve(oscillator(points=2), 1.0, h=0.0625))
-    assert [line.get_color() for line in ax.lines] == [program[0], "#000000", "#000000", program[1], "#000000", "#000000"]
+    assert [line.get_color() for line in ax.lines] == [
+        program[0],
+        "#000000",
+        "#000000",
+        program[1],
+        "#000000",
+        "#000000",
+    ]
     ax = seiche.plot.work_precision(seiche.problem("oscillator"), ["seisav", "savf"], ["1/8", "1/16"], t_end=1.0)
-    assert [(line.get_color(), line.get_marker(), line.get_linestyle(), line.get_markerfacecolor()) for line in ax.lines] == [
+    assert [
+        (line.get_color(), line.get_marker(), line.get_linestyle(), line.get_markerfacecolor()) for line in ax.lines
+    ] == [
         ("#D55E00", "s", "-", "#D55E00"),
         ("#2AA198", "o", "--", "none"),
     ]
@@ -290,12 +313,16 @@ def test_the_energy_of_an_ensemble_is_its_mean_and_spread(wave):
     assert low == e.energy["q05"].min() and high == e.energy["q95"].max()
     assert ax.get_title() == "klein_gordon, seisav, $h$ = $2^{-4}$: energy of 20 members, law holds"
     for draw in (seiche.plot.space_time, seiche.plot.slices, seiche.plot.phase_portrait):
-        with pytest.raises(ValueError, match=f"^{draw.__name__} draws one run, and an ensemble keeps the last states alone"):
+        with pytest.raises(
+            ValueError, match=f"^{draw.__name__} draws one run, and an ensemble keeps the last states alone"
+        ):
             draw(e)
 
 
 def test_a_narrow_peak_is_drawn_at_its_height():
-    peak = seiche.problem("klein_gordon", points=128, gamma=0.0, alpha=1.0, initial={"u": "exp(-4000*(x-1)^2) - 0.1", "v": "0"})
+    peak = seiche.problem(
+        "klein_gordon", points=128, gamma=0.0, alpha=1.0, initial={"u": "exp(-4000*(x-1)^2) - 0.1", "v": "0"}
+    )
     mesh = seiche.plot.space_time(seiche.solve(peak, 0.125, h=0.0625)).collections[0]
     assert mesh.get_clim() == pytest.approx((-0.9, 0.9)) and mesh.colorbar.extend == "neither"
 
@@ -336,7 +363,9 @@ def test_a_narrow_figure_has_room_for_titles_and_for_the_numbers_of_its_axes(wav
     for figure in figures:
         figure.canvas.draw()
         title = figure.axes[0].title.get_window_extent()
-        assert figure.axes[0].get_title() and title.x0 >= 0 and title.x1 <= figure.bbox.x1 and title.y1 <= figure.bbox.y1
+        assert (
+            figure.axes[0].get_title() and title.x0 >= 0 and title.x1 <= figure.bbox.x1 and title.y1 <= figure.bbox.y1
+        )
     low, high = work.get_xlim()
     shown = [tick.label1.get_window_extent() for tick in work.xaxis.get_major_ticks() if low <= tick.get_loc() <= high]
     assert shown and all(a.x1 < b.x0 for a, b in zip(shown, shown[1:]))
@@ -357,3 +386,13 @@ def test_titles_are_those_of_the_program(tmp_path):
     assert seiche.plot.phase_portrait(by_tolerance).get_title() == "swing, egc6, tolerance 1e-06: phase portrait"
     written = seiche.Problem(fields=["q", "p"], H="p^2/2 + q^4/4", initial={"q": 1, "p": 0})
     assert "custom" not in seiche.plot.energy(seiche.solve(written, 1.0, h=0.1)).get_title()
+
+
+def test_axes_of_a_subfigure_serve_too():
+    import matplotlib.pyplot as plt
+
+    r = seiche.solve(seiche.problem("klein_gordon", points=16), 1.0, h=0.125)
+    left, right = plt.figure().subfigures(1, 2)
+    seiche.plot.energy(r, ax=left.subplots())
+    seiche.plot.profiles(r, "u", ax=right.subplots())
+    plt.close("all")

@@ -49,10 +49,15 @@ void draw_curves(std::vector<CurvePicture>& pictures, const std::filesystem::pat
   }
   DrawingFolder drawing(directory);
   const Json grounds = files.dark ? Json::array({"light", "dark"}) : Json::array({"light"});
-  Json request = {{"pictures", all}, {"formats", files.formats}, {"grounds", grounds}, {"journal", files.journal}};
+  Json request = {{"pictures", all},
+                  {"formats", files.formats},
+                  {"grounds", grounds},
+                  {"journal", files.journal},
+                  {"warning", files.warning}};
   if (files.width > 0) request["width"] = files.width;
   const Json drawn = Json::parse(draw(request.dump(), drawing.path()));
   for (std::size_t i = 0; i < pictures.size(); ++i) pictures[i].caption = drawn.at("pictures").at(i).at("caption");
+  if (files.when_drawn) files.when_drawn();
   drawing.commit();
 }
 

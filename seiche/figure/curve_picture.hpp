@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,9 +47,11 @@ struct CurvePicture {
 
 struct CurveFiles {
   std::vector<std::string> formats = {"png", "pdf"};
-  bool dark = false;     // also <stem>_dark.png, for a dark ground
-  double width = 0;      // inches; 0: 3.4
-  bool journal = false;  // without titles
+  bool dark = false;                      // also <stem>_dark.png, for a dark ground
+  double width = 0;                       // inches; 0: 3.4
+  bool journal = false;                   // without titles
+  std::string warning = {};               // below the titles
+  std::function<void()> when_drawn = {};  // called before the new files take their places
 };
 
 // Draws <stem>.png and so on; completes the captions. All of the

@@ -54,6 +54,8 @@ class Scale(typing.NamedTuple):
         if self.usual is None:
             return ""
         low, high = self.usual
+        if names.number(low) == names.number(high):
+            return ""  # a range of so many digits is nothing to type
         between = f"{names.number(low)} and {names.number(high)}"
         return f" Nearly all values lie between {between}: --range {low:.6g},{high:.6g} shows those with more colours."
 

@@ -59,7 +59,7 @@ def legend(ax: "Axes", is_below: bool = False) -> None:
     longest = max(map(len, labels), default=0)
     if is_below or len(labels) > 4 or (longest > 24 and len(labels) > 1):
         columns = 1 if longest > 26 else 2 if longest > 16 else 3 if longest > 12 or len(labels) > 4 else 4
-        letters = ax.figure.get_figwidth() * 72 / (0.55 * _letter_size())  # beside lines of eight
+        letters = ax.figure.bbox.width / ax.figure.dpi * 72 / (0.55 * _letter_size())  # beside lines of eight
         columns = max(1, min(columns, int(letters / (longest + 8))))
         # So many letters below the axes, behind their own numbers and label.
         below = {"loc": "upper center", "bbox_to_anchor": (0.5, 0), "borderaxespad": 4.5}

@@ -122,10 +122,11 @@ class RunStudio:
 class CurveStudio:
     """The same of pictures that are described one by one."""
 
-    title, warning = "", ""
+    title = ""
     films: typing.Sequence[str] = ()
 
     def __init__(self, request: dict[str, typing.Any]):
+        self.warning = request.get("warning", "")
         self.pictures = [curve_pictures.picture_of(one) for one in request["pictures"]]
 
 
