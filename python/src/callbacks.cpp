@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <thread>
+#include <utility>
 
 namespace seiche::python {
 namespace {
 
 thread_local bool interrupted = false;
 thread_local int scopes = 0;
+thread_local int interruptions = 0;
 
 std::atomic<bool> interpreter_ends = false;
 std::atomic<int> runs = 0;
@@ -26,7 +28,11 @@ Interruption::Scope::Scope() {
 }
 Interruption::Scope::~Scope() { --scopes; }
 bool Interruption::seen() { return interrupted; }
-void Interruption::note() { interrupted = true; }
+void Interruption::note() {
+  interrupted = true;
+  ++interruptions;
+}
+int Interruption::count() { return interruptions; }
 
 InterpreterEnd::Run::Run() { ++runs; }
 InterpreterEnd::Run::~Run() { --runs; }
@@ -107,8 +113,13 @@ bool SignalCheck::operator()() {
   if (PyErr_CheckSignals() == 0) return interrupted;
   if (PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) throw py::error_already_set();
   PyErr_Clear();
-  interrupted = true;
+  Interruption::note();
   return true;
+}
+
+bool SignalCheck::is_new() {
+  (*this)();
+  return std::exchange(seen_, interruptions) != interruptions || InterpreterEnd::is_near();
 }
 
 }  // namespace seiche::python

@@ -42,6 +42,7 @@ class Interruption {
   };
   static bool seen();
   static void note();
+  static int count();  // of this thread, ever
 };
 
 // The end of the interpreter: a thread that asks for the GIL then never comes back, and takes the program with it. So
@@ -128,9 +129,11 @@ class Progress {
 class SignalCheck {
  public:
   bool operator()();
+  bool is_new();  // Ctrl-C since the last call, or the end of the interpreter
 
  private:
   std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
+  int seen_ = Interruption::count();
 };
 
 }  // namespace seiche::python

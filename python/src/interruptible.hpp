@@ -23,7 +23,7 @@ auto beside_signals(std::atomic<bool>& stop, const Work& work, const OnSignal& o
     const StopsAtEnd stops{stop};
     SignalCheck signals;
     while (result.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
-      if (signals()) on_signal();
+      if (signals.is_new()) on_signal();
       meanwhile();
     }
     return result.get();

@@ -122,9 +122,17 @@ py::dict layout_of(const Problem& problem) {
   return py::dict("fields"_a = fields, "axes"_a = axes);
 }
 
-// Every key of [problem] with one value, and the numbers that formulas name, as a case file writes them.
+// Every key of [problem] with one value, and the numbers that formulas name, as a case file writes them; "1/3" and
+// "pi/4" as their numbers.
 std::map<std::string, std::string> numbers_of(const RunSpec& spec) {
   std::map<std::string, std::string> texts(spec.parameter_texts.begin(), spec.parameter_texts.end());
+  for (auto& [name, text] : texts) {
+    if (is_toml_number(text)) continue;
+    try {
+      text = toml_real((*compile_formula(text, {}, formula_constants(spec)))({}));
+    } catch (const Error&) {  // a name, or a formula in t
+    }
+  }
   if (spec.custom)
     for (const auto& [name, value] : spec.custom->parameters) texts[name] = toml_real(value);
   return texts;

@@ -59,7 +59,7 @@ std::function<bool(const SolveStep&)> observer_from(const py::object& function) 
   return [observer = Callable(function)](const SolveStep& step) {
     bool goes_on = true;
     between_steps([&] { goes_on = !is_false(observer.get()(step.t, array_of(step.z), step.energy.H)); });
-    return goes_on;
+    return goes_on && !Interruption::seen();
   };
 }
 

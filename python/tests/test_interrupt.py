@@ -9,6 +9,8 @@ import textwrap
 
 import pytest
 
+import seiche
+
 PROGRAM = """
 import _thread, os, signal, threading
 import numpy as np
@@ -194,3 +196,29 @@ def test_a_run_on_a_daemon_thread_does_not_abort_the_end_of_the_interpreter(prob
     """
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(program)], capture_output=True, text=True, timeout=300)
     assert (done.returncode, done.stdout) == (0, "the end\n"), done.stderr
+
+
+def test_ctrl_c_in_an_observer_ends_with_its_step():
+    calls = []
+
+    def observer(t, y, energy):
+        calls.append(t)
+        if t == 0.5:
+            raise KeyboardInterrupt
+
+    r = seiche.solve("oscillator", 1.0, h=0.125, observer=observer)
+    assert r.status == "interrupted" and calls[-1] == 0.5 and r.t[-1] == 0.5 and r.report["t"] == 0.5
+
+
+def test_one_ctrl_c_leaves_all_files_of_a_run(tmp_path):
+    program = f"""
+import os, signal, threading, seiche
+threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+(__import__("pathlib").Path({str(tmp_path)!r}) / "case.toml").write_text(
+    '[problem]\\nname = "klein_gordon"\\n[time]\\nend = 1e6\\n[output]\\nenergy_every = 1000\\n')
+r = seiche.run({str(tmp_path / "case.toml")!r}, {str(tmp_path / "out")!r})
+assert r.status == "interrupted", r
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0 and "stopped before" not in done.stderr, done.stderr
+    assert {"solution.xdmf", "report.html", "checkpoint.seiche"} <= {file.name for file in (tmp_path / "out").iterdir()}
