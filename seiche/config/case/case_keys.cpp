@@ -57,8 +57,10 @@ std::string where_it_stands(const std::string& section, const std::string& key, 
   const std::string plain = plain_word(key);
   if (has({"threads", "nthreads", "cores", "jobs"}, plain))
     return "the number of threads changes no result, and stands on the command line: --threads 2";
+  if (section == of_problem && problem != nullptr && has(problem->fields, key))
+    return fmt::format("{0} is a field, whose values at the start stand in initial = {{ {0} = … }}", key);
   const bool is_listed = section == of_problem && problem != nullptr && problem->name != custom_name;
-  if (is_listed && has({"h", "v", "hamiltonian", "energy", "potential"}, plain))
+  if (is_listed && (key == "H" || key == "V" || has({"hamiltonian", "energy", "potential"}, plain)))
     return fmt::format("the energy of {} is given; one of your own is written with name = \"{}\"", problem->name,
                        custom_name);
   return "";
@@ -121,6 +123,12 @@ Error unknown_key(const std::string& section, const std::string& key, const Prob
                   .kind = kind,
                   .name = key,
                   .allowed = keys});
+  for (const std::string& other : case_sections())
+    if (meant.key.empty() && other != section && key != "name" && has(case_keys(other, nullptr), key))
+      return Error({.sentence = fmt::format("unknown {} '{}'; did you mean '{}' in [{}]?", kind, key, key, other),
+                    .kind = kind,
+                    .name = key,
+                    .nearest = other + "." + key});
   if (meant.key.empty()) return unknown_name(kind, key, keys);
   if (meant.section != section)
     return Error({.sentence = fmt::format("unknown {} '{}'; did you mean '{}' in [{}]?", kind, shortened(key),

@@ -230,7 +230,7 @@ std::string example_drives() {
          "#   on velocities v: quadratic ((linear + coefficient |v|)v), cubic, tanh (with width), dry, isotropic,\n"
          "#   position (coefficient = \"u^2 - 1\", times v), formula (r = \"0.1*v + sinh(v)\", in v, u, t, x, y, z);\n"
          "#   where there is one coordinate q with its momentum p, they may be named so\n"
-         "# force = \"0.3*cos(1.2*t)\"         # on the velocity, a formula in t, x, y, z; or { field = \"…\" }\n";
+         "# force = \"0.3*cos(1.2*t)\"         # on the velocity, a formula in t, x, y, z; or { v = \"…\" }\n";
 }
 
 }  // namespace seiche

@@ -143,11 +143,15 @@ void read_snapshot_interval(CaseReading& r, const KeyRow& row, const std::string
   const double interval = read_number_within(row, key, value);
   if (interval > 0 && spec.duration() / interval > 1e7)
     throw Error("{} = {} would make {:.3g} snapshots", key, value.shown(), spec.duration() / interval);
-  if (interval > 0 && r.gives("output", "snapshot_every") && spec.snapshot_every > 0) {
-    if (!r.asks_for_tolerance())
+  if (const CaseValue* every = r.table.value("output", "snapshot_every");
+      every != nullptr && interval > 0 && spec.snapshot_every > 0) {
+    const auto is_override = [](const CaseValue& one) { return one.place.starts_with("--set"); };
+    if (is_override(*every) && !is_override(value)) return;  // of the two, the one that was given for this run
+    if (is_override(*every) == is_override(value) && !r.asks_for_tolerance())
       throw Error("{} = {} and snapshot_every = {} are both given: snapshots are taken by the one or by the other", key,
                   value.shown(), spec.snapshot_every);
-    spec.notes.push_back(fmt::format("snapshots are taken by {}: snapshot_every has no effect", key));
+    if (!is_override(value))
+      spec.notes.push_back(fmt::format("snapshots are taken by {}: snapshot_every has no effect", key));
   }
   if (interval == 0 || r.asks_for_tolerance()) {
     spec.snapshot_interval = interval;

@@ -326,6 +326,10 @@ TEST(CaseFile, AnIntervalBetweenSnapshotsIsCountedInStepsOfOneSize) {
   EXPECT_EQ(parse_case(write_case(spec), "again.toml").snapshot_every, 3);
   EXPECT_THAT(complaint(with("0.3") + "snapshot_every = 64\n"), HasSubstr("snapshot_every = 64 are both given"));
   EXPECT_EQ(parse_case(with("0") + "snapshot_every = 64\n", "x.toml").snapshot_every, 64);
+  const std::string by_steps = minimal + "[method]\nh = 0.1\n[output]\nsnapshot_every = 64\n";
+  EXPECT_EQ(parse_case(by_steps, "x.toml", {"output.snapshot_interval=0.5"}).snapshot_every, 5) << "given for this run";
+  EXPECT_EQ(parse_case(with("0.3"), "x.toml", {"output.snapshot_every=7"}).snapshot_every, 7);
+  EXPECT_EQ(parse_case(with("0.3"), "x.toml", {"output.snapshot_every=7"}).snapshot_interval, 0);
   const RunSpec adaptive =
       parse_case(minimal + "[method]\ntolerance = 1e-6\n[output]\nsnapshot_interval = 0.3\n", "x.toml");
   EXPECT_THAT(write_case(adaptive), Not(HasSubstr("snapshot_every"))) << "of the two, the one that holds";

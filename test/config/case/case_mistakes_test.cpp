@@ -97,6 +97,9 @@ TEST(CaseFile, WhatStandsElsewhereIsSaidWithItsPlace) {
   EXPECT_THAT(complaint(minimal + "damping = 0.1\n"), HasSubstr("did you mean 'gamma'?"));
   EXPECT_THAT(complaint(minimal + "H = \"u^4\"\n"),
               HasSubstr("is given; one of your own is written with name = \"custom\""));
+  EXPECT_THAT(complaint(minimal + "h = 0.1\n"), HasSubstr("did you mean 'h' in [method]?"));
+  EXPECT_THAT(complaint(minimal + "v = \"0\"\n"),
+              HasSubstr("v is a field, whose values at the start stand in initial = { v = … }"));
   EXPECT_THAT(complaint(minimal + "[backend]\nthreads = 2\n"), HasSubstr("stands on the command line: --threads 2"));
   EXPECT_THAT(complaint(minimal + "initial = [1, \"x\"]\n"), HasSubstr("name the fields, { u = 1, v = \"x\" }"));
   EXPECT_THAT(complaint(minimal + "boundary = \"free\"\n"), HasSubstr("did you mean 'neumann'? Allowed"));
