@@ -77,8 +77,10 @@ AlgebraLock::AlgebraLock() : lock_(algebra_mutex()) {
       throw Error("computer algebra meets exact numbers of more than {} digits", largest * 12 / 5);
     constexpr double most_work = 1e9;
     const double words = static_cast<double>(size) / sizeof(void*);
-    if (numbers_are_bounded && (work += words * words) > most_work)
-      throw Error("computer algebra meets too many exact numbers of hundreds of digits");
+    if (numbers_are_bounded && (work += words * words) > most_work) {
+      work = 0;  // for those who go on without this result
+      throw Error("computer algebra takes too long over its exact numbers");
+    }
     return allocate(size);
   };
   numbers_are_bounded = true;

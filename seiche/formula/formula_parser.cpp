@@ -255,7 +255,7 @@ class Parser {
     std::erase(names, "");  // arguments that this formula has no name for
     for (const auto& [constant, value] : constants_)
       if (constant != index_before_line) names.push_back(constant);
-    if (has_index()) names.emplace_back("j");
+    if (has_index() && std::find(names.begin(), names.end(), "j") == names.end()) names.emplace_back("j");
     names.emplace_back("pi");
     for (const FormulaFunction& function : formula_functions())
       if (may_vary(function)) names.emplace_back(function.name);
