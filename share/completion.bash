@@ -19,7 +19,7 @@ _seiche() {
   elif [[ $command == list ]]; then
     words="methods problems backends keys"
   elif [[ " -$options" == " --methods"* ]]; then
-    words=$(_seiche_values method.name)
+    words=$(_seiche_values method.name | grep -v auto)
   elif [[ " -$options" == " --set"* && $word == *=* ]]; then
     key=${word%%=*}
     words=$(_seiche_values "$key")
@@ -32,7 +32,8 @@ _seiche() {
   if [[ -n $words ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
   else
+    compopt -o filenames 2>/dev/null
     mapfile -t COMPREPLY < <(compgen -o default -- "$word")  # case files, folders of runs
   fi
 }
-complete -o filenames -F _seiche seiche
+complete -F _seiche seiche

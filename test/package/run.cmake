@@ -43,7 +43,7 @@ foreach(command IN ITEMS "${consumer}" "${work}/plain" "${program};--version")
   endif()
 endforeach()
 
-# What bash completes, as a user who types a tab sees it.
+# What bash completes, as the shell asks for it.
 foreach(typed IN ITEMS "seiche re;recover resume" "seiche run --thr;--threads" "seiche new kl;klein_gordon"
     "seiche run x --set method.name=egc8;egc8" "seiche run x --set method.na;method.name="
     "seiche run x --set time.end=1 backend.plan=m;measure" "seiche converge x --methods crkn;crkn4 crkn6")
