@@ -113,7 +113,9 @@ ExitCode run_program(const std::vector<std::string>& given) {
   } catch (const CLI::ExtrasError&) {
     throw unexpected(app, arguments);
   } catch (const CLI::ParseError& error) {
-    throw Error("{} (seiche --help lists commands and options)", shortened(error.what(), 300));
+    const bool is_of_command = std::find(names.begin(), names.end(), arguments[0]) != names.end();
+    throw Error("{} (seiche {}--help lists what there is)", shortened(error.what(), 300),
+                is_of_command ? arguments[0] + " " : "");
   }
   const bool answers = app.got_subcommand("run") || app.got_subcommand("resume");  // as soon as they know how
   if (!answers) let_signals_through();

@@ -99,8 +99,8 @@ def _parameters(texts: Sequence[str]) -> dict[str, Any]:
     return found
 
 
-def _measurements(file: str) -> Array:
-    """One row for each time. The first line may be a header, and lines that begin with # are comments."""
+def _measurements(file: str) -> tuple[Array, list[str]]:
+    """One row for each time, and the names in the first line where it is a header. Lines that begin with # are comments."""
     try:
         text = pathlib.Path(file).read_text(encoding="utf-8-sig")
     except OSError as error:
@@ -108,6 +108,7 @@ def _measurements(file: str) -> Array:
     except UnicodeDecodeError:
         raise ValueError(f"{file} is not a text with columns of numbers") from None
     rows: list[list[float]] = []
+    header: list[str] = []
     may_be_header = True
     for place, line in enumerate(text.splitlines(), 1):
         if not line.strip() or line.lstrip().startswith("#"):
@@ -116,7 +117,7 @@ def _measurements(file: str) -> Array:
         wrong = [cell for cell in cells if not _is_number(cell)]
         gaps = [] if wrong else [cell for cell in cells if not math.isfinite(float(cell))]
         if may_be_header and len(wrong) == len(cells):
-            may_be_header = False
+            may_be_header, header = False, cells
             continue
         may_be_header = False
         if wrong:
@@ -135,7 +136,7 @@ def _measurements(file: str) -> Array:
         rows.append([float(cell) for cell in cells])
     if not rows:
         raise ValueError(f"{file} holds no measurements")
-    return np.array(rows)
+    return np.array(rows), header
 
 
 def _cells(line: str, place: str) -> list[str]:
@@ -198,7 +199,7 @@ def _document(found: FitResult) -> str:
 
 def _fit(words: Sequence[str]) -> int:
     asked = _parser().parse_args(words)
-    parameters, measured = _parameters(asked.parameter), _measurements(asked.data)
+    parameters, (measured, header) = _parameters(asked.parameter), _measurements(asked.data)
     sigma = asked.sigma
     if measured.shape[1] == 3:
         if sigma is not None:
@@ -207,6 +208,10 @@ def _fit(words: Sequence[str]) -> int:
     if asked.plot:
         _require_picture(asked.plot)
     case = Case(asked.case, asked.set)
+    if asked.observe is None and len(header) > 1 and header[1] in case.problem.fields:
+        asked.observe = header[1]
+    if header and header[0] in case.problem.fields:
+        raise ValueError(f"{asked.data}: the first column is that of the time, and the header calls it {header[0]}")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # the message of the result says the same
         found = fit(

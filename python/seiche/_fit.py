@@ -108,7 +108,8 @@ def fit(
     data : (times,) array, or (observed, times)
         What was measured; for several records a list.
     parameters : dict or list of names
-        Name → first guess, or (first guess, least, most); None, or a name in a list, begins with the problem's own value.
+        Name → first guess, or (first guess, least, most); None, or a name in a list, begins with the problem's own value of a key
+        with one number, as gamma.
         Names are keys of the problem, ``"gamma"``, with a dot those of
         a table in it, ``"initial.q"``, ``"friction.coefficient"``, or the parameters that formulas name. ``"initial.q[0]"`` is
         that of the first record alone.

@@ -146,7 +146,7 @@ _NO_FUNCTIONS = {
     "V": "as a Python function goes with matrices, M=…, V=…, gradient=…; with fields by their names it is a formula in quotes",
     "M": "is a matrix, or by formulas a table; what is not quadratic belongs to V and gradient, or to H",
     "S": "is a matrix, or by formulas a table",
-    "D": 'is a constant matrix, or by formulas a table, as in D={"p": "0.1*(1 + q^2)"}',
+    "D": 'is a constant matrix, or by formulas a table, as in D={"p": "0.1*(1 + sin(t)^2)"}',
     "gamma": 'is a number, or a formula of the time in quotes, as in gamma="0.1 + 0.05*sin(t)"',
 }
 

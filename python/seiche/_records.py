@@ -6,11 +6,11 @@ import dataclasses
 import difflib
 import math
 import re
-from fractions import Fraction
 from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
 
+from ._core import Case as CoreCase
 from ._problem import Case, Problem, as_problem, of_text, override, parse_keywords, real_array
 from ._progress import Report
 from ._result import Result, quietly
@@ -44,7 +44,10 @@ class Record:
     def observe(self, result: Result) -> Array:
         """(observed, times): what the solution says of the data."""
         if self.function is None:
-            return result.field(self.name).reshape(len(result.t), -1).T
+            field = result.field(self.name).reshape(len(result.t), -1).T
+            if field.shape != self.data.shape:
+                raise ValueError(f"{self.name} has {field.shape[0]} points now: a parameter must not change their number")
+            return field
         seen = np.atleast_2d(real_array("what observe returns", self.function(result.t, result.y)))
         if not np.isfinite(seen).all():
             raise ValueError("observe returns a value that is no finite number")
@@ -183,9 +186,9 @@ def parameters_of(given: Mapping[str, Any] | Sequence[str], records: list[Record
         record = None if only[2] is None else int(only[2])
         if record is not None and record >= len(records):
             raise ValueError(f"parameters: {name!r} is of record {record}, and there are {len(records)}")
-        own = _own_numbers(records[record or 0])
-        _refuse_what_cannot_change_a_little(only[1], own)
-        start, low, high = _guess_and_bounds(name, _own_value(only[1], own) if value is None else value)
+        case = _own_case(records[record or 0])
+        _refuse_what_cannot_change_a_little(only[1], case)
+        start, low, high = _guess_and_bounds(name, _own_value(only[1], case) if value is None else value)
         made = Parameter(name, start, low, high, record)
         if any(made.key == other.key and None in (record, other.record) for other in found):
             raise ValueError(f"parameters: {only[1]} is one of all records, or one of each, and not both")
@@ -193,30 +196,34 @@ def parameters_of(given: Mapping[str, Any] | Sequence[str], records: list[Record
     return found
 
 
-def _own_numbers(record: Record) -> Mapping[str, str]:
-    """Keys of the problem with one value, as a case file writes them."""
+def _own_case(record: Record) -> CoreCase:
     given = record.given
-    text = as_problem(given)._text or ""
-    case = given._core if isinstance(given, Case) else parse_keywords(text, as_problem(given)._overrides)
-    return case.parameters
+    if isinstance(given, Case):
+        return given._core
+    problem = as_problem(given)
+    return parse_keywords(problem._text or "", problem._overrides)
 
 
-def _refuse_what_cannot_change_a_little(name: str, own: Mapping[str, str]) -> None:
-    if re.fullmatch(r"\d+", own.get(name, "")):
+def _refuse_what_cannot_change_a_little(name: str, case: CoreCase) -> None:
+    if re.fullmatch(r"\d+", case.parameters.get(name, "")):
         raise ValueError(f"parameters: {name} is a whole number, and what is looked for changes by a little")
-    if name in ("H", "V") and name not in own:
+    if case.problem == "custom" and name in ("H", "V") and name not in case.parameters:
         raise ValueError(
             f"parameters: {name} is a formula; look for a number in it, which the parameters of the problem name"
         )
 
 
-def _own_value(name: str, own: Mapping[str, str]) -> float:
+def _own_value(name: str, case: CoreCase) -> float:
+    own = case.parameters
     try:
-        return float(Fraction(own.get(name, "")))
+        return float(own.get(name, ""))
     except ValueError:
-        near = () if name in own else difflib.get_close_matches(name, own, 1)
-        hint = f"; did you mean {near[0]!r}?" if near else f", as in {{{name!r}: 0.1}}"
-        raise ValueError(f"parameters: {name} needs a first guess{hint}") from None
+        if name in own or "." in name:
+            raise ValueError(f"parameters: {name} is no number of the problem's own: give a first guess") from None
+        near = difflib.get_close_matches(name, own, 1)
+        numbers = [key for key, text in own.items() if re.fullmatch(r"[-+\d.e]*[.e][-+\d.e]*", text)]
+        hint = f"; did you mean {near[0]!r}?" if near else f"; those of the problem are {', '.join(numbers)}"
+        raise ValueError(f"parameters: {name} is no number{hint}") from None
 
 
 def _guess_and_bounds(name: str, value: Any) -> tuple[float, float, float]:

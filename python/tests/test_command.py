@@ -85,10 +85,11 @@ def test_one_point_of_a_field_may_be_measured(files, tmp_path, capsys):
         (["case.toml", "nofile", *WANTED], "nofile cannot be read: No such file or directory"),
         (["case.toml", "case.toml", *WANTED], "case.toml:3: 'name' is not a number"),
         (["case.toml", "data.csv", "--parameter", "=2"], "--parameter =2 must be NAME, NAME=GUESS, or NAME=GUESS:LEAST:MOST"),
-        (["case.toml", "data.csv", "--parameter", "initial.q"], "parameters: initial.q needs a first guess"),
-        (["case.toml", "data.csv", "--parameter", "gama"], "parameters: gama needs a first guess; did you mean 'gamma'?"),
+        (["case.toml", "data.csv", "--parameter", "initial.q"], "initial.q is no number of the problem's own: give a first guess"),
+        (["case.toml", "data.csv", "--parameter", "gama"], "parameters: gama is no number; did you mean 'gamma'?"),
         (["case.toml", "data.csv", "--parameter", "H=0.3"], "parameters: H is a formula"),
         (["case.toml", "nan.csv", *WANTED], "nan.csv:3: nan is not finite; leave out what was not measured"),
+        (["case.toml", "swapped.csv", *WANTED], "swapped.csv: the first column is that of the time, and the header calls it q"),
         (["case.toml", "back.csv", *WANTED], "back.csv:4: times must ascend, and 0.1 follows 0.2"),
         (["case.toml", "data.csv", "--parameter", "gamma=0.1:0"], "--parameter gamma=0.1:0 must be"),
         (["case.toml", "data.csv", "--parameter", "gama=0.1"], "did you mean 'gamma'"),
@@ -115,7 +116,7 @@ def test_one_point_of_a_field_may_be_measured(files, tmp_path, capsys):
 def test_mistakes_get_one_sentence_and_exit_code_2(words, sentence, files, tmp_path, capsys, monkeypatch):
     texts = {"ragged": "t,q\n0.1,1\n0.2,1,2", "one": "1\n2", "hole": "0.1,1\n0.2,", "empty": "t,q\n"}
     texts |= {"comma": "t;q\n0,2;1", "first": "0,1;1\n0,2;1", "spaces": "0,1\t1,0\n"}
-    texts |= {"nan": "t,q\n0.1,1\n0.2,nan\n", "back": "t,q\n0.1,1\n0.2,1\n0.1,1\n"}
+    texts |= {"nan": "t,q\n0.1,1\n0.2,nan\n", "swapped": "q,t\n0.1,1\n0.2,1\n", "back": "t,q\n0.1,1\n0.2,1\n0.1,1\n"}
     (tmp_path / "folder.png").mkdir()
     if "--plot" in words:
         monkeypatch.setattr(command, "fit", lambda *_, **__: pytest.fail("the search began"))

@@ -72,7 +72,7 @@ def function(*arguments):
     [
         (lambda: duffing(H=lambda q, p: p**2 / 2), 'H is a formula in quotes, .*; for Python functions give M, V and gradient'),
         (lambda: seiche.Problem(H=function), "H is a formula in quotes"),
-        (lambda: duffing(D=function), r'D is a constant matrix, or by formulas a table, as in D={"p": "0.1\*\(1 \+ q\^2\)"}'),
+        (lambda: duffing(D=function), r'D is a constant matrix, or by formulas a table, as in D={"p": "0.1\*\(1 \+ sin\(t\)\^2\)"}'),
         (lambda: duffing(D={"p": function}), "D is a constant matrix, or by formulas a table"),
         (lambda: seiche.Problem(M=np.eye(2), D=function), "D is a constant matrix"),
         (lambda: duffing(gamma=function), "gamma is a number, or a formula of the time in quotes"),

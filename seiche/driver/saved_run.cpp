@@ -205,7 +205,11 @@ Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& not
       notes.push_back(fmt::format("{} is of no use: {}", name, error.what()));
     }
   }
-  if (notes.empty()) throw Error("{} holds no checkpoint, from which a run could go on", folder.path().string());
+  if (notes.empty())
+    throw Error(
+        "{} holds no checkpoint, from which a run could go on; another one may begin with initial = {{ file = \"final.txt\" "
+        "}}",
+        folder.path().string());
   throw Error("no run can go on from {}: {}", folder.path().string(), fmt::join(notes, "; "));
 }
 

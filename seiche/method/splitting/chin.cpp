@@ -18,7 +18,8 @@ class Chin final : public BaseStep {
     const MomentumForm form = momentum_form(system);
     if (!form.separable) throw Error("it needs H = T(v) + U(u), with S that couples u and v alone; use etdrk4 or egc4");
     if (!form.rate)
-      throw Error("it needs a damping that is one number on all momenta, the same at all times; use etdrk4 or egc4");
+      throw Error(
+          "it needs H = vᵀMv/2 + U(u) and a linear damping that is one number on all momenta, the same at all times; use etdrk4 or egc4");
     gamma_ = *form.rate;
     for (Vector* v : {&inner_.z, &end_}) v->setZero(system.space->size());
   }

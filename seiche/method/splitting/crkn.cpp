@@ -22,7 +22,8 @@ class Nystrom : public BaseStep {
     if (!form_.kicks)
       throw Error("it kicks momenta by ∇V of the positions, and here S∇V moves what V depends on; use etdrk4 or egc4");
     if (!system.damping->is_constant())
-      throw Error("its linear flow needs a damping that is the same at all times and points; use etdrk4 or egc4");
+      throw Error(
+          "its linear flow needs a damping that is linear and the same at all times and points; use etdrk4 or egc4");
     if (!phi.dissipation().is_quadratic)
       throw Error("its damping must act on momenta alone, and here it moves what V depends on; use etdrk4 or egc4");
   }
