@@ -4,9 +4,11 @@ A sh block becomes a cell of bash, a toml block one that writes its file, a pyth
 has to be what the cell before it prints. Commands of `make` stay text. Cells of their own write the cases of the
 sources that a page runs, so that a notebook needs nothing but the program and the Python package.
 """
+import json
 import re
 import subprocess
 import sys
+import tempfile
 
 import run_blocks
 
