@@ -5,6 +5,7 @@
 #include <seiche/figure/ensemble_pictures.hpp>
 #include <seiche/output/csv_table.hpp>
 #include <seiche/output/text_table.hpp>
+#include <seiche/study/killed_ensemble.hpp>
 
 #include <fmt/ranges.h>
 
@@ -16,14 +17,6 @@ namespace seiche {
 namespace {
 
 namespace fs = std::filesystem;
-
-// "Klein–Gordon equation", or the folder where the problem was written down.
-std::string name_of_problem(const RunSpec& spec, const fs::path& directory) {
-  const std::string& title = problem_entry(spec).title;
-  if (!title.empty()) return title;
-  const fs::path folder = fs::absolute(directory / "").lexically_normal().parent_path();
-  return folder.filename().empty() ? spec.problem : folder.filename().string();
-}
 
 // As formulas have it where it is a Greek letter.
 std::string symbol(const std::string& parameter) {
@@ -99,16 +92,12 @@ std::optional<CurvePicture> parameter_picture(const TextTable& members, const st
 
 // "2 of 5 members failed, 1 of 5 interrupted, the energy law of 2 is violated"
 std::string shortfall(const TextTable& members) {
+  MemberCounts counts = count_members(members);
   std::vector<std::string> parts;
-  const auto count = [&](const char* column, const char* word) {
-    std::size_t found = 0;
-    for (std::size_t m = 0; m < members.rows(); ++m) found += members.text(m, column) == word ? 1 : 0;
-    return found;
-  };
   for (const char* word : {"failed", "interrupted"})
-    if (const std::size_t found = count("status", word); found > 0)
+    if (const std::int64_t found = counts.statuses[word]; found > 0)
       parts.push_back(fmt::format("{} of {} members {}", found, members.rows(), word));
-  if (const std::size_t found = count("law", "violated"); found > 0)
+  if (const std::int64_t found = counts.laws["violated"]; found > 0)
     parts.push_back(fmt::format("the energy law of {} is violated", found));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -124,8 +113,8 @@ EnsemblePictures ensemble_pictures(const fs::path& directory) {
   const RunSpec spec = read_case(directory / "case.toml");
   if (!fs::is_regular_file(directory / "energy.csv"))
     throw Error("{} is no directory of a finished ensemble: it has no energy.csv", directory.string());
-  const std::string titled =
-      fmt::format("{}, {}, h = {}", name_of_problem(spec, directory), method_label(spec.method), step_text(spec.h));
+  const std::string name = run_name(problem_entry(spec).title, spec.problem, directory);
+  const std::string titled = run_title(name, spec.method, spec);
   const std::string colour = method_line(spec.method).colour;
   EnsemblePictures pictures{.list = {energy_picture(CsvTable::read(directory / "energy.csv"), titled, colour)},
                             .warning = ""};
@@ -139,14 +128,12 @@ EnsemblePictures ensemble_pictures(const fs::path& directory) {
 }
 
 void draw_ensemble(EnsemblePictures& pictures, const fs::path& directory, const PictureOptions& options) {
-  CurveFiles files{.formats = options.formats,
-                   .dark = true,
-                   .width = options.width,
-                   .journal = options.journal,
-                   .warning = pictures.warning,
-                   .when_drawn = [&] { remove_pictures(directory); }};
-  if (std::find(files.formats.begin(), files.formats.end(), "png") == files.formats.end())
-    files.formats.insert(files.formats.begin(), "png");
+  const CurveFiles files{.formats = with_png(options.formats),
+                         .dark = true,
+                         .width = options.width,
+                         .journal = options.journal,
+                         .warning = pictures.warning,
+                         .when_drawn = [&] { remove_pictures(directory); }};
   draw_curves(pictures.list, directory / "figures", files);
 }
 

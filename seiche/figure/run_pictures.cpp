@@ -69,12 +69,6 @@ void remove_files(const fs::path& folder, bool (*is_ours)(const fs::path&)) {
   for (const fs::path& file : ours) fs::remove(file, ignored);
 }
 
-std::string title_of(const RunFiles& run) {
-  const std::string steps = run.spec.tolerance ? fmt::format("tolerance {}", step_text(*run.spec.tolerance))
-                                               : fmt::format("h = {}", step_text(run.spec.h));
-  return fmt::format("{}, {}, {}", run_name(run), method_label(run.method), steps);
-}
-
 Json points_of(const Curve& curve) { return {curve.t, curve.value}; }
 
 Json request_for(const RunFiles& run, const EnergyHistory& history, const std::vector<std::string>& formats,
@@ -82,7 +76,7 @@ Json request_for(const RunFiles& run, const EnergyHistory& history, const std::v
   Json causes = Json::array();
   for (const Curve& cause : history.causes) causes.push_back({cause_label(history, cause.name), points_of(cause)});
   Json request = {{"run", "../.."},  // from the folder of the drawing
-                  {"title", title_of(run)},
+                  {"title", run_title(run_name(run), run.method, run.spec)},
                   {"warning", shortfall(run)},
                   {"formats", formats},
                   {"history",
@@ -123,12 +117,21 @@ const std::vector<std::string>& picture_formats() {
   return formats;
 }
 
+std::vector<std::string> with_png(std::vector<std::string> formats) {
+  if (!is_one_of(formats, "png")) formats.insert(formats.begin(), "png");
+  return formats;
+}
+
+std::string run_title(const std::string& name, const std::string& method, const RunSpec& spec) {
+  const std::string steps = spec.tolerance ? fmt::format("tolerance {}", step_text(*spec.tolerance))
+                                           : fmt::format("h = {}", step_text(spec.h));
+  return fmt::format("{}, {}, {}", name, method_label(method), steps);
+}
+
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options) {
   require_own_figures(run.directory);
   const SolutionReader readable(run.directory / "solution.h5");  // or Python would end by damage, or wait for ever
-  RunPictures pictures;
-  pictures.formats = options.formats;
-  if (!is_one_of(pictures.formats, "png")) pictures.formats.insert(pictures.formats.begin(), "png");
+  RunPictures pictures{.list = {}, .formats = with_png(options.formats), .films = {}};
   DrawingFolder drawing(run.directory / "figures");
   const Json drawn = Json::parse(draw(request_for(run, history, pictures.formats, options).dump(), drawing.path()));
   for (const Json& one : drawn.at("pictures"))

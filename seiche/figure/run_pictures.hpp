@@ -46,6 +46,10 @@ struct PictureOptions {
 };
 
 const std::vector<std::string>& picture_formats();
+std::vector<std::string> with_png(std::vector<std::string> formats);
+
+// "Klein–Gordon equation, SEISAV, h = 2⁻⁸": what titles begin with.
+std::string run_title(const std::string& name, const std::string& method, const RunSpec& spec);
 
 // Throws Error where DIR/figures, or the folder in it where earlier versions left the frames of films, is a link,
 // through which files would get elsewhere or vanish there.

@@ -101,10 +101,12 @@ RunFiles read_run(const std::filesystem::path& directory) {
   return run;
 }
 
-std::string run_name(const RunFiles& run) {
-  if (!run.title.empty()) return run.title;
-  const std::filesystem::path folder = std::filesystem::absolute(run.directory / "").lexically_normal().parent_path();
-  return folder.filename().empty() ? run.problem : folder.filename().string();
+std::string run_name(const RunFiles& run) { return run_name(run.title, run.problem, run.directory); }
+
+std::string run_name(const std::string& title, const std::string& problem, const std::filesystem::path& directory) {
+  if (!title.empty()) return title;
+  const std::filesystem::path folder = std::filesystem::absolute(directory / "").lexically_normal().parent_path();
+  return folder.filename().empty() ? problem : folder.filename().string();
 }
 
 std::string shortfall(const RunFiles& run) {

@@ -47,6 +47,7 @@ RunFiles read_run(const std::filesystem::path& directory);
 
 // What titles call the run: the title of its problem, or its folder where the problem was written down and has none.
 std::string run_name(const RunFiles& run);
+std::string run_name(const std::string& title, const std::string& problem, const std::filesystem::path& directory);
 
 // Below every title of a run that is not what was asked for: "failed at t = 3.2", "the energy law is violated"; else
 // "".
