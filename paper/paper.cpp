@@ -6,16 +6,16 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/csv_text.hpp>
 #include <seiche/output/file/atomic_file.hpp>
+#include <seiche/study/converge.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <functional>
-#include <future>
 #include <iterator>
+#include <thread>
 #include <utility>
 
 namespace seiche {
@@ -104,19 +104,12 @@ Json json_of(const Verdict& verdict) {
 std::vector<ExampleStudy> all_errors(const std::vector<PaperExample>& examples, ExampleOptions options,
                                      const std::function<void(std::size_t)>& tell) {
   std::vector<ExampleStudy> studies(examples.size());
-  std::atomic<std::size_t> next = 0;
-  const auto stopped = [&] { return options.stop && options.stop->load(); };
-  const auto work = [&](bool tells) {
-    for (std::size_t i = next++; i < examples.size() && !stopped(); i = next++) {
-      if (tells) tell(i);
-      studies[i] = study_errors(examples[i], options);
-    }
-  };
-  const int threads = std::exchange(options.threads, 1);
-  std::vector<std::future<void>> others;
-  for (int i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async, work, false));
-  work(true);
-  for (std::future<void>& other : others) other.get();
+  const std::thread::id teller = std::this_thread::get_id();
+  in_threads(examples.size(), std::exchange(options.threads, 1), [&](std::size_t i) {
+    if (options.stop && options.stop->load()) return;
+    if (std::this_thread::get_id() == teller) tell(i);
+    studies[i] = study_errors(examples[i], options);
+  });
   return studies;
 }
 

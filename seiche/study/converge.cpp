@@ -87,27 +87,31 @@ MethodOptions options_for(std::string_view method, const MethodOptions& options)
   return options.meant_for(find_method(method));
 }
 
+void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  const auto share = [&] {
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::future<void>> others;
+  for (int i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async, share));
+  share();
+  for (std::future<void>& other : others) other.get();
+}
+
 std::vector<RunOutcome> measure(const std::vector<RunRequest>& requests, const Reference& reference, int threads,
                                 const std::atomic<bool>* stop) {
   std::vector<RunOutcome> outcomes(requests.size());
-  std::atomic<std::size_t> next = 0;
   std::mutex setting_up;  // FFTW makes and destroys plans in one thread at a time
-  const auto work = [&] {
-    for (std::size_t i = next++; i < requests.size(); i = next++) {
-      std::unique_ptr<Simulation> simulation;
-      {
-        const std::lock_guard lock(setting_up);
-        simulation = std::make_unique<Simulation>(*requests[i].problem, requests[i].contender.options);
-      }
-      outcomes[i] = run_one(*simulation, requests[i], reference, stop);
+  in_threads(requests.size(), threads, [&](std::size_t i) {
+    std::unique_ptr<Simulation> simulation;
+    {
       const std::lock_guard lock(setting_up);
-      simulation.reset();
+      simulation = std::make_unique<Simulation>(*requests[i].problem, requests[i].contender.options);
     }
-  };
-  std::vector<std::future<void>> others;
-  for (int i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async, work));
-  work();
-  for (std::future<void>& other : others) other.get();
+    outcomes[i] = run_one(*simulation, requests[i], reference, stop);
+    const std::lock_guard lock(setting_up);
+    simulation.reset();
+  });
   return outcomes;
 }
 

@@ -7,6 +7,7 @@
 #include <seiche/study/timing.hpp>
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,9 @@ struct RunOutcome {
   StudyRow row;
   EnergyRecord record;
 };
+
+// work(i) for i = 0, …, count − 1, on this thread and as many others as make `threads`.
+void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
 // Runs that do not depend on each other, on up to `threads` threads, in the order of the requests; not timed.
 std::vector<RunOutcome> measure(const std::vector<RunRequest>& requests, const Reference& reference, int threads,
