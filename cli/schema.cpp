@@ -6,6 +6,7 @@
 #include <seiche/config/case/friction_kinds.hpp>
 #include <seiche/config/case/key_rows.hpp>
 #include <seiche/config/custom/custom_case.hpp>
+#include <seiche/study/lists.hpp>
 #include <seiche/version.hpp>
 
 #include <cmath>
@@ -48,10 +49,7 @@ Json value_of(const Parameter& p) {
 }
 
 // What a key is where it is not given, from its text in TOML.
-Json default_of(const std::string& text) {
-  const Json value = Json::parse(text, nullptr, false);
-  return value.is_discarded() ? Json(text) : value;
-}
+Json default_of(const std::string& text) { return Json::parse(json_of_toml(text)); }
 
 Json described(Json schema, const std::string& meaning) {
   schema["description"] = meaning;

@@ -9,13 +9,9 @@
 namespace seiche {
 namespace {
 using Json = nlohmann::ordered_json;
-
-// What TOML's text of a value says.
-Json plain(const std::string& text) {
-  const Json value = Json::parse(text, nullptr, false);
-  return value.is_discarded() ? Json(text) : value;
-}
 }  // namespace
+
+std::string json_of_toml(const std::string& text) { return Json::accept(text) ? text : Json(text).dump(); }
 
 std::vector<ProblemEntry> listed_problems() {
   std::vector<ProblemEntry> list(problems().begin(), problems().end());
@@ -74,10 +70,11 @@ std::string backends_json() {
 std::string keys_json() {
   Json list = Json::array();
   for (const KeyRow& row : key_rows())
-    list.push_back({{"name", fmt::format("{}.{}", row.section, row.name)},
-                    {"default", row.is_default && !row.example.empty() ? plain(row.example) : Json(nullptr)},
-                    {"choices", row.choices},
-                    {"meaning", row.meaning}});
+    list.push_back(
+        {{"name", fmt::format("{}.{}", row.section, row.name)},
+         {"default", row.is_default && !row.example.empty() ? Json::parse(json_of_toml(row.example)) : Json(nullptr)},
+         {"choices", row.choices},
+         {"meaning", row.meaning}});
   return list.dump(2);
 }
 

@@ -14,6 +14,9 @@ inline constexpr std::string_view what_auto_is =
 
 std::vector<ProblemEntry> listed_problems();  // with the one that is written down by formulas
 
+// What TOML's text of a value says, as JSON.
+std::string json_of_toml(const std::string& text);
+
 // Each a JSON array with an object for every entry.
 std::string methods_json();
 std::string problems_json();
