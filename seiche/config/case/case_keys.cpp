@@ -66,8 +66,10 @@ std::string where_it_stands(const std::string& section, const std::string& key, 
   return "";
 }
 
-// { "method", "h" } for "dt", { "method", "tolerance" } for "rtol".
-MeantKey meant_key(std::string_view word, const ProblemEntry* problem) {
+// { "method", "h" } for "h" and "dt", { "method", "tolerance" } for "rtol".
+MeantKey meant_key(const std::string& word, const ProblemEntry* problem) {
+  for (const std::string& section : case_sections())
+    if (word != "name" && has(case_keys(section, nullptr), word)) return {section, word};
   const std::string plain = plain_word(word);
   for (const KeyRow& row : key_rows())
     if (has(row.synonyms, plain)) return {row.section, row.name};
@@ -93,8 +95,6 @@ std::vector<std::string> case_keys(const std::string& section, const ProblemEntr
 }
 
 std::string full_key(const std::string& word) {
-  for (const std::string& section : case_sections())
-    if (word != "name" && has(case_keys(section, nullptr), word)) return section + "." + word;
   const MeantKey meant = meant_key(word, nullptr);
   return meant.key.empty() ? "" : meant.section + "." + meant.key;
 }
@@ -123,12 +123,6 @@ Error unknown_key(const std::string& section, const std::string& key, const Prob
                   .kind = kind,
                   .name = key,
                   .allowed = keys});
-  for (const std::string& other : case_sections())
-    if (meant.key.empty() && other != section && key != "name" && has(case_keys(other, nullptr), key))
-      return Error({.sentence = fmt::format("unknown {} '{}'; did you mean '{}' in [{}]?", kind, key, key, other),
-                    .kind = kind,
-                    .name = key,
-                    .nearest = other + "." + key});
   if (meant.key.empty()) return unknown_name(kind, key, keys);
   if (meant.section != section)
     return Error({.sentence = fmt::format("unknown {} '{}'; did you mean '{}' in [{}]?", kind, shortened(key),
