@@ -197,11 +197,11 @@ class Notebooks(unittest.TestCase):
         def said(source, shown=None, printed="", **error):
             outputs = [{"output_type": "stream", "text": printed}] + ([{"output_type": "error", **error}] if error else [])
             with self.assertRaises(run_blocks.Mistake) as caught:
-                notebooks.check(source, outputs, run_blocks.Block("sh", 7, source), shown, ["/work"])
+                notebooks.check(source, outputs, run_blocks.Block("sh", 7, source), shown, ["/home/me"])
             return str(caught.exception)
 
         self.assertEqual(said("x", ename="NameError", evalue="no x"), "line 7: a cell of the notebook fails: NameError: no x")
-        self.assertRegex(said("pwd", printed="/work/here"), "^line 7: .* prints a path of this machine: /work/here$")
+        self.assertRegex(said("pwd", printed="/home/me/here"), "^line 7: .* prints a path of this machine: /home/me/here$")
         self.assertEqual(said("echo 5", run_blocks.Block("text", 11, "6\n"), "5\n"), "line 11: not printed:\n6\nbut this was:\n5\n")
 
 
