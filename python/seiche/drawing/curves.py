@@ -102,17 +102,42 @@ def number_points(axis: typing.Any, name: str, places: np.ndarray) -> None:
 
 
 def number_decades(axis: typing.Any) -> None:
-    """Of a logarithmic axis: powers of ten, and where it has less than two decades also twice and five times them. As formulas the
-    numbers would be set many times more slowly."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
+    """Of a logarithmic axis: powers of ten, and where it has less than two decades also twice and five times them, as far as
+    there is room. As formulas the numbers would be set many times more slowly."""
+    from matplotlib.ticker import Formatter, LogLocator, NullFormatter, NullLocator
 
     low, high = axis.get_view_interval()
     is_short = 0 < low < high < 100 * low
+
+    class Numbers(Formatter):
+        def __call__(self, x: float, pos: int | None = None) -> str:
+            return names.number(x) if is_short else names.power(x)
+
+        def format_ticks(self, values: typing.Sequence[float]) -> list[str]:
+            texts = [self(value) for value in values]
+            shown = _with_room(axis, values, texts)
+            return [text if k in shown else "" for k, text in enumerate(texts)]
+
     if is_short:
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(lambda value, _: names.number(value) if is_short else names.power(value)))
+    axis.set_major_formatter(Numbers())
     axis.set_minor_formatter(NullFormatter())
+
+
+def _with_room(axis: typing.Any, values: typing.Sequence[float], texts: list[str]) -> set[int]:
+    """The texts that do not touch one another along a logarithmic axis: powers of ten come first, then five times them."""
+    low, high = np.log10(axis.get_view_interval())
+    box, is_upright = axis.axes.bbox, axis.axis_name == "y"
+    font = axis.get_major_ticks(1)[0].label1.get_size() * axis.axes.figure.dpi / 72
+    places = (np.log10(values) - low) / (high - low) * (box.height if is_upright else box.width)
+    room = [font * (1.2 if is_upright else 0.64 * len(text) + 0.5) for text in texts]  # 0.64: a digit's width
+    first_digit = [f"{value:e}"[0] for value in values]
+    shown: set[int] = set()
+    for k in sorted(range(len(values)), key=lambda k: ("152".find(first_digit[k]), k)):
+        if all(abs(places[k] - places[j]) >= (room[k] + room[j]) / 2 for j in shown):
+            shown.add(k)
+    return shown
 
 
 def falls_by_decades(values: np.ndarray) -> bool:
