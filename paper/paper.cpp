@@ -128,7 +128,7 @@ PaperResults run_paper(const PaperOptions& options) {
   ExampleOptions example_options{.reference = {.kind = options.reference, .stop = options.stop},
                                  .threads = options.threads,
                                  .stop = options.stop};
-  example_options.timing = {.repeats = 3, .seconds = 0.05};
+  example_options.timing = {.repeats = 3, .seconds = 0.03, .warm_up_seconds = 0.005};
   if (options.quick) {
     example_options.timing = {.repeats = 3, .seconds = 0.004, .warm_up_seconds = 0.001};
     example_options.seavf_end = 0.125;

@@ -120,7 +120,7 @@ def number_decades(axis: typing.Any) -> None:
 
     if is_short:
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.set_minor_locator(NullLocator())
+    axis.set_minor_locator(NullLocator() if is_short else LogLocator(subs=(2.0, 5.0), numticks=20))
     axis.set_major_formatter(Numbers())
     axis.set_minor_formatter(NullFormatter())
 

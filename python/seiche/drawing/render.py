@@ -163,10 +163,11 @@ class _Draw:
     def picture(self, picture: runs.Picture, ground: style.Ground, places: list[Bbox] | None) -> tuple[str, list[Bbox]]:
         """Returns what the caption has to say beyond, and the places of all axes, which are those on another ground too."""
         import matplotlib.pyplot as plt
+        from matplotlib.backend_bases import get_registered_canvas_class
 
         with style.on(ground, self.settings):
             width = plt.rcParams["figure.figsize"][0]
-            figure = plt.figure(figsize=(width, width * picture.height))
+            figure = plt.figure(figsize=(width, width * picture.height), dpi=plt.rcParams["savefig.dpi"])
             said = picture.draw(figure)
             if not self.is_journal:
                 style.title(figure, self.title(picture), self.studio.warning)
@@ -182,7 +183,9 @@ class _Draw:
                     continue  # on paper there is one ground
                 dateless = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[extension]
                 fast = {"pil_kwargs": {"compress_level": 4}} if extension == "png" else {}
-                figure.savefig(f"{picture.stem}{ground.suffix}.{extension}", metadata=dateless, **fast)
+                figure.set_dpi(plt.rcParams["savefig.dpi"])
+                write = getattr(get_registered_canvas_class(extension)(figure), f"print_{extension}")
+                write(f"{picture.stem}{ground.suffix}.{extension}", metadata=dateless, **fast)  # savefig draws twice
             plt.close(figure)
         return said, places
 
