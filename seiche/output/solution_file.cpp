@@ -3,8 +3,6 @@
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/output/xdmf.hpp>
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -37,10 +35,6 @@ std::uint32_t with_checksum_of_field(std::uint32_t before, std::uint32_t of_fiel
   return checksum({reinterpret_cast<const char*>(&of_field), sizeof(of_field)}, before);
 }
 
-std::string meaning_of(const SolutionDescription& description, std::size_t field, const std::string& name) {
-  return field < description.meanings.size() ? description.meanings[field] : "field " + name;
-}
-
 }  // namespace
 
 SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
@@ -71,34 +65,8 @@ SolutionFile::SolutionFile(const SolutionFile* settling)
 }
 
 void SolutionFile::begin() {
-  set_attribute(file_.id(), "Conventions", "CF-1.10");
-  for (const auto& [name, text] : description_.texts) set_attribute(file_.id(), name, text);
-  set_attribute(file_.id(), "fields", fmt::format("{}", fmt::join(layout_.fields, " ")));
-  write_unfinished();
-
-  // Written again with more rows, these chunks keep their size and place, and whatever tells where they are stays as
-  // it is.
-  const Hdf5Layout per_time{.chunk = {1024}, .compressed = false};
-  Hdf5Dataset t = make("t", "time", per_time);
-  const std::vector<Hdf5Dataset> axes = make_axes();
-  const Hdf5Layout per_field{.row = layout_.shape(), .chunk = layout_.chunk()};
-  for (std::size_t f = 0; f < layout_.fields.size(); ++f)
-    columns_.push_back({make(layout_.fields[f], meaning_of(description_, f, layout_.fields[f]), per_field)});
-  columns_.push_back({make("H", "energy H = ½zᵀMz + V(z), summed over points", per_time)});
-  if (has_modified_) columns_.push_back({make("H_modified", "modified energy, whose law the method keeps", per_time)});
-  columns_.push_back({std::move(t)});
-  write_mesh();
-  write_bars();
-
-  std::vector<Hdf5Axes> all;
-  for (std::size_t i = 0; i + 1 < columns_.size(); ++i) {
-    Hdf5Axes own{&columns_[i].data, {&columns_.back().data}};
-    if (i < layout_.fields.size())
-      for (const Hdf5Dataset& axis : axes) own.scales.push_back(&axis);
-    all.push_back(own);
-  }
-  attach_scales(file_, all);
-  file_.flush();
+  for (Hdf5Dataset& data : make_columns(file_, layout_, description_, has_modified_))
+    columns_.push_back({std::move(data)});
 }
 
 // What the checkpoint vouches for stays untouched until a copy of it is on the disk: to cut a chunk in place, HDF5
@@ -168,69 +136,6 @@ SolutionFile::Mark SolutionFile::mark() {
     mark.checksum = with_checksum_of_field(mark.checksum, columns_[f].last_chunk);
   path_.sync();
   return mark;
-}
-
-void SolutionFile::write_unfinished() {
-  for (const auto& [name, value] : {std::pair("status", "unfinished"), {"message", ""}, {"energy_law", ""}})
-    set_attribute(file_.id(), name, value);
-}
-
-// Every problem is stated in units of its own, so that its numbers carry none.
-Hdf5Dataset SolutionFile::make(const std::string& name, const std::string& meaning, const Hdf5Layout& layout) {
-  Hdf5Dataset data = file_.make_dataset(name, layout);
-  set_attribute(data.id(), "long_name", meaning);
-  set_attribute(data.id(), "units", "1");
-  return data;
-}
-
-std::vector<Hdf5Dataset> SolutionFile::make_axes() {
-  std::vector<Hdf5Dataset> axes;
-  for (const SolutionAxis& axis : layout_.axes) {
-    const bool whole = axis.name == "point";
-    axes.push_back(make(axis.name, axis.meaning, {.chunk = {axis.values.size()}, .whole_numbers = whole}));
-    axes.back().append(axis.values);
-  }
-  return axes;
-}
-
-// Where the points are, one by one, for readers that want the first axis to run fastest, as ParaView.
-void SolutionFile::write_mesh() {
-  const bool nodes = !layout_.nodes.empty();
-  const std::size_t axes = layout_.axes.size();
-  if (layout_.mesh().empty()) return;
-  file_.make_group("mesh");
-  const Hdf5Shape shape = layout_.shape();
-  Hdf5Layout rows{.row = {shape.begin() + 1, shape.end()}, .chunk = layout_.chunk()};
-  rows.row.push_back(3);
-  rows.chunk.erase(rows.chunk.begin());
-  rows.chunk.push_back(3);
-  Hdf5Dataset points = make(layout_.mesh(), "x, y and z of every point", rows);
-  const std::uint64_t slab = layout_.points() / shape.front();
-  constexpr std::size_t enough = 1U << 16U;  // not all at once, and not one by one
-  std::vector<double> listed;
-  for (std::uint64_t point = 0; point < layout_.points(); ++point) {
-    Place place{};
-    std::uint64_t rest = point;
-    for (std::size_t a = axes; a-- > 0; rest /= shape[a]) place[a] = layout_.axes[a].values[rest % shape[a]];
-    if (nodes) place = layout_.nodes[point];
-    listed.insert(listed.end(), place.begin(), place.end());
-    if ((point + 1) % slab != 0 || (listed.size() < enough && point + 1 < layout_.points())) continue;
-    points.append(listed);
-    listed.clear();
-  }
-}
-
-void SolutionFile::write_bars() {
-  if (layout_.bars.empty()) return;
-  constexpr std::uint64_t rows = 4096;
-  std::vector<double> ends, places;
-  for (const auto& bar : layout_.bars)
-    ends.insert(ends.end(), {static_cast<double>(bar[0]), static_cast<double>(bar[1])});
-  for (const Place& place : layout_.supports) places.insert(places.end(), place.begin(), place.end());
-  make("mesh/supports", "x, y and z of the points that do not move", {.row = {3}, .chunk = {rows, 3}}).append(places);
-  make("mesh/bars", "both ends of every bar, from 0: rows of mesh/points, and behind them of mesh/supports",
-       {.row = {2}, .chunk = {rows, 2}, .whole_numbers = true})
-      .append(ends);
 }
 
 bool SolutionFile::is_due(const State& state, bool last) const {
@@ -305,11 +210,7 @@ void SolutionFile::write_rows(bool last) {
 
 void SolutionFile::close(const RunReport& report) {
   if (waiting_ > written_) write_rows(true);
-  for (const auto& [name, text] : description_.texts)
-    if (text_attribute(file_.id(), name) != text) set_attribute(file_.id(), name, text);
-  set_attribute(file_.id(), "message", report.message);
-  set_attribute(file_.id(), "energy_law", to_string(report.law));
-  set_attribute(file_.id(), "status", to_string(report.status));
+  describe_end(file_, description_, report);
   columns_.clear();
   file_.close();
 }

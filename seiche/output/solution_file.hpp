@@ -10,12 +10,12 @@
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/flush_clock.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
+#include <seiche/output/solution_columns.hpp>
 #include <seiche/output/solution_layout.hpp>
 
 #include <atomic>
 #include <functional>
 #include <limits>
-#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,12 +24,6 @@
 namespace seiche {
 
 inline constexpr const char* settling_name = ".seiche.solution.h5";  // of a file that is to become solution.h5
-
-// What the file says about itself, as attributes.
-struct SolutionDescription {
-  std::vector<std::string> meanings = {};         // of the fields, in their order: "displacement"
-  std::map<std::string, std::string> texts = {};  // "equation", "method", "case", …
-};
 
 struct SnapshotTimes {
   Schedule schedule = {};
@@ -88,13 +82,8 @@ class SolutionFile : public Observer {
   bool copy_rows(const Hdf5File& from, std::uint64_t rows, const std::atomic<bool>* stop = nullptr);
   explicit SolutionFile(const SolutionFile* settling);  // a new one, to take the place of that one
   void begin();
-  Hdf5Dataset make(const std::string& name, const std::string& meaning, const Hdf5Layout& layout);
-  std::vector<Hdf5Dataset> make_axes();
-  void write_mesh();
-  void write_bars();
   void add(Column& column, std::span<const double> row) const;
   void write_rows(bool last);
-  void write_unfinished();
   void close(const RunReport& report);
 
   PartialPath path_;

@@ -1,0 +1,26 @@
+// The data sets of solution.h5: what the file says about itself, the axes, and a column for every number of a time.
+#pragma once
+
+#include <seiche/core/run_report.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
+#include <seiche/output/solution_layout.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// What the file says about itself, as attributes.
+struct SolutionDescription {
+  std::vector<std::string> meanings = {};         // of the fields, in their order: "displacement"
+  std::map<std::string, std::string> texts = {};  // "equation", "method", "case", …
+};
+
+// All but the rows, in a new file. Returns the columns: the fields, H, H_modified if there is one, and t.
+std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layout,
+                                      const SolutionDescription& description, bool has_modified_energy);
+// How the run ended, and texts of the description that have become others since.
+void describe_end(Hdf5File& file, const SolutionDescription& description, const RunReport& report);
+
+}  // namespace seiche
