@@ -48,7 +48,7 @@ CaseFolder::CaseFolder(const std::filesystem::path& path, RunKind kind, const Ru
 CaseFolder::CaseFolder(const std::filesystem::path& path) : folder_(path), lock_(folder_) {}
 
 void require_no_checkpoint(const std::filesystem::path& path) {
-  if (has_checkpoint(path))
+  if (!checkpoints_in(path).empty())
     throw Error(
         "{0} holds a checkpoint of a run that did not reach its end: `seiche resume {0}` goes on from it, `seiche run` "
         "with --restart removes it and begins anew, and another folder keeps both",

@@ -1,6 +1,5 @@
 #include <seiche/core/error.hpp>
 #include <seiche/driver/checkpoint_keeper.hpp>
-#include <seiche/output/file/atomic_file.hpp>
 
 #include <fmt/format.h>
 
@@ -55,7 +54,10 @@ void CheckpointKeeper::save(FunctionRef<void(Archive&)> run) {
   SavedRun saved;
   options_.describe(saved);  // brings the rows so far to the disk: where that fails, the run does
   try {
-    write(saved, run);
+    commit_checkpoint(folder_, options_.when.keep > 1, [&](Archive& archive) {
+      archive(saved);
+      run(archive);
+    });
     saved_t_ = saved.t;
   } catch (const Error& error) {
     if (!std::exchange(has_warned_, true) && options_.warn)
@@ -65,14 +67,6 @@ void CheckpointKeeper::save(FunctionRef<void(Archive&)> run) {
                       error.what()));
   }
   last_save_ = Clock::now();
-}
-
-void CheckpointKeeper::write(SavedRun& saved, FunctionRef<void(Archive&)> run) const {
-  AtomicFile file(folder_, checkpoint_name);
-  write_checkpoint(file, saved, run);
-  file.sync();  // before the one that it replaces loses its name
-  if (options_.when.keep > 1) rename_file(folder_, checkpoint_name, earlier_checkpoint_name);
-  file.commit();
 }
 
 }  // namespace seiche

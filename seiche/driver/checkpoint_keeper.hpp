@@ -36,7 +36,6 @@ class CheckpointKeeper : public Checkpoints {
 
   Wish look(std::int64_t n) override;
   void plan_next_look(std::int64_t n, Clock::time_point now);
-  void write(SavedRun& saved, FunctionRef<void(Archive&)> run) const;
 
   Folder folder_;
   Options options_;

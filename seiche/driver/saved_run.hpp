@@ -2,12 +2,11 @@
 #pragma once
 
 #include <seiche/core/control/archive.hpp>
-#include <seiche/core/function_ref.hpp>
 #include <seiche/output/energy_trace.hpp>
-#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/sha256.hpp>
 #include <seiche/output/solution_file.hpp>
 #include <seiche/output/summary.hpp>
+#include <seiche/record/checkpoint_file.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -16,10 +15,6 @@
 #include <vector>
 
 namespace seiche {
-
-// The newest, and the one before it, which serves where the newest is damaged.
-inline constexpr const char* checkpoint_name = "checkpoint.seiche";
-inline constexpr const char* earlier_checkpoint_name = "checkpoint_prev.seiche";
 
 struct SavedRun {
   std::vector<std::string> versions;      // what computed it, "compiler GNU 12.2.0": others may round another way
@@ -42,14 +37,9 @@ struct Checkpoint {
   Archive rest;  // what the time loop has written, to be read by it
 };
 
-// The file: a line that says what it is, the bytes of the archive, and their number and CRC-32. `saved` is written
-// first, and then what `rest` writes. Throws Error where there is no room.
-void write_checkpoint(AtomicFile& file, SavedRun& saved, FunctionRef<void(Archive&)> rest);
 // Puts a case with another end into every checkpoint of the folder that can be read; all else stays as it is. Throws
 // Error where one cannot be written; since the newest comes last, a run then goes on to the end of before.
 void write_new_end(const Folder& folder, const std::string& case_text, double t_end);
-// By how it begins: of any version, whole or not.
-bool is_checkpoint(const std::filesystem::path& file);
 // Throws Error where it cannot be read, is damaged, or is of another format.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
@@ -62,8 +52,5 @@ std::string complaint_about(const Folder& folder, const SavedRun& run);
 // The newest checkpoint of a folder that is whole, and with whose beginning the files of the folder agree. `notes` gets
 // a sentence for each that is not. Throws Error, with these, where no checkpoint is left.
 Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& notes);
-
-bool has_checkpoint(const std::filesystem::path& directory);
-void remove_checkpoints(const Folder& folder);  // does nothing where it holds none
 
 }  // namespace seiche

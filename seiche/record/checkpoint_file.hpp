@@ -1,0 +1,34 @@
+// A checkpoint as a file: a line that says what it is, the bytes of an archive, and their number and CRC-32.
+#pragma once
+
+#include <seiche/core/control/archive.hpp>
+#include <seiche/core/function_ref.hpp>
+#include <seiche/output/file/folder.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+// The newest, and the one before it, which serves where the newest is damaged.
+inline constexpr const char* checkpoint_name = "checkpoint.seiche";
+inline constexpr const char* earlier_checkpoint_name = "checkpoint_prev.seiche";
+
+// What `contents` writes becomes the newest checkpoint of the folder once it is on the disk; with `keeps_earlier` the
+// newest so far stays as the earlier one. Throws Error where it cannot be written; the newest is then what it was.
+void commit_checkpoint(const Folder& folder, bool keeps_earlier, FunctionRef<void(Archive&)> contents);
+// Throws Error where it cannot be read, is damaged, or is of another format.
+Archive read_checkpoint_file(const std::filesystem::path& file);
+// The first bytes of the contents, so many, become what `contents` writes; all else stays as it is.
+void replace_beginning(const Folder& folder, const std::string& name, std::uint64_t bytes,
+                       FunctionRef<void(Archive&)> contents);
+
+// By how it begins: of any version, whole or not.
+bool is_checkpoint(const std::filesystem::path& file);
+// Their names, the newest first; links that lead nowhere are among them, since a word about these is due.
+std::vector<std::string> checkpoints_in(const std::filesystem::path& directory);
+void remove_checkpoints(const Folder& folder);  // does nothing where it holds none
+
+}  // namespace seiche
