@@ -108,8 +108,19 @@ void PartialPath::sync() {
   if (const int failure = failure_to_sync(::fdatasync(file_)); failure != 0) throw cannot_write(path(), failure);
 }
 
-void PartialPath::commit() {
+FileMark PartialPath::mark() {
+  sync();
+  FileMark mark;
+  const ::off_t end = ::lseek(file_, 0, SEEK_END);
+  if (end < 0 || !extend(mark, static_cast<std::uint64_t>(end), file_)) throw cannot_write(path(), errno);
+  return mark;
+}
+
+void PartialPath::commit() { commit_as(folder_, name_); }
+
+void PartialPath::commit_as(const Folder& folder, const std::string& name) {
   folder_.require_lock();
+  const std::filesystem::path wanted = folder.path() / name;
   int failure = 0;
   // Written by another program, or by a run that was killed.
   if (file_ < 0)
@@ -117,19 +128,19 @@ void PartialPath::commit() {
   if (file_ >= 0) {
     const FileIdentity ours(file_);
     if (ours != FileIdentity() && ours != FileIdentity(folder_.descriptor(), temporary_))
-      throw Error("cannot write {}: {} was removed or replaced while it was being written", path().string(),
+      throw Error("cannot write {}: {} was removed or replaced while it was being written", wanted.string(),
                   temporary_);
     // Before the name: after a power cut there would be a file of this name without its bytes.
     failure = failure_to_sync(::fdatasync(file_));
     // Some file systems tell only here that there was no room.
     if (::close(std::exchange(file_, -1)) != 0 && failure == 0) failure = errno;
-    if (failure != 0 && !kept_) throw cannot_write(path(), failure);
+    if (failure != 0 && !kept_) throw cannot_write(wanted, failure);
   }
-  if (::renameat(folder_.descriptor(), temporary_.c_str(), folder_.descriptor(), name_.c_str()) != 0)
-    throw cannot_write(path(), errno);
+  if (::renameat(folder_.descriptor(), temporary_.c_str(), folder.descriptor(), name.c_str()) != 0)
+    throw cannot_write(wanted, errno);
   kept_ = true;
-  if (failure == 0) failure = failure_to_sync(::fsync(folder_.descriptor()));
-  if (failure != 0) throw cannot_write(path(), failure);
+  if (failure == 0) failure = failure_to_sync(::fsync(folder.descriptor()));
+  if (failure != 0) throw cannot_write(wanted, failure);
 }
 
 AtomicFile::AtomicFile(const Folder& folder, const std::string& name) : path_(folder, name), file_(path_.open()) {}

@@ -12,6 +12,12 @@
 
 namespace seiche {
 
+// How far a file had been written when a checkpoint was made, and the CRC-32 of its bytes up to there.
+struct FileMark {
+  std::uint64_t length = 0;
+  std::uint32_t checksum = checksum_of_nothing;
+};
+
 // The temporary name, for whoever writes the file; without commit, the temporary is removed at the end.
 class PartialPath {
  public:
@@ -32,7 +38,8 @@ class PartialPath {
   // What an earlier run has left under the temporary name, or else under the final one, which it then no longer has; to
   // be written on. Throws Error where there is neither, and for what is not a file: a pipe, a folder.
   int reopen();
-  void sync();  // what has been written to it is on the disk
+  void sync();      // what has been written to it is on the disk
+  FileMark mark();  // likewise, and the mark of all of it
   // It takes the place of what an earlier run has left, as NAME.partial, and is kept from now on.
   void take_place();
   void keep() {
@@ -40,6 +47,7 @@ class PartialPath {
   }  // from now on the temporary stays also without commit: it holds what cannot be had again
   // Throws Error where it cannot be renamed, or is no longer the file that was opened; then it stays as it is.
   void commit();
+  void commit_as(const Folder& folder, const std::string& name);  // likewise, and there
 
  private:
   Folder folder_;
@@ -50,12 +58,6 @@ class PartialPath {
 
 // The name under which an earlier run has left it: NAME.partial, or else NAME. Throws Error where there is neither.
 std::string name_left_behind(const Folder& folder, const std::string& name);
-
-// How far a file had been written when a checkpoint was made, and the CRC-32 of its bytes up to there.
-struct FileMark {
-  std::uint64_t length = 0;
-  std::uint32_t checksum = checksum_of_nothing;
-};
 
 // Why the file that an earlier run has left does not begin with what the mark is of; "" where it does. Throws Error
 // where it cannot be read, or is not a file.

@@ -21,6 +21,24 @@ Folder::Folder(const std::filesystem::path& path) : open_(std::make_shared<Open>
   if (open_->descriptor < 0) throw Error("cannot open the folder {}: {}", open_->path.string(), std::strerror(errno));
 }
 
+Folder Folder::inside(const std::string& name) const {
+  require_lock();
+  const auto inner = std::make_shared<Open>();
+  inner->path = path() / name;
+  inner->around = open_;
+  const bool is_there = ::mkdirat(descriptor(), name.c_str(), 0777) == 0 || errno == EEXIST;
+  if (is_there)
+    inner->descriptor = ::openat(descriptor(), name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (inner->descriptor < 0) throw Error("cannot make the folder {}: {}", inner->path.string(), std::strerror(errno));
+  return Folder(inner);
+}
+
+const Folder::Open& Folder::locked() const {
+  const Open* folder = open_.get();
+  while (folder->around != nullptr) folder = folder->around.get();
+  return *folder;
+}
+
 const std::filesystem::path& Folder::path() const { return open_->path; }
 int Folder::descriptor() const { return open_->descriptor; }
 
@@ -30,7 +48,8 @@ bool Folder::is_at_its_path() const {
 }
 
 bool Folder::has_lock() const {
-  return open_->lock < 0 || FileIdentity(descriptor(), lock_name) == FileIdentity(open_->lock);
+  const Open& folder = locked();
+  return folder.lock < 0 || FileIdentity(folder.descriptor, lock_name) == FileIdentity(folder.lock);
 }
 
 void Folder::require_lock() const {

@@ -4,12 +4,18 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace seiche {
 
 class Folder {
  public:
   explicit Folder(const std::filesystem::path& path);  // throws Error where it is not a folder, or cannot be opened
+
+  // A folder in this one, made if it is missing, and under its lock. Throws Error where the name is that of a file or a
+  // link.
+  Folder inside(const std::string& name) const;
 
   const std::filesystem::path& path() const;  // by which it was opened
   int descriptor() const;
@@ -22,6 +28,9 @@ class Folder {
  private:
   friend class FolderLock;
   struct Open;
+  explicit Folder(std::shared_ptr<Open> open) : open_(std::move(open)) {}
+  const Open& locked() const;
+
   std::shared_ptr<Open> open_;  // copies share it
 };
 

@@ -4,6 +4,7 @@
 #include <seiche/output/file/folder.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 struct stat;
@@ -15,7 +16,8 @@ inline constexpr const char* lock_name = ".seiche.lock";
 struct Folder::Open {
   std::filesystem::path path;
   int descriptor = -1;
-  int lock = -1;  // the file that FolderLock holds, as long as it does
+  int lock = -1;                           // the file that FolderLock holds, as long as it does
+  std::shared_ptr<Open> around = nullptr;  // the folder in which it is, whose lock counts
   Open() = default;
   ~Open();
   Open(const Open&) = delete;

@@ -95,10 +95,7 @@ void Hdf5Dataset::write_in_place(std::uint64_t first, std::span<const double> ro
   const Hdf5Quiet quiet;
   const std::string what =
       fmt::format("cannot write rows {} to {} of {}", first, first + rows.size() / row_size(), name_);
-  const Hdf5Handle options = hdf5_handle(H5Dget_create_plist(id()), H5Pclose, what);
-  std::vector<hsize_t> chunk(shape_.size());
-  hdf5_check(H5Pget_chunk(options.id(), static_cast<int>(chunk.size()), chunk.data()), what);
-  std::vector<double> whole(chunk[0] * row_size(), 0.0);
+  std::vector<double> whole(chunk().front() * row_size(), 0.0);
   std::copy(rows.begin(), rows.end(), whole.begin());
   shape_[0] = first + rows.size() / row_size();
   hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), what);
@@ -107,6 +104,47 @@ void Hdf5Dataset::write_in_place(std::uint64_t first, std::span<const double> ro
   constexpr std::uint32_t no_filter = 0xffffffff;
   hdf5_check(H5Dwrite_chunk(id(), H5P_DEFAULT, no_filter, corner.data(), whole.size() * sizeof(double), whole.data()),
              what);
+}
+
+Hdf5Shape Hdf5Dataset::chunk() const {
+  const std::string what = fmt::format("{} has no chunks", name_);
+  const Hdf5Handle options = hdf5_handle(H5Dget_create_plist(id()), H5Pclose, what);
+  std::vector<hsize_t> chunk(shape_.size());
+  hdf5_check(H5Pget_chunk(options.id(), static_cast<int>(chunk.size()), chunk.data()), what);
+  return {chunk.begin(), chunk.end()};
+}
+
+void Hdf5Dataset::append_chunks(const Hdf5Dataset& from, std::uint64_t first, std::uint64_t rows) {
+  const Hdf5Quiet quiet;
+  const std::string what = fmt::format("cannot copy rows {} to {} of {}", first, first + rows, name_);
+  const Hdf5Shape chunk = this->chunk();
+  const std::uint64_t behind = shape_[0];
+  shape_[0] += rows;
+  hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), what);
+  std::vector<hsize_t> corner(shape_.size(), 0);
+  std::vector<char> bytes;
+  const auto copy = [&](std::uint64_t row) {
+    std::uint32_t filters = 0;
+    hsize_t size = 0;
+    corner[0] = first + row;
+    hdf5_check(H5Dget_chunk_storage_size(from.id(), corner.data(), &size), what);
+    bytes.resize(size);
+    hdf5_check(H5Dread_chunk(from.id(), H5P_DEFAULT, corner.data(), &filters, bytes.data()), what);
+    corner[0] = behind + row;
+    hdf5_check(H5Dwrite_chunk(id(), H5P_DEFAULT, filters, corner.data(), size, bytes.data()), what);
+  };
+  // The last axis runs fastest, as where HDF5 divides a row among its chunks.
+  const auto next_corner = [&] {
+    for (std::size_t axis = corner.size(); --axis > 0;) {
+      corner[axis] += chunk[axis];
+      if (corner[axis] < shape_[axis]) return true;
+      corner[axis] = 0;
+    }
+    return false;
+  };
+  for (std::uint64_t row = 0; row < rows; row += chunk[0]) do
+      copy(row);
+    while (next_corner());
 }
 
 void Hdf5Dataset::cut(std::uint64_t rows) {
@@ -153,6 +191,20 @@ Hdf5File Hdf5File::create(int file, const std::filesystem::path& path) {
   const Hdf5Handle access = ordered_file_access(file);
   return Hdf5File(path, hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation().id(), access.id()), H5Fclose,
                                     fmt::format("cannot write {}", path.string())));
+}
+
+// By the descriptor: the path may lead elsewhere by now.
+Hdf5File Hdf5File::create_plain(int file, const std::filesystem::path& path) {
+  const Hdf5Quiet quiet;
+  const std::string what = fmt::format("cannot write {}", path.string());
+  const Hdf5Handle access = hdf5_handle(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+  hdf5_check(H5Pset_cache(access.id(), 0, 0, 0, 0.0), what);
+#if H5_VERSION_GE(1, 10, 7)
+  H5Pset_file_locking(access.id(), false, true);  // the folder is locked
+#endif
+  const std::string opened = fmt::format("/proc/self/fd/{}", file);
+  return Hdf5File(path,
+                  hdf5_handle(H5Fcreate(opened.c_str(), H5F_ACC_TRUNC, creation().id(), access.id()), H5Fclose, what));
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {

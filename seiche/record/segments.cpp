@@ -1,0 +1,187 @@
+#include <seiche/core/error.hpp>
+#include <seiche/output/file/folder_open.hpp>
+#include <seiche/record/segments.hpp>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+constexpr const char* solution_name = "solution.h5";
+
+bool is_segment(const std::string& name) {
+  return name.size() == segment_name(1).size() && name.ends_with(".h5") &&
+         std::all_of(name.begin(), name.end() - 3, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::filesystem::path path_of(const Folder& folder) { return folder.path() / segments_folder; }
+
+}  // namespace
+
+std::string segment_name(std::size_t number) { return fmt::format("{:06}.h5", number); }
+
+std::uint64_t SegmentsMark::rows() const {
+  std::uint64_t all = unfinished.empty() ? 0 : unfinished.back().size();  // of t
+  for (const Segment& segment : sealed) all += segment.rows;
+  return all;
+}
+
+void SegmentsMark::archive(Archive& a) {
+  a(sealed, has_modified, unfinished);
+  a.require(unfinished.size() > (has_modified ? 3 : 2));
+  const std::size_t times = unfinished.empty() ? 0 : unfinished.back().size();
+  for (std::size_t i = 0; i < unfinished.size(); ++i)
+    a.require(i < fields() ? (times == 0 ? unfinished[i].empty() : unfinished[i].size() % times == 0)
+                           : unfinished[i].size() == times);
+}
+
+std::string complaint_about(const Folder& folder, const SegmentsMark& mark) {
+  if (mark.sealed.empty()) return "";
+  const Folder inside(path_of(folder));
+  for (std::size_t k = 0; k < mark.sealed.size(); ++k)
+    if (std::string said = complaint_about(inside, segment_name(k + 1), mark.sealed[k].file); !said.empty())
+      return fmt::format("{}/{}", segments_folder, said);
+  return "";
+}
+
+void remove_segments(const Folder& folder, std::size_t kept) {
+  std::error_code none;
+  const std::filesystem::path path = path_of(folder);
+  if (!std::filesystem::is_directory(std::filesystem::symlink_status(path, none))) return;
+  const Folder inside = folder.inside(segments_folder);
+  std::vector<std::string> names;
+  for (std::filesystem::directory_iterator entry(path, none), end; !none && entry != end; entry.increment(none))
+    names.push_back(entry->path().filename().string());
+  for (const std::string& name : names)
+    if (is_segment(name) && name > segment_name(kept)) remove_file(inside, name);
+  ::unlinkat(folder.descriptor(), segments_folder, AT_REMOVEDIR);  // fails where something is in it
+}
+
+struct Segments::Open {
+  PartialPath path;
+  Hdf5File file;
+  std::vector<Hdf5Dataset> columns;
+  std::uint64_t rows = 0;
+
+  Open(const Folder& folder, const SolutionLayout& layout, const SolutionDescription& description, bool has_modified)
+      : path(folder, solution_name),
+        file(Hdf5File::create_plain(path.open(), path.temporary())),
+        columns(make_columns(file, layout, description, has_modified)) {}
+  ~Open() {
+    columns.clear();
+    file.abandon();
+  }
+  void close() {
+    columns.clear();
+    file.close();
+  }
+};
+
+Segments::Segments(const Folder& folder, SolutionLayout layout, SolutionDescription description,
+                   bool has_modified_energy, SegmentsMark mark)
+    : folder_(folder),
+      layout_(std::move(layout)),
+      description_(std::move(description)),
+      chunk_(layout_.chunk().front()),
+      mark_(std::move(mark)) {
+  mark_.has_modified = has_modified_energy;
+  mark_.unfinished.resize(layout_.fields.size() + (has_modified_energy ? 3 : 2));
+  remove_segments(folder_, mark_.sealed.size());
+}
+
+Segments::~Segments() = default;
+
+void Segments::require_writable() const {
+  if (is_broken_) throw Error("{} could not be written", (folder_.path() / solution_name).string());
+}
+
+Segments::Open& Segments::open() {
+  if (!open_) open_ = std::make_unique<Open>(folder_, layout_, description_, mark_.has_modified);
+  return *open_;
+}
+
+void Segments::append(std::span<const double> fields, std::span<const double> numbers) {
+  require_writable();
+  is_broken_ = true;  // until all of it succeeded
+  const std::uint64_t points = layout_.points();
+  const std::size_t count = layout_.fields.size();
+  const bool is_large = chunk_ == 1;  // large rows are not kept twice
+  for (std::size_t f = 0; f < count; ++f) {
+    const std::span<const double> row = fields.subspan(f * points, points);
+    if (is_large) {
+      open().columns[f].append(row);
+    } else {
+      mark_.unfinished[f].insert(mark_.unfinished[f].end(), row.begin(), row.end());
+    }
+  }
+  for (std::size_t i = 0; i < numbers.size(); ++i) mark_.unfinished[count + i].push_back(numbers[i]);
+  if (mark_.unfinished.back().size() == chunk_) write_rows(open().columns);
+  is_broken_ = false;
+}
+
+void Segments::write_rows(std::vector<Hdf5Dataset>& columns) {
+  open_->rows += mark_.unfinished.back().size();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    columns[i].append(mark_.unfinished[i]);
+    mark_.unfinished[i].clear();
+  }
+}
+
+SegmentsMark Segments::seal() {
+  require_writable();
+  if (!open_) return mark_;
+  is_broken_ = true;
+  const Folder inside = folder_.inside(segments_folder);
+  open_->close();
+  const FileMark file = open_->path.mark();
+  open_->path.commit_as(inside, segment_name(mark_.sealed.size() + 1));
+  mark_.sealed.push_back({.rows = open_->rows, .file = file});
+  open_.reset();
+  is_broken_ = false;
+  return mark_;
+}
+
+// Segments hold whole chunks, so that their bytes are those of the chunks of the joined file.
+void Segments::join(Open& to) const {
+  if (mark_.sealed.empty()) return;
+  const Folder inside = folder_.inside(segments_folder);
+  for (std::size_t k = 0; k < mark_.sealed.size(); ++k) {
+    const Hdf5File from = Hdf5File::open(inside, segment_name(k + 1));
+    std::vector<Hdf5Dataset> columns;
+    for (const Hdf5Dataset& column : to.columns) columns.push_back(from.dataset(column.name()));
+    for (std::uint64_t first = 0; first < mark_.sealed[k].rows; first += chunk_) {
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        if (i < layout_.fields.size()) {
+          to.columns[i].append_chunks(columns[i], first, chunk_);
+        } else {
+          std::vector<double> values(chunk_);
+          columns[i].read(first, values);
+          to.columns[i].append(values);
+        }
+      }
+    }
+  }
+}
+
+void Segments::finish(const RunReport& report) {
+  if (!mark_.sealed.empty()) seal();
+  require_writable();
+  is_broken_ = true;
+  Open& last = open();
+  join(last);
+  write_rows(last.columns);
+  describe_end(last.file, description_, report);
+  last.close();
+  last.path.commit();
+  open_.reset();
+  is_broken_ = false;
+}
+
+}  // namespace seiche

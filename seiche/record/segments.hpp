@@ -1,0 +1,79 @@
+// The rows of a solution in files that are written once (docs/decisions/0029-sealed-segments.md). Whole chunks go to
+// solution.h5.partial, which is sealed at a checkpoint: from then on it is solution/000001.h5, 000002.h5, …, and is
+// never opened for writing again. The rows behind the last whole chunk are kept by the checkpoint.
+#pragma once
+
+#include <seiche/core/control/archive.hpp>
+#include <seiche/core/run_report.hpp>
+#include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
+#include <seiche/output/solution_columns.hpp>
+#include <seiche/output/solution_layout.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+inline constexpr const char* segments_folder = "solution";
+std::string segment_name(std::size_t number);  // "000001.h5" of 1
+
+// What a checkpoint vouches for: all rows of a solution so far.
+struct SegmentsMark {
+  struct Segment {
+    std::uint64_t rows = 0;
+    FileMark file = {};
+    void archive(Archive& a) { a(rows, file.length, file.checksum); }
+  };
+  std::vector<Segment> sealed = {};
+  bool has_modified = false;                         // is there a modified energy?
+  std::vector<std::vector<double>> unfinished = {};  // rows of the chunk that is not full, column by column
+
+  std::uint64_t rows() const;
+  std::size_t fields() const { return unfinished.size() - (has_modified ? 3 : 2); }
+  void archive(Archive& a);
+};
+
+// Why the segments of a folder are not those of the mark; "" where they are.
+std::string complaint_about(const Folder& folder, const SegmentsMark& mark);
+// All of them but the first `kept`; and their folder, where it is empty then.
+void remove_segments(const Folder& folder, std::size_t kept = 0);
+
+class Segments {
+ public:
+  // Goes on behind the mark, which is one of the same layout, or of nothing: segments that it does not name are
+  // removed, and those that it names are only read.
+  Segments(const Folder& folder, SolutionLayout layout, SolutionDescription description, bool has_modified_energy,
+           SegmentsMark mark = {});
+  ~Segments();  // a segment that is not sealed is removed
+  Segments(const Segments&) = delete;
+  Segments& operator=(const Segments&) = delete;
+
+  // A row: all fields one after the other, and H, H_modified if there is one, t. Throws Error where a chunk cannot be
+  // written; from then on everything does.
+  void append(std::span<const double> fields, std::span<const double> numbers);
+  // What was appended is on the disk under its final name, but for the rows that the mark holds.
+  SegmentsMark seal();
+  // solution.h5: the bytes that it has where nothing was ever sealed. The segments stay.
+  void finish(const RunReport& report);
+
+ private:
+  struct Open;  // the segment that is being written
+  Open& open();
+  void write_rows(std::vector<Hdf5Dataset>& columns);
+  void require_writable() const;
+  void join(Open& to) const;
+
+  Folder folder_;
+  SolutionLayout layout_;
+  SolutionDescription description_;
+  std::uint64_t chunk_;  // rows
+  SegmentsMark mark_;
+  std::unique_ptr<Open> open_;
+  bool is_broken_ = false;
+};
+
+}  // namespace seiche

@@ -1,0 +1,351 @@
+#include <seiche/core/error.hpp>
+#include <seiche/output/solution_reader.hpp>
+#include <seiche/record/checkpoint_file.hpp>
+#include <seiche/record/record_reader.hpp>
+#include <seiche/record/segments.hpp>
+#include <test/support/error_of.hpp>
+#include <test/support/paths.hpp>
+#include <test/support/repetitions.hpp>
+#include <test/support/temporary_directory.hpp>
+#include <test/support/text_of.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace TEST_FILE {
+
+using namespace seiche;
+using namespace seiche::test;
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+SolutionAxis axis(const char* name, std::size_t size) {
+  SolutionAxis axis{.name = name, .meaning = "where it is", .values = {}};
+  for (std::size_t i = 1; i <= size; ++i) axis.values.push_back(static_cast<double>(i));
+  return axis;
+}
+
+SolutionLayout laid_out(std::vector<std::string> fields, std::vector<SolutionAxis> axes) {
+  SolutionLayout layout;
+  layout.fields = std::move(fields);
+  layout.axes = std::move(axes);
+  return layout;
+}
+
+// The columns of a solution, and rows that are told from one another.
+struct Solution {
+  std::string name;
+  SolutionLayout layout;
+  bool has_modified = true;
+
+  Segments segments(const fs::path& directory, SegmentsMark mark = {}) const {
+    return Segments(Folder(directory), layout, {.texts = {{"title", name}}}, has_modified, std::move(mark));
+  }
+  std::vector<double> state(std::uint64_t row) const {
+    std::vector<double> values(layout.fields.size() * layout.points());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = std::sin(0.01 * static_cast<double>(i)) + static_cast<double>(row);
+    return values;
+  }
+  static double time(std::uint64_t row) { return 0.5 * static_cast<double>(row); }
+  static double energy(std::uint64_t row) { return 1 / (1.0 + static_cast<double>(row)); }
+  void append(Segments& to, std::uint64_t row) const {
+    const double H = energy(row), t = time(row);
+    const std::vector<double> numbers = has_modified ? std::vector{H, 2 * H, t} : std::vector{H, t};
+    to.append(state(row), numbers);
+  }
+};
+
+// Chunks of many rows, of few, of one, of less than a row; of one point.
+std::vector<Solution> solutions() {
+  SolutionLayout truss = laid_out({"q", "p"}, {axis("point", 3)});
+  truss.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  truss.supports = {{1, 1, 0}};
+  truss.bars = {{0, 1}, {1, 2}, {2, 3}};
+  return {{"line", laid_out({"u", "v"}, {axis("x", 20)})},
+          {"few", laid_out({"u"}, {axis("x", 4096)}), false},
+          {"plane", laid_out({"u", "v"}, {axis("x", 96), axis("y", 128)})},
+          {"large", laid_out({"u"}, {axis("x", 70), axis("y", 1000)})},
+          {"point", laid_out({"u", "v"}, {})},
+          {"truss", truss}};
+}
+
+const RunReport& success() {
+  static const RunReport report = [] {
+    RunReport made;
+    made.message = "reached the end";
+    return made;
+  }();
+  return report;
+}
+
+class SegmentFiles : public InTemporaryDirectory {
+ protected:
+  fs::path fresh() {
+    const fs::path folder = directory / std::to_string(++folders_);
+    fs::create_directory(folder);
+    return folder;
+  }
+  std::string in_one_go(const Solution& solution, std::uint64_t rows) {
+    const fs::path folder = fresh();
+    Segments segments = solution.segments(folder);
+    for (std::uint64_t row = 0; row < rows; ++row) solution.append(segments, row);
+    segments.finish(success());
+    EXPECT_FALSE(fs::exists(folder / segments_folder));
+    return text_of(folder / "solution.h5");
+  }
+
+ private:
+  int folders_ = 0;
+};
+
+void expect_rows(const RecordReader& record, const Solution& solution, std::uint64_t rows) {
+  ASSERT_EQ(record.count(), static_cast<Index>(rows));
+  const std::vector<double> t = record.times(), H = record.energies(), modified = record.modified_energies();
+  Vector values;
+  for (std::uint64_t row = 0; row < rows; ++row) {
+    ASSERT_EQ(t[row], Solution::time(row));
+    ASSERT_EQ(H[row], Solution::energy(row));
+    if (solution.has_modified) {
+      ASSERT_EQ(modified[row], 2 * Solution::energy(row));
+    }
+    record.state(static_cast<Index>(row), values);
+    ASSERT_EQ(std::vector<double>(values.begin(), values.end()), solution.state(row)) << row;
+  }
+}
+
+TEST_F(SegmentFiles, AreJoinedToTheBytesOfAFileThatWasNeverSealed) {
+  for (const Solution& solution : solutions()) {
+    const std::uint64_t chunk = solution.layout.chunk().front(), rows = 5 * chunk + chunk / 3 + 2;
+    const std::string expected = in_one_go(solution, rows);
+    for (const std::uint64_t every : {chunk / 2 + 1, chunk + 1, 2 * chunk, rows - 1}) {
+      const fs::path folder = fresh();
+      SegmentsMark mark;
+      while (mark.rows() < rows) {
+        Segments segments = solution.segments(folder, mark);  // goes on behind the mark
+        const std::uint64_t end = std::min(rows, mark.rows() + every);
+        for (std::uint64_t row = mark.rows(); row < end; ++row) solution.append(segments, row);
+        mark = segments.seal();
+        ASSERT_EQ(mark.rows(), end);
+      }
+      solution.segments(folder, mark).finish(success());
+      EXPECT_EQ(text_of(folder / "solution.h5"), expected) << solution.name << " sealed every " << every;
+    }
+  }
+}
+
+TEST_F(SegmentFiles, AreReadWithTheRowsThatTheMarkHolds) {
+  for (const Solution& solution : solutions()) {
+    const fs::path folder = fresh();
+    Segments segments = solution.segments(folder);
+    const std::uint64_t chunk = solution.layout.chunk().front();
+    for (std::uint64_t row = 0, k = 1; k <= 3; ++k) {
+      for (const std::uint64_t end = k * (chunk + chunk / 2); row < end; ++row) solution.append(segments, row);
+      const SegmentsMark mark = segments.seal();
+      expect_rows(RecordReader(folder, mark), solution, row);
+    }
+    segments.finish(success());
+    const SolutionReader joined(folder / "solution.h5");
+    EXPECT_EQ(joined.count(), static_cast<Index>(3 * (chunk + chunk / 2)));
+    EXPECT_EQ(joined.text("status"), "success");
+  }
+}
+
+TEST_F(SegmentFiles, AreNotMadeWhereNoChunkWasFull) {
+  const Solution line = solutions().front();
+  const fs::path folder = fresh();
+  Segments segments = line.segments(folder);
+  for (std::uint64_t row = 0; row < 10; ++row) {
+    line.append(segments, row);
+    EXPECT_THAT(segments.seal().sealed, IsEmpty());
+  }
+  EXPECT_TRUE(fs::is_empty(folder));
+  segments.finish(success());
+  EXPECT_EQ(text_of(folder / "solution.h5"), in_one_go(line, 10));
+}
+
+// 8 chunks in 4 segments.
+SegmentsMark sealed_twice(const Solution& solution, const fs::path& directory) {
+  Segments segments = solution.segments(directory);
+  const std::uint64_t chunk = solution.layout.chunk().front();
+  SegmentsMark mark;
+  for (std::uint64_t row = 0; row < 8 * chunk; ++row) {
+    solution.append(segments, row);
+    if ((row + 1) % (2 * chunk) == 0) mark = segments.seal();
+  }
+  return mark;
+}
+
+TEST_F(SegmentFiles, ThatNoMarkNamesAreRemovedAndNothingElse) {
+  const Solution few = solutions()[1];
+  const fs::path folder = fresh();
+  SegmentsMark mark = sealed_twice(few, folder);
+  const fs::path inside = folder / segments_folder;
+  std::ofstream(inside / "notes.txt") << "mine";
+  mark.sealed.resize(2);
+  few.segments(folder, mark);
+  EXPECT_TRUE(fs::exists(inside / "000002.h5"));
+  EXPECT_FALSE(fs::exists(inside / "000003.h5"));
+  EXPECT_FALSE(fs::exists(inside / "000004.h5"));
+  remove_segments(Folder(folder));
+  EXPECT_FALSE(fs::exists(inside / "000001.h5"));
+  EXPECT_EQ(text_of(inside / "notes.txt"), "mine");
+  fs::remove(inside / "notes.txt");
+  remove_segments(Folder(folder));
+  EXPECT_FALSE(fs::exists(inside));
+}
+
+TEST_F(SegmentFiles, ThatAreNotWhatTheyWereAreTold) {
+  const Solution few = solutions()[1];
+  const fs::path folder = fresh();
+  const SegmentsMark mark = sealed_twice(few, folder);
+  const Folder open(folder);
+  EXPECT_EQ(complaint_about(open, mark), "");
+  const fs::path second = folder / segments_folder / "000002.h5";
+  const std::string bytes = text_of(second);
+  for (const std::size_t at : {std::size_t{0}, bytes.size() / 2, bytes.size() - 1}) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(~damaged[at]);
+    std::ofstream(second, std::ios::binary) << damaged;
+    EXPECT_EQ(complaint_about(open, mark), "solution/000002.h5 is not what it was at the checkpoint") << at;
+  }
+  std::ofstream(second, std::ios::binary) << bytes.substr(0, 100);
+  EXPECT_THAT(complaint_about(open, mark), HasSubstr("solution/000002.h5 has 100 bytes, and had"));
+  fs::remove(second);
+  EXPECT_THAT(error_of([&] { complaint_about(open, mark); }), HasSubstr("000002.h5 is not there"));
+}
+
+TEST_F(SegmentFiles, DoNotFollowALinkInThePlaceOfTheirFolder) {
+  const Solution few = solutions()[1];
+  const fs::path folder = fresh(), elsewhere = fresh();
+  fs::create_directory_symlink(elsewhere, folder / segments_folder);
+  Segments segments = few.segments(folder);
+  for (std::uint64_t row = 0; row < few.layout.chunk().front(); ++row) few.append(segments, row);
+  EXPECT_THAT(error_of([&] { segments.seal(); }), HasSubstr("cannot make the folder"));
+  EXPECT_TRUE(fs::is_empty(elsewhere));
+}
+
+// ---- Ended anywhere: what a checkpoint vouches for is there, and the end has the same bytes
+
+constexpr std::uint64_t rows_of_a_run = 31, rows_between_checkpoints = 7;
+const char* const writer = "SegmentsWriter.DISABLED_GoesOnFromTheNewestCheckpoint";
+
+SegmentsMark newest_mark(const Folder& folder) {
+  for (const std::string& name : checkpoints_in(folder.path())) {
+    try {
+      SegmentsMark mark;
+      Archive archive = read_checkpoint_file(folder.path() / name);
+      archive(mark);
+      if (complaint_about(folder, mark).empty()) return mark;
+    } catch (const Error&) {  // the one before it may serve
+    }
+  }
+  return {};
+}
+
+// A run in another process, for the tests below.
+TEST(SegmentsWriter, DISABLED_GoesOnFromTheNewestCheckpoint) {
+  const char* const directory = std::getenv("SEICHE_TEST_FOLDER");
+  ASSERT_NE(directory, nullptr);
+  const Folder folder{fs::path(directory)};
+  const Solution few = solutions()[1];
+  SegmentsMark mark = newest_mark(folder);
+  Segments segments = few.segments(directory, mark);
+  for (std::uint64_t row = mark.rows(); row < rows_of_a_run; ++row) {
+    few.append(segments, row);
+    if ((row + 1) % rows_between_checkpoints != 0) continue;
+    mark = segments.seal();
+    commit_checkpoint(folder, true, [&](Archive& archive) { archive(mark); });
+  }
+  segments.finish(success());
+  remove_checkpoints(folder);
+  remove_segments(folder);
+}
+
+// False where it did not come to its end.
+bool ends(const fs::path& directory, const std::string& fault) {
+  const std::string command = fmt::format(
+      "LD_PRELOAD='{}' SEICHE_TEST_FOLDER='{}' {} '{}' --gtest_also_run_disabled_tests --gtest_filter={} "
+      "> /dev/null 2>&1",
+      fault.empty() ? "" : failing_writes_path(), directory.string(), fault,
+      fs::read_symlink("/proc/self/exe").string(), writer);
+  return std::system(command.c_str()) == 0;
+}
+
+void expect_the_end(const fs::path& directory, const std::string& expected, const std::string& after) {
+  const SegmentsMark mark = newest_mark(Folder(directory));
+  if (mark.rows() > 0) expect_rows(RecordReader(directory, mark), solutions()[1], mark.rows());
+  ASSERT_TRUE(ends(directory, "")) << after;
+  EXPECT_EQ(text_of(directory / "solution.h5"), expected) << after;
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(directory)) left.push_back(entry.path().filename().string());
+  EXPECT_THAT(left, testing::ElementsAre("solution.h5")) << after;
+}
+
+TEST_F(SegmentFiles, AreWholeWhereverARunAndItsResumesAreKilled) {
+  const std::string expected = in_one_go(solutions()[1], rows_of_a_run);
+  const int stride = sanitized ? 29 : 7;
+  int n = 1;
+  for (bool is_killed = true; is_killed; n += stride) {
+    const fs::path folder = fresh();
+    is_killed = !ends(folder, fmt::format("SEICHE_KILL_AT={}", n));
+    if (!is_killed) {
+      EXPECT_EQ(text_of(folder / "solution.h5"), expected);
+    }
+    if (is_killed) ends(folder, fmt::format("SEICHE_KILL_AT={}", 1 + n / 2));  // killed once more
+    expect_the_end(folder, expected, fmt::format("killed before call {}", n));
+  }
+  EXPECT_GT(n, 50);
+}
+
+TEST_F(SegmentFiles, AreWholeWhateverWriteFails) {
+  const std::string expected = in_one_go(solutions()[1], rows_of_a_run);
+  const int stride = sanitized ? 31 : 11;
+  for (const bool once : {true, false}) {
+    bool has_failed = true;
+    for (int n = 1; has_failed; n += stride) {
+      const fs::path folder = fresh();
+      has_failed = !ends(folder, fmt::format("SEICHE_FAIL_AT={} SEICHE_FAIL_WITH={} {}", n, ENOSPC,
+                                             once ? "SEICHE_FAIL_ONCE=1" : ""));
+      if (!has_failed) {
+        EXPECT_GT(n, 50);
+        EXPECT_EQ(text_of(folder / "solution.h5"), expected);
+      }
+      expect_the_end(folder, expected, fmt::format("write {} failed, {}", n, once ? "once" : "and all behind"));
+    }
+  }
+}
+
+// What is vouched for is on the disk before: else a power cut would leave a name without its bytes.
+TEST_F(SegmentFiles, AreOnTheDiskBeforeTheirNamesAndTheseBeforeTheCheckpoint) {
+  const fs::path folder = fresh(), beside = fresh();
+  const fs::path log = beside / "log";
+  ASSERT_TRUE(ends(folder, fmt::format("SEICHE_SYNC_LOG='{}'", log.string())));
+  std::istringstream in(text_of(log));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  int segments = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!lines[i].starts_with("name 0000")) continue;
+    ++segments;
+    ASSERT_GT(i, 0U);
+    EXPECT_EQ(lines[i - 1], "sync solution.h5.partial");
+    ASSERT_LT(i + 2, lines.size());
+    EXPECT_EQ(lines[i + 1], "sync solution");
+    EXPECT_EQ(lines[i + 2], "sync checkpoint.seiche.partial");
+  }
+  EXPECT_EQ(segments, 4);
+}
+
+}  // namespace TEST_FILE
