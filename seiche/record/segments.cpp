@@ -84,9 +84,9 @@ struct Segments::Open {
   }
 };
 
-Segments::Segments(const Folder& folder, SolutionLayout layout, SolutionDescription description,
-                   bool has_modified_energy, SegmentsMark mark)
-    : folder_(folder),
+Segments::Segments(Folder folder, SolutionLayout layout, SolutionDescription description, bool has_modified_energy,
+                   SegmentsMark mark)
+    : folder_(std::move(folder)),
       layout_(std::move(layout)),
       description_(std::move(description)),
       chunk_(layout_.chunk().front()),

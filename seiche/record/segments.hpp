@@ -46,7 +46,7 @@ class Segments {
  public:
   // Goes on behind the mark, which is one of the same layout, or of nothing: segments that it does not name are
   // removed, and those that it names are only read.
-  Segments(const Folder& folder, SolutionLayout layout, SolutionDescription description, bool has_modified_energy,
+  Segments(Folder folder, SolutionLayout layout, SolutionDescription description, bool has_modified_energy,
            SegmentsMark mark = {});
   ~Segments();  // a segment that is not sealed is removed
   Segments(const Segments&) = delete;

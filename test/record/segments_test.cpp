@@ -93,7 +93,7 @@ const RunReport& success() {
 class SegmentFiles : public InTemporaryDirectory {
  protected:
   fs::path fresh() {
-    const fs::path folder = directory / std::to_string(++folders_);
+    fs::path folder = directory / std::to_string(++folders_);
     fs::create_directory(folder);
     return folder;
   }
