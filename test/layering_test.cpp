@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <regex>
 #include <set>
@@ -276,6 +277,56 @@ TEST(Layering, ForbiddenIncludesAreRefused) {
       {"cli/main.cpp", 1, "CLI/CLI.hpp", false},
   };
   for (const Include& include : allowed) EXPECT_EQ(broken_rule(include), "") << description(include, "");
+}
+
+// Rooms of one room, and it as a whole, by what they include of one another.
+using Neighbours = std::map<fs::path, std::set<fs::path>>;
+
+std::map<std::string, Neighbours> rooms_inside() {
+  std::map<std::string, Neighbours> inside;
+  for (const Include& include : all_includes()) {
+    const fs::path from = include.file.parent_path();
+    const fs::path to = fs::path(include.target).parent_path();
+    if (folder_of(include.file) == folder_of(include.target) && from != to)
+      inside[folder_of(include.file)][from].insert(to);
+  }
+  return inside;
+}
+
+// "a → b → a" where includes lead round, else "".
+std::string circle(const Neighbours& rooms) {
+  std::set<fs::path> done;
+  std::vector<fs::path> path;
+  const std::function<std::string(const fs::path&)> visit = [&](const fs::path& room) -> std::string {
+    if (const auto begin = std::find(path.begin(), path.end(), room); begin != path.end()) {
+      std::string text;
+      for (auto it = begin; it != path.end(); ++it) text += it->string() + " → ";
+      return text + room.string();
+    }
+    if (!done.insert(room).second || !rooms.contains(room)) return "";
+    path.push_back(room);
+    for (const fs::path& next : rooms.at(room))
+      if (std::string found = visit(next); !found.empty()) return found;
+    path.pop_back();
+    return "";
+  };
+  for (const auto& [room, next] : rooms)
+    if (std::string found = visit(room); !found.empty()) return found;
+  return "";
+}
+
+// Rooms inside a room have an order as the rooms have: what lists them stands above them, what they share below. Two
+// rooms are one idea in parts: core/, which is the vocabulary, and the case files of config/, which hold problems by
+// formula that are written in values of a case.
+TEST(Layering, RoomsInsideARoomDoNotRunInCircles) {
+  EXPECT_EQ(circle({{"a", {"b"}}, {"b", {"c"}}, {"c", {}}}), "");
+  EXPECT_EQ(circle({{"a", {"b", "c"}}, {"b", {"c"}}, {"c", {"b"}}}), "b → c → b");
+  const std::map<std::string, Neighbours> inside = rooms_inside();
+  EXPECT_GT(inside.size(), 5U);
+  for (const auto& [room, neighbours] : inside)
+    if (room != "core" && room != "config") {
+      EXPECT_EQ(circle(neighbours), "") << room;
+    }
 }
 
 // Of vectors of a state in method/, run/ and simulation/ what all of it decides goes through Space, which knows who

@@ -213,6 +213,8 @@ const MethodEntry& find_method(std::string_view name) {
   throw unknown_method(name);
 }
 
+EnergyLaw MethodOptions::law_of(const MethodEntry& method) const { return law.value_or(method.projection); }
+
 void MethodOptions::validate(const MethodEntry& method) const {
   if (law && !method.projects())
     throw Error("law belongs to the methods that end with a projection; {} keeps the law of its own scheme",

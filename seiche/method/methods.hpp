@@ -3,10 +3,10 @@
 
 #include <seiche/core/stepper.hpp>
 #include <seiche/core/system.hpp>
-#include <seiche/method/projection/energy_law.hpp>
+#include <seiche/method/common/energy_law.hpp>
+#include <seiche/method/common/method_options.hpp>
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,13 +17,8 @@ namespace seiche {
 class BaseStep;
 class Closure;
 struct MethodEntry;
-struct MethodOptions;
 
-enum class AuxiliaryMode { transport, frozen, refresh };
-enum class ScalarSolver { robust, newton };
-enum class Predictor { gradient, remembered };         // seiche/method/closure/midpoint_predictor.hpp
-enum class LinearTreatment { exact, explicit_kicks };  // e^{hL}, or kicks by all forces between drifts
-enum class MembersTogether { none, avf, sav };         // how many members of an ensemble take a step side by side
+enum class MembersTogether { none, avf, sav };  // how many members of an ensemble take a step side by side
 
 // What methods of one kind have in common, whatever their order and propagator.
 struct MethodKind {
@@ -72,25 +67,6 @@ struct MethodEntry {
 std::span<const MethodEntry> methods();
 std::vector<std::string> method_names();
 const MethodEntry& find_method(std::string_view name);  // throws unknown_method(name)
-
-struct MethodOptions {
-  std::optional<double> C;                             // sav: the shift; automatic if not given
-  AuxiliaryMode auxiliary = AuxiliaryMode::transport;  // frozen, in the lm family, always solves by plain Newton
-  ScalarSolver scalar_solver = ScalarSolver::robust;
-  std::optional<EnergyLaw> law = {};  // of methods that project; the strongest they can have if not given
-
-  LinearTreatment linear = LinearTreatment::exact;  // of crkn4 and crkn6
-  Predictor predictor = Predictor::remembered;      // of closures
-
-  EnergyLaw law_of(const MethodEntry& method) const { return law.value_or(method.projection); }
-  // Why no energy law is promised with these options, or "".
-  std::string objection(const MethodEntry& method) const;
-  bool operator==(const MethodOptions&) const = default;
-  // Throws Error where an option other than its default has no meaning for the method, with the reason.
-  void validate(const MethodEntry& method) const;
-  // Without those that have no meaning for the method, and with a law that it can have.
-  MethodOptions meant_for(const MethodEntry& method) const;
-};
 
 // `method` is a row of the list, or one like them. `system` outlives the stepper; for methods that merge the damping it
 // comes from with_damping_merged(problem).

@@ -1,5 +1,5 @@
 #include <seiche/backend/grid/grid_space.hpp>
-#include <seiche/backend/sparse/balance.hpp>
+#include <seiche/backend/krylov/balance.hpp>
 #include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/grid/modes.hpp>

@@ -1,5 +1,5 @@
 #include <seiche/backend/dense/dense_force.hpp>
-#include <seiche/backend/dense/dense_kernel.hpp>
+#include <seiche/backend/phi/dense_kernel.hpp>
 #include <seiche/backend/phi/energy_coordinates.hpp>
 #include <seiche/backend/phi/force_map.hpp>
 #include <seiche/core/error.hpp>

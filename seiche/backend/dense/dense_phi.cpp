@@ -1,6 +1,6 @@
-#include <seiche/backend/dense/dense_kernel.hpp>
 #include <seiche/backend/dense/dense_phi.hpp>
 #include <seiche/backend/dense/lane_matrix.hpp>
+#include <seiche/backend/phi/dense_kernel.hpp>
 #include <seiche/backend/phi/force_map.hpp>
 #include <seiche/backend/phi/phi_functions.hpp>
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <seiche/backend/fft/transform.hpp>
-#include <seiche/backend/linear_map.hpp>
 #include <seiche/core/function_ref.hpp>
+#include <seiche/core/numerics/linear_map.hpp>
 #include <seiche/core/system.hpp>
 
 #include <memory>

@@ -3,8 +3,8 @@
 
 #include <seiche/backend/fft/transform.hpp>
 #include <seiche/backend/grid/field_decay.hpp>
-#include <seiche/backend/linear_map.hpp>
 #include <seiche/core/damping.hpp>
+#include <seiche/core/numerics/linear_map.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/step_cache.hpp>
 

@@ -1,5 +1,5 @@
+#include <seiche/backend/krylov/balance.hpp>
 #include <seiche/backend/krylov/krylov_trajectory.hpp>
-#include <seiche/backend/sparse/balance.hpp>
 #include <seiche/core/control/stop_request.hpp>
 
 #include <algorithm>

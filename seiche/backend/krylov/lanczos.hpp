@@ -2,7 +2,7 @@
 // is skew in it, and what the iteration computes is an isometry whatever its dimension.
 #pragma once
 
-#include <seiche/backend/sparse/sparse_ldlt.hpp>
+#include <seiche/backend/krylov/sparse_ldlt.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/propagator.hpp>
 

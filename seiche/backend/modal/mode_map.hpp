@@ -1,8 +1,8 @@
 // A linear map that is diagonal over the modes of a grid: one m × m block per mode.
 #pragma once
 
-#include <seiche/backend/linear_map.hpp>
 #include <seiche/core/grid/modes.hpp>
+#include <seiche/core/numerics/linear_map.hpp>
 
 #include <Eigen/Dense>
 

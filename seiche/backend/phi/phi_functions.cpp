@@ -1,4 +1,4 @@
-#include <seiche/backend/dense/dense_kernel.hpp>
+#include <seiche/backend/phi/dense_kernel.hpp>
 #include <seiche/backend/phi/energy_coordinates.hpp>
 #include <seiche/backend/phi/force_map.hpp>
 #include <seiche/backend/phi/phi_functions.hpp>

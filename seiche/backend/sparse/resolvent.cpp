@@ -1,5 +1,5 @@
+#include <seiche/backend/krylov/sparse_ldlt.hpp>
 #include <seiche/backend/sparse/resolvent.hpp>
-#include <seiche/backend/sparse/sparse_ldlt.hpp>
 #include <seiche/backend/sparse/sparse_lu.hpp>
 
 namespace seiche {

@@ -1,8 +1,8 @@
 // e^{−hD} for a constant sparse D.
 #pragma once
 
-#include <seiche/backend/linear_map.hpp>
 #include <seiche/core/grid/sparse_operators.hpp>
+#include <seiche/core/numerics/linear_map.hpp>
 
 #include <functional>
 #include <memory>

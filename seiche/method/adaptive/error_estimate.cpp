@@ -2,7 +2,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/adaptive/error_estimate.hpp>
-#include <seiche/method/nonlinear_force.hpp>
+#include <seiche/method/common/nonlinear_force.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <seiche/method/closure/closure.hpp>
 #include <seiche/method/closure/multiplier.hpp>
-#include <seiche/method/methods.hpp>
+#include <seiche/method/common/method_options.hpp>
 
 #include <memory>
 #include <optional>

@@ -1,5 +1,4 @@
 #include <seiche/method/closure/midpoint_predictor.hpp>
-#include <seiche/method/methods.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,19 +4,14 @@
 #include <seiche/core/propagator.hpp>
 #include <seiche/core/state.hpp>
 #include <seiche/core/system.hpp>
+#include <seiche/method/common/method_options.hpp>
 
 #include <span>
 
 namespace seiche {
 
-// gradient:    ẑ = e^{A/2}z⁻ + (h/2)φ₁(A/2)S∇V(z⁻), the paper's: two gradients a step.
-// remembered:  the same with ḡ = g₀ + w(g₀ − g₁) in the place of ∇V(z⁻), for g₀, g₁ the gradients at the midpoints of
-//              the last steps h₀, h₁ and w = (h/4 + h₀/2)/((h₀ + h₁)/2): the gradient in the middle of the first half
-//              step, by Adams and Bashforth inside the exponential. One gradient a step, and errors of the same size.
-//              Where steps do not resolve the solution the memory would feed on itself, and a guard takes ∇V(z⁻).
-enum class Predictor;  // of methods.hpp
-
-// Its arithmetic, for the lengths h₀, h₁, h₂ of the last steps: for one run and for the members of a panel.
+// The arithmetic of the remembered predictor, for the lengths h₀, h₁, h₂ of the last steps: for one run and for the
+// members of a panel.
 namespace midpoint_memory {
 
 double weight(std::span<const double> lengths, double h);  // w
@@ -28,6 +23,11 @@ double resting(double before, bool has_missed);  // steps that are to take the g
 
 }  // namespace midpoint_memory
 
+// gradient:    ẑ = e^{A/2}z⁻ + (h/2)φ₁(A/2)S∇V(z⁻), the paper's: two gradients a step.
+// remembered:  the same with ḡ = g₀ + w(g₀ − g₁) in the place of ∇V(z⁻), for g₀, g₁ the gradients at the midpoints of
+//              the last steps h₀, h₁ and w = (h/4 + h₀/2)/((h₀ + h₁)/2): the gradient in the middle of the first half
+//              step, by Adams and Bashforth inside the exponential. One gradient a step, and errors of the same size.
+//              Where steps do not resolve the solution the memory would feed on itself, and a guard takes ∇V(z⁻).
 class MidpointPredictor {
  public:
   MidpointPredictor(const System& system, Predictor kind) : system_(system), kind_(kind) {}  // which outlives it

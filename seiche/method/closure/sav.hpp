@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/method/closure/closure.hpp>
-#include <seiche/method/methods.hpp>
+#include <seiche/method/common/method_options.hpp>
 
 #include <memory>
 

@@ -1,9 +1,9 @@
 // The solution of a collocation step at any time inside it, and the error at its end.
 #pragma once
 
+#include <seiche/core/numerics/quadrature.hpp>
 #include <seiche/core/phi.hpp>
 #include <seiche/core/step_cache.hpp>
-#include <seiche/method/collocation/gauss.hpp>
 
 #include <memory>
 #include <vector>

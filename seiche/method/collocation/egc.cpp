@@ -1,13 +1,13 @@
 #include <seiche/core/generic_state.hpp>
 #include <seiche/core/numerics/end_extrapolation.hpp>
+#include <seiche/core/numerics/quadrature.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/collocation/collocation_weights.hpp>
 #include <seiche/method/collocation/continuous_extension.hpp>
 #include <seiche/method/collocation/egc.hpp>
 #include <seiche/method/collocation/force_sums.hpp>
-#include <seiche/method/collocation/gauss.hpp>
 #include <seiche/method/collocation/sweep_control.hpp>
-#include <seiche/method/nonlinear_force.hpp>
+#include <seiche/method/common/nonlinear_force.hpp>
 #include <seiche/method/projection/projected.hpp>
 #include <seiche/method/projection/step_dissipation.hpp>
 

@@ -3,7 +3,7 @@
 
 #include <seiche/core/stepper.hpp>
 #include <seiche/core/system.hpp>
-#include <seiche/method/projection/energy_law.hpp>
+#include <seiche/method/common/energy_law.hpp>
 
 #include <memory>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/core/function_ref.hpp>
-#include <seiche/method/projection/energy_law.hpp>
+#include <seiche/method/common/energy_law.hpp>
 #include <seiche/method/projection/step_dissipation.hpp>
 
 #include <limits>

@@ -3,10 +3,10 @@
 
 #include <seiche/core/step_cache.hpp>
 #include <seiche/core/stepper.hpp>
-#include <seiche/method/nonlinear_force.hpp>
+#include <seiche/method/common/energy_law.hpp>
+#include <seiche/method/common/nonlinear_force.hpp>
 #include <seiche/method/projection/base_step.hpp>
 #include <seiche/method/projection/damping_strength.hpp>
-#include <seiche/method/projection/energy_law.hpp>
 #include <seiche/method/projection/energy_projection.hpp>
 
 #include <memory>

@@ -2,10 +2,10 @@
 // method.
 #pragma once
 
+#include <seiche/core/numerics/quadrature.hpp>
 #include <seiche/core/state.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/core/system.hpp>
-#include <seiche/method/collocation/gauss.hpp>
 #include <seiche/method/projection/flow_quadrature.hpp>
 
 #include <functional>

@@ -1,6 +1,6 @@
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/collocation/collocation_weights.hpp>
-#include <seiche/method/nonlinear_force.hpp>
+#include <seiche/method/common/nonlinear_force.hpp>
 #include <seiche/method/runge_kutta/exponential_runge_kutta.hpp>
 
 namespace seiche {

@@ -1,5 +1,5 @@
 #include <seiche/core/step_cache.hpp>
-#include <seiche/method/nonlinear_force.hpp>
+#include <seiche/method/common/nonlinear_force.hpp>
 #include <seiche/method/splitting/momentum_form.hpp>
 #include <seiche/method/splitting/strang_exact.hpp>
 

@@ -5,7 +5,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/problem/common/grid_options.hpp>
-#include <seiche/problem/problems.hpp>
+#include <seiche/problem/common/problem_entry.hpp>
 
 #include <algorithm>
 #include <functional>

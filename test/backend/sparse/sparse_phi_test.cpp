@@ -2,8 +2,8 @@
 #include <test/support/cases.hpp>
 #include <test/support/matrices.hpp>
 
+#include <seiche/backend/krylov/balance.hpp>
 #include <seiche/backend/phi/phi_trajectories.hpp>
-#include <seiche/backend/sparse/balance.hpp>
 #include <seiche/backend/sparse/pade.hpp>
 #include <seiche/backend/sparse/sparse_kernel.hpp>
 #include <seiche/damping/rates.hpp>

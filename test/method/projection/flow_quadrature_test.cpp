@@ -3,7 +3,7 @@
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/config/custom/custom_problem.hpp>
-#include <seiche/method/collocation/gauss.hpp>
+#include <seiche/core/numerics/quadrature.hpp>
 #include <seiche/method/projection/flow_quadrature.hpp>
 #include <seiche/simulation/solve.hpp>
 

@@ -1,5 +1,5 @@
 #include <seiche/core/numerics/gauss_rule.hpp>
-#include <seiche/method/collocation/gauss.hpp>
+#include <seiche/core/numerics/quadrature.hpp>
 
 #include <cmath>
 

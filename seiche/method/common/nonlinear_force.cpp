@@ -1,4 +1,4 @@
-#include <seiche/method/nonlinear_force.hpp>
+#include <seiche/method/common/nonlinear_force.hpp>
 
 namespace seiche {
 

@@ -1,4 +1,4 @@
-#include <seiche/backend/sparse/sparse_ldlt.hpp>
+#include <seiche/backend/krylov/sparse_ldlt.hpp>
 #include <seiche/core/error.hpp>
 
 #include <Eigen/OrderingMethods>

@@ -1,4 +1,4 @@
-#include <seiche/method/projection/energy_law.hpp>
+#include <seiche/method/common/energy_law.hpp>
 
 namespace seiche {
 

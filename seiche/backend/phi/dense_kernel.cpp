@@ -1,4 +1,4 @@
-#include <seiche/backend/dense/dense_kernel.hpp>
+#include <seiche/backend/phi/dense_kernel.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>

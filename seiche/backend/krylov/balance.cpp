@@ -1,4 +1,4 @@
-#include <seiche/backend/sparse/balance.hpp>
+#include <seiche/backend/krylov/balance.hpp>
 
 #include <algorithm>
 #include <cmath>
