@@ -122,13 +122,17 @@ Archive read_checkpoint_file(const std::filesystem::path& file) {
 void replace_beginning(const Folder& folder, const std::string& name, std::uint64_t bytes,
                        FunctionRef<void(Archive&)> contents) {
   const PlainFile in(folder.path() / name);
-  const std::uint64_t end = in.size() - sizeof(Tail);
+  const std::uint64_t end = in.size() - std::min<std::uint64_t>(in.size(), sizeof(Tail));
   AtomicFile out(folder, name);
   Body body(out);
   Archive archive([&body](std::string_view written) { body.write(written); });
   contents(archive);
-  for (std::uint64_t at = format.size() + bytes; at < end; at += piece)
-    body.write(in.read(at, std::min(piece, end - at)));
+  for (std::uint64_t at = format.size() + bytes; at < end; at += piece) {
+    const std::string part = in.read(at, std::min(piece, end - at));
+    if (part.size() != std::min(piece, end - at))
+      throw Error("{} cannot be read to its end", (folder.path() / name).string());
+    body.write(part);
+  }
   body.close();
   out.commit();
 }

@@ -9,6 +9,7 @@
 namespace seiche {
 
 RecordReader::RecordReader(const std::filesystem::path& directory, SegmentsMark mark) : mark_(std::move(mark)) {
+  if (mark_.unfinished.size() <= (mark_.has_modified ? 3U : 2U)) throw Error("the mark of the segments names no field");
   for (std::size_t k = 0; k < mark_.sealed.size(); ++k) {
     const std::filesystem::path file = directory / segments_folder / segment_name(k + 1);
     segments_.emplace_back(file);

@@ -19,7 +19,8 @@ class RecordReader {
   std::vector<double> times() const;
   std::vector<double> energies() const;
   std::vector<double> modified_energies() const;  // none where the method has none
-  // Physical values at time k; all fields one after the other, in the order of z.
+  // Physical values at time k; all fields one after the other, in the order of z. Throws Error where there is no such
+  // time.
   void state(Index k, Vector& values) const;
 
  private:

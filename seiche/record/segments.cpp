@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -15,11 +14,6 @@ namespace seiche {
 namespace {
 
 constexpr const char* solution_name = "solution.h5";
-
-bool is_segment(const std::string& name) {
-  return name.size() == segment_name(1).size() && name.ends_with(".h5") &&
-         std::all_of(name.begin(), name.end() - 3, [](char c) { return c >= '0' && c <= '9'; });
-}
 
 std::filesystem::path path_of(const Folder& folder) { return folder.path() / segments_folder; }
 
@@ -36,31 +30,29 @@ std::uint64_t SegmentsMark::rows() const {
 void SegmentsMark::archive(Archive& a) {
   a(sealed, has_modified, unfinished);
   a.require(unfinished.size() > (has_modified ? 3 : 2));
-  const std::size_t times = unfinished.empty() ? 0 : unfinished.back().size();
-  for (std::size_t i = 0; i < unfinished.size(); ++i)
-    a.require(i < fields() ? (times == 0 ? unfinished[i].empty() : unfinished[i].size() % times == 0)
-                           : unfinished[i].size() == times);
+  if (unfinished.empty()) return;
+  const std::size_t times = unfinished.back().size(), field = unfinished.front().size();
+  a.require(times == 0 ? field == 0 : field % times == 0);
+  for (std::size_t i = 0; i < unfinished.size(); ++i) a.require(unfinished[i].size() == (i < fields() ? field : times));
 }
 
 std::string complaint_about(const Folder& folder, const SegmentsMark& mark) {
   if (mark.sealed.empty()) return "";
   const Folder inside(path_of(folder));
   for (std::size_t k = 0; k < mark.sealed.size(); ++k)
-    if (std::string said = complaint_about(inside, segment_name(k + 1), mark.sealed[k].file); !said.empty())
+    if (std::string said = complaint_about_whole(inside, segment_name(k + 1), mark.sealed[k].file); !said.empty())
       return fmt::format("{}/{}", segments_folder, said);
   return "";
 }
 
 void remove_segments(const Folder& folder, std::size_t kept) {
   std::error_code none;
-  const std::filesystem::path path = path_of(folder);
-  if (!std::filesystem::is_directory(std::filesystem::symlink_status(path, none))) return;
+  if (!std::filesystem::is_directory(std::filesystem::symlink_status(path_of(folder), none))) return;
   const Folder inside = folder.inside(segments_folder);
-  std::vector<std::string> names;
-  for (std::filesystem::directory_iterator entry(path, none), end; !none && entry != end; entry.increment(none))
-    names.push_back(entry->path().filename().string());
-  for (const std::string& name : names)
-    if (is_segment(name) && name > segment_name(kept)) remove_file(inside, name);
+  std::size_t last = kept;
+  while (FileIdentity(inside.descriptor(), segment_name(last + 1)) != FileIdentity()) ++last;
+  // From the end, so that those of a removal that was interrupted are found again.
+  for (; last > kept; --last) remove_file(inside, segment_name(last));
   ::unlinkat(folder.descriptor(), segments_folder, AT_REMOVEDIR);  // fails where something is in it
 }
 
@@ -74,10 +66,6 @@ struct Segments::Open {
       : path(folder, solution_name),
         file(Hdf5File::create_plain(path.open(), path.temporary())),
         columns(make_columns(file, layout, description, has_modified)) {}
-  ~Open() {
-    columns.clear();
-    file.abandon();
-  }
   void close() {
     columns.clear();
     file.close();
@@ -91,14 +79,27 @@ Segments::Segments(Folder folder, SolutionLayout layout, SolutionDescription des
       description_(std::move(description)),
       chunk_(layout_.chunk().front()),
       mark_(std::move(mark)) {
-  mark_.has_modified = has_modified_energy;
-  mark_.unfinished.resize(layout_.fields.size() + (has_modified_energy ? 3 : 2));
+  const std::size_t columns = layout_.fields.size() + (has_modified_energy ? 3 : 2);
+  if (mark_.unfinished.empty()) {
+    mark_.has_modified = has_modified_energy;
+    mark_.unfinished.resize(columns);
+  }
+  require_same_layout(columns);
   remove_segments(folder_, mark_.sealed.size());
 }
 
 Segments::~Segments() = default;
 
+void Segments::require_same_layout(std::size_t columns) const {
+  const std::size_t times = mark_.unfinished.back().size();
+  bool is_same = mark_.unfinished.size() == columns && times < chunk_ &&
+                 mark_.unfinished.front().size() == times * layout_.points();
+  for (const SegmentsMark::Segment& segment : mark_.sealed) is_same = is_same && segment.rows % chunk_ == 0;
+  if (!is_same) throw Error("the checkpoint is of a solution with other fields, or another grid");
+}
+
 void Segments::require_writable() const {
+  if (is_finished_) throw Error("{} is finished, and takes no more rows", (folder_.path() / solution_name).string());
   if (is_broken_) throw Error("{} could not be written", (folder_.path() / solution_name).string());
 }
 
@@ -122,14 +123,14 @@ void Segments::append(std::span<const double> fields, std::span<const double> nu
     }
   }
   for (std::size_t i = 0; i < numbers.size(); ++i) mark_.unfinished[count + i].push_back(numbers[i]);
-  if (mark_.unfinished.back().size() == chunk_) write_rows(open().columns);
+  if (mark_.unfinished.back().size() == chunk_) write_rows(open());
   is_broken_ = false;
 }
 
-void Segments::write_rows(std::vector<Hdf5Dataset>& columns) {
-  open_->rows += mark_.unfinished.back().size();
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    columns[i].append(mark_.unfinished[i]);
+void Segments::write_rows(Open& to) {
+  to.rows += mark_.unfinished.back().size();
+  for (std::size_t i = 0; i < to.columns.size(); ++i) {
+    to.columns[i].append(mark_.unfinished[i]);
     mark_.unfinished[i].clear();
   }
 }
@@ -176,12 +177,13 @@ void Segments::finish(const RunReport& report) {
   is_broken_ = true;
   Open& last = open();
   join(last);
-  write_rows(last.columns);
+  write_rows(last);
   describe_end(last.file, description_, report);
   last.close();
   last.path.commit();
   open_.reset();
   is_broken_ = false;
+  is_finished_ = true;
 }
 
 }  // namespace seiche

@@ -37,15 +37,17 @@ struct SegmentsMark {
   void archive(Archive& a);
 };
 
-// Why the segments of a folder are not those of the mark; "" where they are.
+// Why the segments of a folder are not those of the mark; "" where they are. Throws Error where one is missing, or
+// cannot be read.
 std::string complaint_about(const Folder& folder, const SegmentsMark& mark);
-// All of them but the first `kept`; and their folder, where it is empty then.
+// All of them but the first `kept`; and their folder, where it is empty then. Throws Error where the lock is no longer
+// ours.
 void remove_segments(const Folder& folder, std::size_t kept = 0);
 
 class Segments {
  public:
   // Goes on behind the mark, which is one of the same layout, or of nothing: segments that it does not name are
-  // removed, and those that it names are only read.
+  // removed, and those that it names are only read. Throws Error where the mark is of another layout.
   Segments(Folder folder, SolutionLayout layout, SolutionDescription description, bool has_modified_energy,
            SegmentsMark mark = {});
   ~Segments();  // a segment that is not sealed is removed
@@ -55,15 +57,18 @@ class Segments {
   // A row: all fields one after the other, and H, H_modified if there is one, t. Throws Error where a chunk cannot be
   // written; from then on everything does.
   void append(std::span<const double> fields, std::span<const double> numbers);
-  // What was appended is on the disk under its final name, but for the rows that the mark holds.
+  // What was appended is on the disk under its final name, but for the rows that the mark holds. Throws Error where it
+  // cannot be; the mark before this one still holds then.
   SegmentsMark seal();
-  // solution.h5: the bytes that it has where nothing was ever sealed. The segments stay.
+  // solution.h5: the bytes that it has where nothing was ever sealed. The segments stay, and no row is taken any more.
+  // Throws Error where it cannot be written.
   void finish(const RunReport& report);
 
  private:
   struct Open;  // the segment that is being written
   Open& open();
-  void write_rows(std::vector<Hdf5Dataset>& columns);
+  void require_same_layout(std::size_t columns) const;
+  void write_rows(Open& to);
   void require_writable() const;
   void join(Open& to) const;
 
@@ -73,7 +78,7 @@ class Segments {
   std::uint64_t chunk_;  // rows
   SegmentsMark mark_;
   std::unique_ptr<Open> open_;
-  bool is_broken_ = false;
+  bool is_broken_ = false, is_finished_ = false;
 };
 
 }  // namespace seiche

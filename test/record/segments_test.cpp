@@ -9,17 +9,21 @@
 #include <test/support/temporary_directory.hpp>
 #include <test/support/text_of.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace TEST_FILE {
@@ -176,7 +180,7 @@ TEST_F(SegmentFiles, AreNotMadeWhereNoChunkWasFull) {
 }
 
 // 8 chunks in 4 segments.
-SegmentsMark sealed_twice(const Solution& solution, const fs::path& directory) {
+SegmentsMark sealed_four_times(const Solution& solution, const fs::path& directory) {
   Segments segments = solution.segments(directory);
   const std::uint64_t chunk = solution.layout.chunk().front();
   SegmentsMark mark;
@@ -190,7 +194,7 @@ SegmentsMark sealed_twice(const Solution& solution, const fs::path& directory) {
 TEST_F(SegmentFiles, ThatNoMarkNamesAreRemovedAndNothingElse) {
   const Solution few = solutions()[1];
   const fs::path folder = fresh();
-  SegmentsMark mark = sealed_twice(few, folder);
+  SegmentsMark mark = sealed_four_times(few, folder);
   const fs::path inside = folder / segments_folder;
   std::ofstream(inside / "notes.txt") << "mine";
   mark.sealed.resize(2);
@@ -209,7 +213,7 @@ TEST_F(SegmentFiles, ThatNoMarkNamesAreRemovedAndNothingElse) {
 TEST_F(SegmentFiles, ThatAreNotWhatTheyWereAreTold) {
   const Solution few = solutions()[1];
   const fs::path folder = fresh();
-  const SegmentsMark mark = sealed_twice(few, folder);
+  const SegmentsMark mark = sealed_four_times(few, folder);
   const Folder open(folder);
   EXPECT_EQ(complaint_about(open, mark), "");
   const fs::path second = folder / segments_folder / "000002.h5";
@@ -220,10 +224,31 @@ TEST_F(SegmentFiles, ThatAreNotWhatTheyWereAreTold) {
     std::ofstream(second, std::ios::binary) << damaged;
     EXPECT_EQ(complaint_about(open, mark), "solution/000002.h5 is not what it was at the checkpoint") << at;
   }
+  std::ofstream(second, std::ios::binary) << bytes << "more";
+  EXPECT_THAT(complaint_about(open, mark), HasSubstr("solution/000002.h5 has"));
+  std::ofstream(second, std::ios::binary) << bytes;
+  std::ofstream(second.string() + ".partial") << "of another program";
+  EXPECT_EQ(complaint_about(open, mark), "");
   std::ofstream(second, std::ios::binary) << bytes.substr(0, 100);
   EXPECT_THAT(complaint_about(open, mark), HasSubstr("solution/000002.h5 has 100 bytes, and had"));
   fs::remove(second);
-  EXPECT_THAT(error_of([&] { complaint_about(open, mark); }), HasSubstr("000002.h5 is not there"));
+  EXPECT_THAT(error_of([&] { complaint_about(open, mark); }), HasSubstr("cannot open"));
+}
+
+TEST_F(SegmentFiles, AreRefusedWithTheMarkOfAnotherSolution) {
+  const std::vector<Solution> all = solutions();
+  const SegmentsMark mark = sealed_four_times(all[1], fresh());
+  EXPECT_THAT(error_of([&] { all[0].segments(fresh(), mark); }), HasSubstr("other fields, or another grid"));
+  EXPECT_THAT(error_of([&] { RecordReader(fresh(), {}); }), HasSubstr("names no field"));
+}
+
+TEST_F(SegmentFiles, TakeNoRowBehindTheirEnd) {
+  const Solution line = solutions().front();
+  Segments segments = line.segments(fresh());
+  line.append(segments, 0);
+  segments.finish(success());
+  EXPECT_THAT(error_of([&] { line.append(segments, 1); }), HasSubstr("takes no more rows"));
+  EXPECT_THAT(error_of([&] { segments.finish(success()); }), HasSubstr("takes no more rows"));
 }
 
 TEST_F(SegmentFiles, DoNotFollowALinkInThePlaceOfTheirFolder) {
@@ -258,6 +283,7 @@ SegmentsMark newest_mark(const Folder& folder) {
 TEST(SegmentsWriter, DISABLED_GoesOnFromTheNewestCheckpoint) {
   const char* const directory = std::getenv("SEICHE_TEST_FOLDER");
   ASSERT_NE(directory, nullptr);
+  hdf5_without_cleanup_at_exit();
   const Folder folder{fs::path(directory)};
   const Solution few = solutions()[1];
   SegmentsMark mark = newest_mark(folder);
@@ -273,20 +299,30 @@ TEST(SegmentsWriter, DISABLED_GoesOnFromTheNewestCheckpoint) {
   remove_segments(folder);
 }
 
-// False where it did not come to its end.
-bool ends(const fs::path& directory, const std::string& fault) {
+// How it ended: 0, an exit code, or 128 and the number of a signal.
+int end_of(const fs::path& directory, const std::string& fault) {
   const std::string command = fmt::format(
       "LD_PRELOAD='{}' SEICHE_TEST_FOLDER='{}' {} '{}' --gtest_also_run_disabled_tests --gtest_filter={} "
       "> /dev/null 2>&1",
       fault.empty() ? "" : failing_writes_path(), directory.string(), fault,
       fs::read_symlink("/proc/self/exe").string(), writer);
-  return std::system(command.c_str()) == 0;
+  const int status = std::system(command.c_str());
+  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+// The newest checkpoint serves, if there is one; going on from it ends with these bytes, and nothing is left beside.
 void expect_the_end(const fs::path& directory, const std::string& expected, const std::string& after) {
+  const std::vector<std::string> checkpoints = checkpoints_in(directory);
   const SegmentsMark mark = newest_mark(Folder(directory));
-  if (mark.rows() > 0) expect_rows(RecordReader(directory, mark), solutions()[1], mark.rows());
-  ASSERT_TRUE(ends(directory, "")) << after;
+  if (!checkpoints.empty()) {
+    SegmentsMark newest;
+    Archive archive = read_checkpoint_file(directory / checkpoints.front());
+    archive(newest);
+    ASSERT_EQ(mark.rows(), newest.rows()) << after;
+    ASSERT_GT(mark.rows(), 0U) << after;
+    expect_rows(RecordReader(directory, mark), solutions()[1], mark.rows());
+  }
+  ASSERT_EQ(end_of(directory, ""), 0) << after;
   EXPECT_EQ(text_of(directory / "solution.h5"), expected) << after;
   std::vector<std::string> left;
   for (const auto& entry : fs::directory_iterator(directory)) left.push_back(entry.path().filename().string());
@@ -295,35 +331,44 @@ void expect_the_end(const fs::path& directory, const std::string& expected, cons
 
 TEST_F(SegmentFiles, AreWholeWhereverARunAndItsResumesAreKilled) {
   const std::string expected = in_one_go(solutions()[1], rows_of_a_run);
-  const int stride = sanitized ? 29 : 7;
-  int n = 1;
-  for (bool is_killed = true; is_killed; n += stride) {
+  constexpr int killed = 128 + SIGKILL, stride = sanitized ? 29 : 7, most = 2000;
+  int n = 1, vouched = 0;
+  for (int end = killed; end != 0 && n < most; n += stride) {
     const fs::path folder = fresh();
-    is_killed = !ends(folder, fmt::format("SEICHE_KILL_AT={}", n));
-    if (!is_killed) {
+    end = end_of(folder, fmt::format("SEICHE_KILL_AT={}", n));
+    ASSERT_TRUE(end == 0 || end == killed) << end << " at call " << n;
+    if (end == 0) {
       EXPECT_EQ(text_of(folder / "solution.h5"), expected);
+    } else {
+      end_of(folder, fmt::format("SEICHE_KILL_AT={}", 1 + n / 2));  // killed once more
     }
-    if (is_killed) ends(folder, fmt::format("SEICHE_KILL_AT={}", 1 + n / 2));  // killed once more
+    vouched += checkpoints_in(folder).empty() ? 0 : 1;
     expect_the_end(folder, expected, fmt::format("killed before call {}", n));
+    if (HasFatalFailure()) return;
   }
   EXPECT_GT(n, 50);
+  EXPECT_LT(n, most);
+  EXPECT_GT(vouched, 1);
 }
 
 TEST_F(SegmentFiles, AreWholeWhateverWriteFails) {
   const std::string expected = in_one_go(solutions()[1], rows_of_a_run);
-  const int stride = sanitized ? 31 : 11;
+  constexpr int stride = sanitized ? 31 : 11, most = 2000;
   for (const bool once : {true, false}) {
-    bool has_failed = true;
-    for (int n = 1; has_failed; n += stride) {
+    int n = 1;
+    for (int end = 1; end != 0 && n < most; n += stride) {
       const fs::path folder = fresh();
-      has_failed = !ends(folder, fmt::format("SEICHE_FAIL_AT={} SEICHE_FAIL_WITH={} {}", n, ENOSPC,
-                                             once ? "SEICHE_FAIL_ONCE=1" : ""));
-      if (!has_failed) {
-        EXPECT_GT(n, 50);
+      end = end_of(folder, fmt::format("SEICHE_FAIL_AT={} SEICHE_FAIL_WITH={} {}", n, ENOSPC,
+                                       once ? "SEICHE_FAIL_ONCE=1" : ""));
+      ASSERT_LT(end, 128) << "a crash where write " << n << " fails";
+      if (end == 0) {
         EXPECT_EQ(text_of(folder / "solution.h5"), expected);
       }
       expect_the_end(folder, expected, fmt::format("write {} failed, {}", n, once ? "once" : "and all behind"));
+      if (HasFatalFailure()) return;
     }
+    EXPECT_GT(n, 50);
+    EXPECT_LT(n, most);
   }
 }
 
@@ -331,7 +376,7 @@ TEST_F(SegmentFiles, AreWholeWhateverWriteFails) {
 TEST_F(SegmentFiles, AreOnTheDiskBeforeTheirNamesAndTheseBeforeTheCheckpoint) {
   const fs::path folder = fresh(), beside = fresh();
   const fs::path log = beside / "log";
-  ASSERT_TRUE(ends(folder, fmt::format("SEICHE_SYNC_LOG='{}'", log.string())));
+  ASSERT_EQ(end_of(folder, fmt::format("SEICHE_SYNC_LOG='{}'", log.string())), 0);
   std::istringstream in(text_of(log));
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);

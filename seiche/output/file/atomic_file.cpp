@@ -153,15 +153,28 @@ AtomicFile::AtomicFile(const Folder& folder, const std::string& name, const File
     throw cannot_write(path_.path(), errno);
 }
 
-std::string complaint_about(const Folder& folder, const std::string& name, const FileMark& mark) {
-  const std::string left = name_left_behind(folder, name);
-  const int file = open_file(folder, left, O_RDONLY);
+namespace {
+
+std::string complaint(const Folder& folder, const std::string& name, const FileMark& mark, bool is_whole) {
+  const int file = open_file(folder, name, O_RDONLY);
   FileMark found;
   const bool is_long_enough = extend(found, mark.length, file);
+  const ::off_t end = ::lseek(file, 0, SEEK_END);
   ::close(file);
-  if (!is_long_enough)
-    return fmt::format("{} has {} bytes, and had {} at the checkpoint", left, found.length, mark.length);
-  return found.checksum == mark.checksum ? "" : fmt::format("{} is not what it was at the checkpoint", left);
+  if (is_long_enough && is_whole) found.length = static_cast<std::uint64_t>(std::max<::off_t>(end, 0));
+  if (found.length != mark.length)
+    return fmt::format("{} has {} bytes, and had {} at the checkpoint", name, found.length, mark.length);
+  return found.checksum == mark.checksum ? "" : fmt::format("{} is not what it was at the checkpoint", name);
+}
+
+}  // namespace
+
+std::string complaint_about(const Folder& folder, const std::string& name, const FileMark& mark) {
+  return complaint(folder, name_left_behind(folder, name), mark, false);
+}
+
+std::string complaint_about_whole(const Folder& folder, const std::string& name, const FileMark& mark) {
+  return complaint(folder, name, mark, true);
 }
 
 void AtomicFile::sync() {

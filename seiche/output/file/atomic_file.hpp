@@ -47,7 +47,8 @@ class PartialPath {
   }  // from now on the temporary stays also without commit: it holds what cannot be had again
   // Throws Error where it cannot be renamed, or is no longer the file that was opened; then it stays as it is.
   void commit();
-  void commit_as(const Folder& folder, const std::string& name);  // likewise, and there
+  // The same under another name, in a folder that has the lock of this one.
+  void commit_as(const Folder& folder, const std::string& name);
 
  private:
   Folder folder_;
@@ -62,6 +63,8 @@ std::string name_left_behind(const Folder& folder, const std::string& name);
 // Why the file that an earlier run has left does not begin with what the mark is of; "" where it does. Throws Error
 // where it cannot be read, or is not a file.
 std::string complaint_about(const Folder& folder, const std::string& name, const FileMark& mark);
+// The same of a file that is final: under this name alone, and with nothing behind what the mark is of.
+std::string complaint_about_whole(const Folder& folder, const std::string& name, const FileMark& mark);
 
 // Every failure throws Error with the path and the reason of the operating system.
 class AtomicFile {

@@ -26,8 +26,9 @@ Folder Folder::inside(const std::string& name) const {
   const auto inner = std::make_shared<Open>();
   inner->path = path() / name;
   inner->around = open_;
-  const bool is_there = ::mkdirat(descriptor(), name.c_str(), 0777) == 0 || errno == EEXIST;
-  if (is_there)
+  const bool is_new = ::mkdirat(descriptor(), name.c_str(), 0777) == 0;
+  if (is_new) ::fsync(descriptor());  // before anything vouches for what is in it
+  if (is_new || errno == EEXIST)
     inner->descriptor = ::openat(descriptor(), name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (inner->descriptor < 0) throw Error("cannot make the folder {}: {}", inner->path.string(), std::strerror(errno));
   return Folder(inner);

@@ -14,7 +14,7 @@ class Folder {
   explicit Folder(const std::filesystem::path& path);  // throws Error where it is not a folder, or cannot be opened
 
   // A folder in this one, made if it is missing, and under its lock. Throws Error where the name is that of a file or a
-  // link.
+  // link, and where the lock is no longer ours.
   Folder inside(const std::string& name) const;
 
   const std::filesystem::path& path() const;  // by which it was opened

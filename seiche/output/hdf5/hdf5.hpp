@@ -80,11 +80,11 @@ class Hdf5File {
  public:
   // Into an open file, which can be read whenever the program ends, with the rows of the last flush (hdf5_driver.hpp).
   static Hdf5File create(int file, const std::filesystem::path& path);
+  static Hdf5File open_to_write(const Folder& folder, const std::string& name);  // likewise
   // Into an open file, by HDF5's own driver: it can be read once it is closed. What fills a chunk goes there at once,
   // so that the same calls leave the same bytes.
   static Hdf5File create_plain(int file, const std::filesystem::path& path);
-  static Hdf5File open_to_write(const Folder& folder, const std::string& name);  // likewise
-  static Hdf5File open(const std::filesystem::path& path);                       // to be read
+  static Hdf5File open(const std::filesystem::path& path);  // to be read
   static Hdf5File open(const Folder& folder, const std::string& name);
 
   void make_group(const std::string& name);
