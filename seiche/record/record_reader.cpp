@@ -9,7 +9,7 @@
 namespace seiche {
 
 RecordReader::RecordReader(const std::filesystem::path& directory, SegmentsMark mark) : mark_(std::move(mark)) {
-  if (mark_.unfinished.size() <= (mark_.has_modified ? 3U : 2U)) throw Error("the mark of the segments names no field");
+  if (mark_.unfinished.size() <= mark_.numbers()) throw Error("the mark of the segments names no field");
   for (std::size_t k = 0; k < mark_.sealed.size(); ++k) {
     const std::filesystem::path file = directory / segments_folder / segment_name(k + 1);
     segments_.emplace_back(file);
@@ -32,9 +32,7 @@ std::vector<double> RecordReader::all(Numbers of_segment, std::size_t from_end) 
 
 std::vector<double> RecordReader::times() const { return all(&SolutionReader::times, 0); }
 
-std::vector<double> RecordReader::energies() const {
-  return all(&SolutionReader::energies, mark_.has_modified ? 2 : 1);
-}
+std::vector<double> RecordReader::energies() const { return all(&SolutionReader::energies, mark_.numbers() - 1); }
 
 std::vector<double> RecordReader::modified_energies() const {
   return mark_.has_modified ? all(&SolutionReader::modified_energies, 1) : std::vector<double>();

@@ -29,7 +29,7 @@ std::uint64_t SegmentsMark::rows() const {
 
 void SegmentsMark::archive(Archive& a) {
   a(sealed, has_modified, unfinished);
-  a.require(unfinished.size() > (has_modified ? 3 : 2));
+  a.require(unfinished.size() > numbers());
   if (unfinished.empty()) return;
   const std::size_t times = unfinished.back().size(), field = unfinished.front().size();
   a.require(times == 0 ? field == 0 : field % times == 0);
@@ -79,21 +79,20 @@ Segments::Segments(Folder folder, SolutionLayout layout, SolutionDescription des
       description_(std::move(description)),
       chunk_(layout_.chunk().front()),
       mark_(std::move(mark)) {
-  const std::size_t columns = layout_.fields.size() + (has_modified_energy ? 3 : 2);
   if (mark_.unfinished.empty()) {
     mark_.has_modified = has_modified_energy;
-    mark_.unfinished.resize(columns);
+    mark_.unfinished.resize(layout_.fields.size() + mark_.numbers());
   }
-  require_same_layout(columns);
+  require_same_layout(has_modified_energy);
   remove_segments(folder_, mark_.sealed.size());
 }
 
 Segments::~Segments() = default;
 
-void Segments::require_same_layout(std::size_t columns) const {
+void Segments::require_same_layout(bool has_modified_energy) const {
   const std::size_t times = mark_.unfinished.back().size();
-  bool is_same = mark_.unfinished.size() == columns && times < chunk_ &&
-                 mark_.unfinished.front().size() == times * layout_.points();
+  bool is_same = mark_.has_modified == has_modified_energy && mark_.fields() == layout_.fields.size() &&
+                 times < chunk_ && mark_.unfinished.front().size() == times * layout_.points();
   for (const SegmentsMark::Segment& segment : mark_.sealed) is_same = is_same && segment.rows % chunk_ == 0;
   if (!is_same) throw Error("the checkpoint is of a solution with other fields, or another grid");
 }

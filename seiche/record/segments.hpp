@@ -33,7 +33,8 @@ struct SegmentsMark {
   std::vector<std::vector<double>> unfinished = {};  // rows of the chunk that is not full, column by column
 
   std::uint64_t rows() const;
-  std::size_t fields() const { return unfinished.size() - (has_modified ? 3 : 2); }
+  std::size_t numbers() const { return has_modified ? 3 : 2; }  // columns behind those of the fields
+  std::size_t fields() const { return unfinished.size() - numbers(); }
   void archive(Archive& a);
 };
 
@@ -67,7 +68,7 @@ class Segments {
  private:
   struct Open;  // the segment that is being written
   Open& open();
-  void require_same_layout(std::size_t columns) const;
+  void require_same_layout(bool has_modified_energy) const;
   void write_rows(Open& to);
   void require_writable() const;
   void join(Open& to) const;

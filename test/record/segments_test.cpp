@@ -279,7 +279,7 @@ SegmentsMark newest_mark(const Folder& folder) {
   return {};
 }
 
-// A run in another process, for the tests below.
+// Disabled, since it is no test by itself: those below run it in another process, which they kill.
 TEST(SegmentsWriter, DISABLED_GoesOnFromTheNewestCheckpoint) {
   const char* const directory = std::getenv("SEICHE_TEST_FOLDER");
   ASSERT_NE(directory, nullptr);

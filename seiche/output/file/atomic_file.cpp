@@ -108,8 +108,7 @@ void PartialPath::sync() {
   if (const int failure = failure_to_sync(::fdatasync(file_)); failure != 0) throw cannot_write(path(), failure);
 }
 
-FileMark PartialPath::mark() {
-  sync();
+FileMark PartialPath::mark() const {
   FileMark mark;
   const ::off_t end = ::lseek(file_, 0, SEEK_END);
   if (end < 0 || !extend(mark, static_cast<std::uint64_t>(end), file_)) throw cannot_write(path(), errno);

@@ -38,8 +38,9 @@ class PartialPath {
   // What an earlier run has left under the temporary name, or else under the final one, which it then no longer has; to
   // be written on. Throws Error where there is neither, and for what is not a file: a pipe, a folder.
   int reopen();
-  void sync();      // what has been written to it is on the disk
-  FileMark mark();  // likewise, and the mark of all of it
+  void sync();  // what has been written to it is on the disk
+  // Of what has been written to it. Throws Error where it cannot be read.
+  FileMark mark() const;
   // It takes the place of what an earlier run has left, as NAME.partial, and is kept from now on.
   void take_place();
   void keep() {
