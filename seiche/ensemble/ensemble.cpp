@@ -42,10 +42,10 @@ class Run {
       : members_(members), options_(options), grid_(options.t_start, options.h, options.t_end) {}
 
   EnsembleResult run() {
-    const auto begin = std::chrono::steady_clock::now();
     require_thread_count(options_.threads);
     require_one_size();
     make_blocks();
+    if (options_.resumption.from != nullptr) archive(*options_.resumption.from);
     EnsembleResult result;
     try {
       advance_all();
@@ -56,7 +56,7 @@ class Run {
     result.members.resize(members_.size());
     result.side_by_side = dynamic_cast<const PanelBlock*>(blocks_.front().get()) != nullptr;
     for (Index m = 0; m < count(); ++m) result.members[static_cast<std::size_t>(m)] = member_result(m);
-    result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.wall_seconds = seconds();
     return result;
   }
 
@@ -65,6 +65,9 @@ class Run {
   Index block_count() const { return (count() + panel_members - 1) / panel_members; }
   MemberBlock& block_of(Index member) { return *blocks_[static_cast<std::size_t>(member / panel_members)]; }
   const MemberStatus& status(Index member) { return block_of(member).status(member % panel_members); }
+  double seconds() const {
+    return seconds_earlier_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
   bool stopped() const { return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed); }
 
   void require_one_size() const {
@@ -111,22 +114,43 @@ class Run {
 
   // In batches: between two of them all members have done the same number of steps.
   void advance_all() {
-    std::int64_t n = 0;
-    std::int64_t recorded = -1;
-    while (recorded < grid_.steps && any_runs()) {
+    while (recorded_ < grid_.steps && any_runs()) {
+      if (pauses()) {
+        if (n_ > recorded_) record_at(n_);
+        return;
+      }
       const auto begin = std::chrono::steady_clock::now();
-      Records records = next_records(recorded, n);
-      const std::int64_t end = records.is_full ? records.steps.back() : std::min(n + batch_steps_, grid_.steps);
-      advance_all(n, end, records);
-      n = end;
-      if (!records.steps.empty()) recorded = records.steps.back();
+      Records records = next_records(recorded_, n_);
+      const std::int64_t end = records.is_full ? records.steps.back() : std::min(n_ + batch_steps_, grid_.steps);
+      advance_all(n_, end, records);
+      n_ = end;
+      if (!records.steps.empty()) recorded_ = records.steps.back();
       publish(records);
       set_batch_steps(std::chrono::steady_clock::now() - begin);
       if (options_.on_pause) options_.on_pause();
-      if (!stopped()) continue;
-      if (n > recorded) record_at(n);
-      return;
     }
+  }
+
+  // True if the run is to stop between two batches; it is saved before that, and whenever that is wanted.
+  bool pauses() {
+    Checkpoints* const keeper = options_.resumption.checkpoints;
+    if (keeper == nullptr) return stopped();
+    const Checkpoints::Wish wish = stopped() ? Checkpoints::Wish::save_and_stop : keeper->wish(n_);
+    if (wish != Checkpoints::Wish::none) keeper->save([this](Archive& a) { archive(a); });
+    return wish == Checkpoints::Wish::save_and_stop;
+  }
+
+  void archive(Archive& a) {
+    a.section("ensemble");
+    Index members = count();
+    double seconds_so_far = seconds();
+    a(members, n_, recorded_, seconds_so_far);
+    a.require(members == count() && recorded_ >= -1 && n_ >= recorded_ && n_ <= grid_.steps);
+    for (const std::unique_ptr<MemberBlock>& block : blocks_) block->archive(a);
+    for (EnergyBook& book : books_) a(book);
+    if (!a.reads()) return;
+    seconds_earlier_ = seconds_so_far;
+    begin_ = std::chrono::steady_clock::now();
   }
 
   void advance_all(std::int64_t n, std::int64_t end, Records& records) {
@@ -256,9 +280,12 @@ class Run {
   const EnsembleOptions& options_;
   TimeGrid grid_;
   std::vector<std::unique_ptr<MemberBlock>> blocks_;
-  std::vector<EnergyBook> books_;  // one for every member
+  std::vector<EnergyBook> books_;       // one for every member
+  std::int64_t n_ = 0, recorded_ = -1;  // steps that all have done; the last one with a record
   std::int64_t batch_steps_ = 1;
-  bool is_publishing_ = false;  // does on_record speak?
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  double seconds_earlier_ = 0.0;  // of the run that this one goes on from
+  bool is_publishing_ = false;    // does on_record speak?
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <seiche/core/run_report.hpp>
 #include <seiche/ensemble/member_block.hpp>
 #include <seiche/ensemble/statistics.hpp>
+#include <seiche/run/checkpoints.hpp>
 
 #include <atomic>
 #include <cstdint>
@@ -34,6 +35,7 @@ struct EnsembleOptions {
   std::function<void()> on_pause =
       {};  // on the calling thread, about every tenth of a second, however far records lie apart
   const std::atomic<bool>* stop = nullptr;  // the run ends soon after it is set, and records where
+  Resumption resumption = {};               // to the same bits, whatever the number of threads was before
 };
 
 struct MemberResult {

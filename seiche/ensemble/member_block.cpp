@@ -116,6 +116,25 @@ void MemberBlock::read_energies(std::array<EnergyReading, panel_members>& readin
     if (status(m).running) readings[static_cast<std::size_t>(m)] = stepper_of(m).stepper().energy(state(m));
 }
 
+// Of a member that failed the last state may be anything; no step is taken from it.
+void MemberBlock::archive(Archive& a) {
+  a(steps_, t_);
+  a.require(steps_ >= 0 && std::isfinite(t_));
+  for (Index m = 0; m < size(); ++m) {
+    if (simulation(m) != nullptr && status(m).running) update_state(m);
+    a(status_of(m));
+    State& s = state(m);
+    const Index unknowns = s.z.size();
+    if (!status(m).running) {
+      a(s.z);
+    } else {
+      a.require(simulation(m) != nullptr);
+      a(s);
+    }
+    a.require(s.z.size() == unknowns);
+  }
+}
+
 Vector MemberBlock::physical(Index member) {
   if (simulation(member) == nullptr || state(member).z.size() == 0) return {};
   if (status(member).running) update_state(member);

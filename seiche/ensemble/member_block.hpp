@@ -27,6 +27,11 @@ struct MemberStatus {
   std::int64_t scalar_iterations = 0, fallbacks = 0, unresolved = 0;
   ReplacedSteps replaced;
   std::string fed;  // by its friction: where first, in a sentence
+
+  void archive(Archive& a) {
+    a(running, message, steps, t, scalar_iterations, fallbacks, unresolved, replaced, fed);
+    a.require(steps >= 0);
+  }
 };
 
 // One member after the other by its ordinary stepper: every method on every problem.
@@ -51,7 +56,8 @@ class MemberBlock {
   double time(Index member) const { return status(member).running ? t_ : status(member).t; }
   // Of all that run. A member whose energy is no finite number fails.
   void read(std::array<EnergyReading, panel_members>& readings);
-  Vector physical(Index member);  // the last good state
+  Vector physical(Index member);     // the last good state
+  virtual void archive(Archive& a);  // read into a block of the same members
 
  protected:
   virtual void step_all(std::int64_t n, double t, double h);

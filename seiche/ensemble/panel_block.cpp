@@ -58,8 +58,21 @@ bool PanelBlock::find_stepper(const MethodOptions& options) {
   if (!stepper_) return false;
   at_rest_.z.setZero(any->system().space->size());
   at_rest_.r_squared = at_rest_.shift = 1;
-  for (Index l = 0; l < panel_members; ++l) stepper_->load(l < size() && status(l).running ? state(l) : at_rest_, l);
+  load_all();
   return true;
+}
+
+void PanelBlock::load_all() {
+  for (Index l = 0; l < panel_members; ++l) stepper_->load(l < size() && status(l).running ? state(l) : at_rest_, l);
+}
+
+void PanelBlock::archive(Archive& a) {
+  bool side_by_side = stepper_ != nullptr;
+  a(side_by_side);
+  a.require(!side_by_side || stepper_ != nullptr);
+  MemberBlock::archive(a);
+  if (!side_by_side) stepper_.reset();
+  if (a.reads() && side_by_side) load_all();
 }
 
 void PanelBlock::step_all(std::int64_t n, double t, double h) {

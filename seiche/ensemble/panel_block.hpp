@@ -13,10 +13,14 @@ namespace seiche {
 // the ordinary stepper of that member, which takes the step another way or says why it cannot. Where a member has no
 // propagator for the step, the ordinary steppers take over the whole block.
 class PanelBlock final : public MemberBlock {
+ public:
+  void archive(Archive& a) override;
+
  private:
   friend std::unique_ptr<MemberBlock> make_block(std::span<const EnsembleMember>, const SimulationOptions&);
   using MemberBlock::MemberBlock;
   bool find_stepper(const MethodOptions& options);
+  void load_all();
   void step_all(std::int64_t n, double t, double h) override;
   void read_energies(std::array<EnergyReading, panel_members>& readings) override;
   void update_state(Index member) override;
