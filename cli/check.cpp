@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/driver/saved_run.hpp>
+#include <seiche/record/saved_run.hpp>
 #include <seiche/simulation/certificate.hpp>
 #include <seiche/simulation/kick_stability.hpp>
 
@@ -57,6 +57,9 @@ ExitCode check_checkpoint(const CheckArguments& arguments) {
   } catch (const Error& error) {
     complaint = error.what();
   }
+  const std::uint64_t rows = saved.solution ? saved.solution->rows.rows() : 0;
+  std::vector<double> resumed_at;
+  for (const ResumedWith& resumed : saved.resumed_with) resumed_at.push_back(resumed.t);
   const double part = 100 * (saved.t - spec.t_start) / (spec.t_end - spec.t_start);
   const Json document = {{"checkpoint", file.filename().string()},
                          {"problem", spec.problem},
@@ -64,19 +67,18 @@ ExitCode check_checkpoint(const CheckArguments& arguments) {
                          {"t", saved.t},
                          {"steps", saved.steps},
                          {"end", spec.t_end},
-                         {"rows_of_solution", saved.solution.rows},
+                         {"rows_of_solution", rows},
                          {"bytes_of_energies", saved.energies.file.length},
-                         {"resumed_at", saved.resumed_at},
+                         {"resumed_at", resumed_at},
                          {"versions", saved.versions},
                          {"notes", saved.notes},
                          {"usable", complaint.empty()},
                          {"complaint", complaint}};
   std::string text = fmt::format("{} by {}: t = {:.9g} of {:.9g} ({:.3g} %), step {}\n", spec.problem, spec.method,
                                  saved.t, spec.t_end, part, saved.steps);
-  text +=
-      fmt::format("solution.h5 had {} rows and energy.csv {} bytes\n", saved.solution.rows, saved.energies.file.length);
-  for (const double t : saved.resumed_at)
-    text += fmt::format("the run had gone on from a checkpoint at t = {:.9g}\n", t);
+  text += fmt::format("{}energy.csv had {} bytes\n",
+                      saved.solution ? fmt::format("{} states were recorded; ", rows) : "", saved.energies.file.length);
+  for (const double t : resumed_at) text += fmt::format("the run had gone on from a checkpoint at t = {:.9g}\n", t);
   text += complaint.empty() ? fmt::format("`seiche resume {}` goes on from there\n", folder.string())
                             : fmt::format("no run can go on from it: {}\n", complaint);
   print_data(arguments.json ? document.dump(2) + "\n" : text);

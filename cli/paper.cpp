@@ -13,7 +13,7 @@
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/progress_bar.hpp>
-#include <seiche/output/run_folder.hpp>
+#include <seiche/record/run_folder.hpp>
 
 #include <memory>
 
@@ -79,7 +79,7 @@ ExitCode paper(const PaperArguments& arguments) {
   const Folder folder(directory);
   const FolderLock lock(folder);
   require_own_report(directory);
-  require_finished(directory);
+  require_no_checkpoint(directory);
   StudyProgress progress(arguments.quiet);
   options.threads = arguments.threads;
   options.progress = [&](double done, std::string_view what) { progress(done, what); };

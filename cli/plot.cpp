@@ -12,10 +12,10 @@
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
-#include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_layout.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/output/xdmf.hpp>
+#include <seiche/record/run_folder.hpp>
 
 #include <unistd.h>
 
@@ -116,7 +116,7 @@ bool is_damaged(const std::filesystem::path& file) {
 }
 
 ExitCode write_all_times(const std::filesystem::path& directory) {
-  require_recovered(directory);
+  require_ended(directory);
   const RunFiles run = read_run(directory);
   const Folder folder(directory);
   const FolderLock lock(folder);
@@ -149,7 +149,7 @@ ExitCode plot(const PlotArguments& arguments) {
   hdf5_without_cleanup_at_exit();  // which of a damaged file says that it does not end
   if (arguments.xdmf) return write_all_times(arguments.directory);
   PictureOptions options = picture_options(arguments);
-  require_recovered(arguments.directory);
+  require_ended(arguments.directory);
   if (holds_ensemble(arguments.directory)) return plot_ensemble(arguments, options);
   const RunFiles run = read_run(arguments.directory);
   const EnergyHistory history = read_energy_history(run.directory / "energy.csv");

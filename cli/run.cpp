@@ -8,15 +8,16 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/core/text/shortened.hpp>
-#include <seiche/driver/run_case.hpp>
+#include <seiche/driver/going_on.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
+#include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/progress.hpp>
-#include <seiche/output/solution_file.hpp>
 
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace seiche::cli {
 namespace {
@@ -94,23 +95,25 @@ void print(const RunArguments& arguments, const std::string& directory, const Ca
   }
 }
 
-void print(const RunArguments& arguments, const RunSpec& spec, const EnsembleCaseResult& result) {
+void print(const RunArguments& arguments, const std::string& directory, const EnsembleCaseResult& result) {
   const EnsembleOutcome& outcome = result.outcome;
   if (arguments.json) print_data(result.summary);
   if (!arguments.quiet) {
     print_lines(fmt::format("{}: {}\n", to_string(outcome.status()), outcome.message));
     print_lines(fmt::format("{:<10} mean {:.9g} → {:.9g}\n{:<10} {} members in {:.3g} s\n{:<10} {}\n", "H",
                             result.first.H.mean, result.last.H.mean, "time", result.members, result.wall_seconds,
-                            "files", spec.output_directory));
+                            "files", directory));
   } else if (outcome.is_remarkable()) {
     print_note(outcome.message);
   }
 }
 
-ExitCode run_ensemble(const RunArguments& arguments, const RunSpec& spec) {
+// Of an ensemble: from its start, or from a checkpoint.
+template <class Run>
+ExitCode run_ensemble(const RunArguments& arguments, const std::string& directory, const Run& run) {
   try {
-    const EnsembleCaseResult result = run_ensemble_case(spec, spec.output_directory, run_options(arguments));
-    print(arguments, spec, result);
+    const EnsembleCaseResult result = run();
+    print(arguments, directory, result);
     return exit_code(result.outcome.status(), result.outcome.violated > 0);
   } catch (const Error& error) {
     if (!has_stopped()) throw;
@@ -125,8 +128,10 @@ ExitCode run(const NewRunArguments& arguments) {
   RunSpec spec = load_case(arguments.case_argument);
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
   if (arguments.directory_given) spec.output_directory = arguments.directory;
-  if (spec.ensemble) return run_ensemble(arguments, spec);
   RunCaseOptions options = run_options(arguments);
+  if (spec.ensemble)
+    return run_ensemble(arguments, spec.output_directory,
+                        [&] { return run_ensemble_case(spec, spec.output_directory, options); });
   Progress progress(stderr, spec.t_end);
   if (ProgressBar::is_wanted(arguments.quiet)) options.observers.push_back(&progress);
   const CaseResult result = run_case(spec, spec.output_directory, options);
@@ -141,8 +146,11 @@ ExitCode resume(const ResumeArguments& arguments) {
   RunCaseOptions options = run_options(arguments);
   Progress progress(stderr, 0);
   options.ends_at = [&progress](double t_end) { progress.end_at(t_end); };
+  GoingOn from = going_on(directory, arguments.until, options);
+  if (from.spec.ensemble)
+    return run_ensemble(arguments, directory, [&] { return resume_ensemble_case(std::move(from), options); });
   if (ProgressBar::is_wanted(arguments.quiet)) options.observers.push_back(&progress);
-  const CaseResult result = resume_case(directory, arguments.until, options);
+  const CaseResult result = resume_case(std::move(from), options);
   print(arguments, directory, result);
   return exit_code(result.report.status, result.report.law == LawVerdict::violated);
 }

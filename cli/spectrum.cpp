@@ -7,7 +7,7 @@
 #include <seiche/figure/spectrum_pictures.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/folder_lock.hpp>
-#include <seiche/output/run_folder.hpp>
+#include <seiche/record/run_folder.hpp>
 #include <seiche/study/spectrum.hpp>
 
 #include <memory>
@@ -42,7 +42,7 @@ ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
   if (arguments.directory_given) {
     make_directory(directory);
     lock.emplace(Folder(directory));
-    require_finished(directory);
+    require_no_checkpoint(directory);
   }
   const Spectrum result = spectrum(problem, options, spec.h);
   print_data(arguments.json ? spectrum_json(result) : spectrum_table(result));

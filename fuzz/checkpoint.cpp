@@ -6,8 +6,7 @@
 #include "own_folder.hpp"
 
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/driver/run_case.hpp>
-#include <seiche/driver/saved_run.hpp>
+#include <seiche/driver/going_on.hpp>
 #include <seiche/output/file/checksum.hpp>
 
 #include <array>
@@ -74,7 +73,8 @@ class StoppedRun {
     }
     within_bars([&] {
       Stop stop(40);
-      resume_case(folder_.path, {}, ended_by(stop));
+      const RunCaseOptions options = ended_by(stop);
+      resume_case(going_on(folder_.path, {}, options), options);
     });
   }
 

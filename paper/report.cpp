@@ -8,7 +8,7 @@
 #include <seiche/figure/report_figure.hpp>
 #include <seiche/figure/report_style.hpp>
 #include <seiche/output/file/atomic_file.hpp>
-#include <seiche/output/run_folder.hpp>
+#include <seiche/record/run_folder.hpp>
 
 #include <fmt/format.h>
 

@@ -13,12 +13,12 @@
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/driver/going_on.hpp>
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
-#include <seiche/output/solution_file.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/potential/bond.hpp>
 #include <seiche/potential/nodal.hpp>
@@ -39,6 +39,7 @@
 #include <seiche/problem/sparse.hpp>
 #include <seiche/problem/truss.hpp>
 #include <seiche/problem/variable_wave.hpp>
+#include <seiche/record/solution_file.hpp>
 #include <seiche/run/adaptive.hpp>
 #include <seiche/run/integrate.hpp>
 #include <seiche/simulation/simulation.hpp>

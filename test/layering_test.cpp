@@ -41,19 +41,20 @@ const std::map<std::string, Folders> may_include = {
     {"config", {"core", "formula", "law", "potential", "damping", "method", "backend", "problem", "simulation"}},
     {"ensemble", {"core", "method", "problem", "run", "simulation", "config"}},
     {"study",
-     {"core", "law", "potential", "damping", "method", "backend", "problem", "output", "run", "simulation", "config",
-      "ensemble"}},
-    {"figure", {"core", "output", "study", "config", "formula"}},  // the page of a run shows its case as formulas
+     {"core", "law", "potential", "damping", "method", "backend", "problem", "output", "record", "run", "simulation",
+      "config", "ensemble"}},
+    {"figure",
+     {"core", "output", "record", "study", "config", "formula"}},  // the page of a run shows its case as formulas
     {"driver",
      {"core", "law", "method", "backend", "problem", "run", "output", "record", "simulation", "config", "ensemble",
       "study", "figure"}},
-    {"paper", {"core", "damping", "problem", "run", "output", "simulation", "study", "figure"}},
+    {"paper", {"core", "damping", "problem", "run", "output", "record", "simulation", "study", "figure"}},
     {"cli",
      {"core", "law", "potential", "damping", "method", "backend", "problem", "output", "record", "run", "simulation",
       "config", "study", "figure", "ensemble", "driver", "paper"}},
     {"python",
-     {"core", "formula", "law", "potential", "damping", "method", "backend", "problem", "output", "run", "simulation",
-      "config", "study", "figure", "ensemble", "driver"}},
+     {"core", "formula", "law", "potential", "damping", "method", "backend", "problem", "output", "record", "run",
+      "simulation", "config", "study", "figure", "ensemble", "driver"}},
 };
 
 // Which folders may include a third-party header; the longest prefix decides. fmt is for all folders.

@@ -3,14 +3,14 @@
 #include "interruptible.hpp"
 
 #include <pybind11/stl.h>
-#include <seiche/driver/run_case.hpp>
+#include <seiche/driver/going_on.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/figure/drawing.hpp>
 #include <seiche/figure/ensemble_pictures.hpp>
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/folder_lock.hpp>
-#include <seiche/output/run_folder.hpp>
+#include <seiche/record/run_folder.hpp>
 
 #include <cmath>
 #include <functional>
@@ -35,15 +35,19 @@ CaseRun with_result(CaseRun done, CaseResult result) {
   return done;
 }
 
+CaseRun with_result(CaseRun done, EnsembleCaseResult result) {
+  done.summary = std::move(result.summary);
+  if (result.outcome.is_remarkable()) done.remarks.push_back(result.outcome.message);
+  return done;
+}
+
 CaseRun run_to(const std::string& folder, RunSpec spec, RunCaseOptions options) {
   CaseRun done;
   settle_method(spec);
   options.warn = [&](const std::string& note) { done.remarks.push_back(note); };
   if (spec.ensemble) {
     EnsembleCaseResult result = run_ensemble_case(std::move(spec), folder, options);
-    done.summary = std::move(result.summary);
-    if (result.outcome.is_remarkable()) done.remarks.push_back(result.outcome.message);
-    return done;
+    return with_result(std::move(done), std::move(result));
   }
   return with_result(std::move(done), run_case(std::move(spec), folder, options));
 }
@@ -112,8 +116,9 @@ CaseRun resume(const std::string& folder, std::optional<double> t_end, int threa
   return interruptible_run({.threads = threads, .max_hours = max_hours}, 0, progress, [&](RunCaseOptions options) {
     CaseRun done;
     options.warn = [&](const std::string& note) { done.remarks.push_back(note); };
-    CaseResult result = resume_case(folder, t_end, options);
-    return with_result(std::move(done), std::move(result));
+    GoingOn from = going_on(folder, t_end, options);
+    if (from.spec.ensemble) return with_result(std::move(done), resume_ensemble_case(std::move(from), options));
+    return with_result(std::move(done), resume_case(std::move(from), options));
   });
 }
 
@@ -122,7 +127,7 @@ void report(const std::string& folder, const std::vector<std::string>& formats, 
             const std::string& interpreter) {
   interruptible([&](const std::atomic<bool>*) {
     draw_with(programs, interpreter);
-    require_recovered(folder);
+    require_ended(folder);
     if (holds_ensemble(folder)) {
       const FolderLock lock{Folder(folder)};
       EnsemblePictures pictures = ensemble_pictures(folder);

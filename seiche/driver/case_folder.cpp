@@ -1,12 +1,8 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/driver/case_folder.hpp>
-#include <seiche/driver/saved_run.hpp>
 #include <seiche/figure/run_pictures.hpp>
-#include <seiche/output/csv_table.hpp>
 #include <seiche/study/versions.hpp>
-
-#include <algorithm>
 
 namespace seiche {
 namespace {
@@ -16,44 +12,19 @@ const std::filesystem::path& made(const std::filesystem::path& path) {
   return path;
 }
 
-// Throws Error where the folder holds an ensemble without summary.json, which comes last.
-void require_summed_up(const std::filesystem::path& path) {
-  const std::filesystem::path energies = path / "energy.csv";
-  if (std::filesystem::exists(path / "summary.json") || !std::filesystem::exists(energies)) return;
-  const CsvReader table(energies);
-  if (std::find(table.names().begin(), table.names().end(), "members") == table.names().end()) return;
-  throw Error(
-      "{0} holds an ensemble that did not finish: `seiche recover {0}` makes it readable, `seiche run` with --restart "
-      "removes it and begins anew, and another folder keeps both",
-      path.string());
-}
-
 }  // namespace
 
 CaseFolder::CaseFolder(const std::filesystem::path& path, RunKind kind, const RunSpec& spec, bool restart)
     : folder_(made(path)), lock_(folder_) {
   require_own_files(path, kind, kind == RunKind::run && spec.report);
-  if (!restart) {
-    require_no_checkpoint(path);
-    require_finished(path);
-    require_summed_up(path);
-  }
-  remove_earlier_results(path);
-  remove_checkpoints(folder_);
+  if (!restart) require_no_checkpoint(path);
+  remove_earlier_results(folder_);
   remove_own_report(path);
   remove_pictures(path);
   write_file(folder_, "case.toml", write_case(spec));
 }
 
 CaseFolder::CaseFolder(const std::filesystem::path& path) : folder_(path), lock_(folder_) {}
-
-void require_no_checkpoint(const std::filesystem::path& path) {
-  if (!checkpoints_in(path).empty())
-    throw Error(
-        "{0} holds a checkpoint of a run that did not reach its end: `seiche resume {0}` goes on from it, `seiche run` "
-        "with --restart removes it and begins anew, and another folder keeps both",
-        path.string());
-}
 
 const std::atomic<bool>* begin_run(const RunCaseOptions& options) {
   static const std::atomic<bool> never = false;

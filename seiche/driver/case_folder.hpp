@@ -5,7 +5,7 @@
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/file/sha256.hpp>
-#include <seiche/output/run_folder.hpp>
+#include <seiche/record/run_folder.hpp>
 
 #include <atomic>
 #include <filesystem>
@@ -29,9 +29,6 @@ class CaseFolder {
   Folder folder_;
   FolderLock lock_;
 };
-
-// Throws Error, which names both ways on, where a run in the folder could go on from a checkpoint.
-void require_no_checkpoint(const std::filesystem::path& path);
 
 // Calls options.begins; returns its flag, or one that is never set.
 const std::atomic<bool>* begin_run(const RunCaseOptions& options);

@@ -7,55 +7,75 @@
 #include <utility>
 
 namespace seiche {
+namespace {
+
+constexpr double first_interval = 5, longest_interval = 60;  // seconds, where the case asks for none
+constexpr double largest_part = 0.01;                        // of the time of a run, spent on checkpoints
+constexpr double seconds_per_hour = 3600;
+
+}  // namespace
 
 CheckpointKeeper::CheckpointKeeper(Folder folder, Options options, const SavedRun* from)
     : folder_(std::move(folder)),
       options_(std::move(options)),
       begin_(Clock::now()),
-      last_save_(begin_),
       last_look_(begin_),
+      next_save_(options_.when.every_seconds.value_or(first_interval)),
       last_n_(from != nullptr ? from->steps : 0),
       last_saved_n_(last_n_) {
   if (from != nullptr) saved_t_ = from->t;
 }
 
 Checkpoints::Wish CheckpointKeeper::look(std::int64_t n) {
-  const Clock::time_point now = Clock::now();
-  plan_next_look(n, now);
-  const auto is_over = [now](Clock::time_point since, double seconds) {
-    return seconds > 0 && std::chrono::duration<double>(now - since).count() >= seconds;
-  };
-  if (is_over(begin_, options_.seconds)) {
+  plan_next_look(n, Clock::now());
+  if (options_.stops_at_once) return Wish::save_and_stop;
+  const double now = passed();
+  if (options_.hours > 0 && now >= seconds_per_hour * options_.hours) {
     out_of_time_ = true;
     return Wish::save_and_stop;
   }
   const bool is_asked = options_.asked != nullptr && options_.asked->exchange(false, std::memory_order_relaxed);
   const std::int64_t every = options_.when.every_steps;
-  const bool is_its_step = every > 0 && n % every == 0 && n != last_saved_n_;
-  if (!is_asked && !is_its_step && !is_over(last_save_, options_.when.every_seconds)) return Wish::none;
+  const bool is_its_step = every > 0 && n / every > last_saved_n_ / every;
+  if (!is_asked && !is_its_step && !is_time(now)) return Wish::none;
   last_saved_n_ = n;
   return Wish::save;
 }
+
+bool CheckpointKeeper::is_time(double now) const { return options_.when.every_seconds != 0.0 && now >= next_save_; }
 
 // In about a hundredth of a second, and no later than at the next step that wants a checkpoint.
 void CheckpointKeeper::plan_next_look(std::int64_t n, Clock::time_point now) {
   constexpr double interval = 0.01;
   constexpr std::int64_t longest = std::int64_t{1} << 24;
-  const double passed = std::chrono::duration<double>(now - last_look_).count();
-  if (n > last_n_) stride_ = passed < interval / 2 ? std::min(2 * stride_, longest) : stride_;
-  if (passed > 2 * interval) stride_ = std::max<std::int64_t>(stride_ / 2, 1);
+  const double since = std::chrono::duration<double>(now - last_look_).count();
+  if (n > last_n_) stride_ = since < interval / 2 ? std::min(2 * stride_, longest) : stride_;
+  if (since > 2 * interval) stride_ = std::max<std::int64_t>(stride_ / 2, 1);
   last_look_ = now;
   last_n_ = n;
   const std::int64_t every = options_.when.every_steps;
   look_again_at(every > 0 ? std::min(n + stride_, (n / every + 1) * every) : n + stride_);
 }
 
+// As the case asks; else after 5, 10, 20, 40 seconds and so on, up to a minute apart, and later where they would take
+// more than their part of the time.
+void CheckpointKeeper::plan_next_save(double began) {
+  const double now = passed(), took = now - began;
+  spent_ += took;
+  if (options_.when.every_seconds) {
+    next_save_ = now + *options_.when.every_seconds;
+  } else {
+    next_save_ = std::max(now + std::clamp(began, first_interval, longest_interval), (spent_ + took) / largest_part);
+  }
+}
+
 void CheckpointKeeper::save(FunctionRef<void(Archive&)> run) {
-  SavedRun saved;
-  options_.describe(saved);  // brings the rows so far to the disk: where that fails, the run does
+  const double began = passed();
+  SavedRun saved = options_.now();  // brings the rows so far to the disk: where that fails, the run does
   try {
     commit_checkpoint(folder_, options_.when.keep > 1, [&](Archive& archive) {
       archive(saved);
+      if (options_.beside) options_.beside(archive);
       run(archive);
     });
     saved_t_ = saved.t;
@@ -66,7 +86,17 @@ void CheckpointKeeper::save(FunctionRef<void(Archive&)> run) {
                       saved_t_ ? fmt::format("the newest is that of t = {:.9g}", *saved_t_) : "there is no earlier one",
                       error.what()));
   }
-  last_save_ = Clock::now();
+  plan_next_save(began);
+}
+
+std::string CheckpointKeeper::way_on(double t) const {
+  if (!saved_t_) return "";
+  return fmt::format("; `seiche resume {}` goes on from {}", folder_.path().string(),
+                     *saved_t_ == t ? "there" : fmt::format("a checkpoint at t = {:.9g}", *saved_t_));
+}
+
+std::string CheckpointKeeper::why_stopped() const {
+  return out_of_time_ ? fmt::format(", after {:.3g} hours as asked", options_.hours) : "";
 }
 
 }  // namespace seiche

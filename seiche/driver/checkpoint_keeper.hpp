@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/config/case/run_spec.hpp>
-#include <seiche/driver/saved_run.hpp>
+#include <seiche/record/saved_run.hpp>
 #include <seiche/run/checkpoints.hpp>
 
 #include <atomic>
@@ -18,9 +18,10 @@ class CheckpointKeeper : public Checkpoints {
   struct Options {
     CheckpointSpec when = {};
     std::atomic<bool>* asked = nullptr;  // set by a signal: one more, and on
-    double seconds = 0;                  // after which the run is to be saved and to stop; 0: never
-    // Fills in what the loop does not know.
-    std::function<void(SavedRun&)> describe = {};
+    double hours = 0;                    // after which the run is to be saved and to stop; 0: never
+    bool stops_at_once = false;
+    std::function<SavedRun()> now = {};         // with what was recorded so far on the disk
+    std::function<void(Archive&)> beside = {};  // what else the time loop does not know; may be null
     std::function<void(const std::string&)> warn = {};
   };
   // `from`: of the checkpoint from which the run goes on; null: from the start.
@@ -28,20 +29,26 @@ class CheckpointKeeper : public Checkpoints {
 
   // A checkpoint that cannot be written ends no run: that is said once.
   void save(FunctionRef<void(Archive&)> run) override;
-  std::optional<double> saved_t() const { return saved_t_; }  // of the newest checkpoint, if there is one
-  bool is_out_of_time() const { return out_of_time_; }
+  // What to say of a run that has not come to its end, but to t: "; `seiche resume out` goes on from there"; "" where
+  // no checkpoint was written.
+  std::string way_on(double t) const;
+  std::string why_stopped() const;  // ", after 2 hours as asked", or ""
 
  private:
   using Clock = std::chrono::steady_clock;
 
   Wish look(std::int64_t n) override;
+  bool is_time(double passed) const;
   void plan_next_look(std::int64_t n, Clock::time_point now);
+  void plan_next_save(double began);
+  double passed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
   Folder folder_;
   Options options_;
-  Clock::time_point begin_, last_save_, last_look_;
+  Clock::time_point begin_, last_look_;
+  double next_save_, spent_ = 0;                     // seconds: since the run began, and on checkpoints so far
   std::int64_t last_n_, last_saved_n_, stride_ = 1;  // steps
-  std::optional<double> saved_t_;
+  std::optional<double> saved_t_;                    // of the newest checkpoint
   bool has_warned_ = false, out_of_time_ = false;
 };
 

@@ -23,6 +23,19 @@ StatisticsFile::StatisticsFile(const Folder& folder, bool has_modified)
   file_.write(header + "\n");
 }
 
+StatisticsFile::StatisticsFile(const Folder& folder, bool has_modified, const FileMark& mark, Archive& archive)
+    : file_(folder, "energy.csv", mark), has_modified_(has_modified) {
+  archive(*this);
+}
+
+void StatisticsFile::archive(Archive& a) {
+  for (EnsembleRecord* record : {&first_, &last_}) {
+    a(record->t, record->running);
+    a.numbers(record->H);
+    a.numbers(record->modified);
+  }
+}
+
 void StatisticsFile::write(const EnsembleRecord& record) {
   if (last_.running == 0) first_ = record;
   last_ = record;

@@ -12,6 +12,10 @@ namespace seiche {
 class StatisticsFile {
  public:
   StatisticsFile(const Folder& folder, bool has_modified);
+  // Goes on behind the mark in the file that an earlier run has left, with what `archive` wrote then.
+  StatisticsFile(const Folder& folder, bool has_modified, const FileMark& mark, Archive& archive);
+  FileMark mark() { return file_.mark(); }  // with its rows on the disk
+  void archive(Archive& a);
 
   void write(const EnsembleRecord& record);
   void commit() { file_.commit_lines(); }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/core/observer.hpp>
-#include <seiche/output/file/reserve_file.hpp>
+#include <seiche/output/file/folder.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <functional>
@@ -23,7 +23,7 @@ class AtTheEnd : public Observer {
   std::function<void(const RunReport&)> action_;
 };
 
-// final.txt and summary.json, with room kept for them where the disk is full.
+// final.txt and summary.json.
 class LastWords {
  public:
   using Summary = std::function<std::string(const RunReport&)>;
@@ -33,12 +33,12 @@ class LastWords {
   void write(const RunReport& report);
   // Once more where what came later has failed. A summary that does not tell of a failure must not stay.
   void correct(const RunReport& report);
+  bool are_written() const { return !written_.empty(); }
 
  private:
   Folder folder_;
   const Simulation& simulation_;
   Summary summary_;
-  ReserveFile reserve_;
   std::string written_;
 };
 

@@ -21,6 +21,7 @@ struct RunCaseOptions {
   int threads = 1;                    // over a large grid, or the members of an ensemble; results do not depend on it
   bool restart = false;               // begin anew where the folder holds a run that did not finish, which is removed
   double max_hours = 0;               // after which a run is saved and ends as if it had been interrupted; 0: never
+  bool stops_at_once = false;         // before its first step, all files written: makes readable what a kill has left
   std::atomic<bool>* save = nullptr;  // where it is set, a run writes a checkpoint, clears it, and goes on
   std::function<void(double t_end)> ends_at = {};  // of a run that goes on, before `begins`: where it will end
   // Before the first step, when nothing is refused any more. Returns a flag that ends the run after the step in which
@@ -37,6 +38,8 @@ struct RunCaseOptions {
   std::map<std::string, std::string> versions = {};  // of the caller, for summary.json
 };
 
+struct GoingOn;
+
 struct CaseResult {
   RunReport report;              // as it is in the files
   std::string message;           // that of the report, with the notes
@@ -51,10 +54,7 @@ struct CaseResult {
 // own; a computation that fails is a status of the report, with what was computed before on disk.
 CaseResult run_case(RunSpec spec, const std::filesystem::path& folder, const RunCaseOptions& options = {});
 
-// Goes on from the newest checkpoint in `folder`, to `t_end` or else to where the case ends, and leaves the same files
-// with the same numbers as a run that was never stopped. Throws Error where there is no checkpoint that is whole and
-// fits the files beside it.
-CaseResult resume_case(const std::filesystem::path& folder, std::optional<double> t_end = {},
-                       const RunCaseOptions& options = {});
+// Leaves the same files with the same numbers as a run that was never stopped.
+CaseResult resume_case(GoingOn from, const RunCaseOptions& options = {});
 
 }  // namespace seiche

@@ -1,12 +1,12 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
-#include <seiche/driver/case_folder.hpp>
+#include <seiche/driver/case_record.hpp>
+#include <seiche/driver/checkpoint_keeper.hpp>
 #include <seiche/driver/ensemble_files.hpp>
 #include <seiche/driver/headline.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/law/law.hpp>
-#include <seiche/output/file/reserve_file.hpp>
 #include <seiche/simulation/certificate.hpp>
 #include <seiche/simulation/kick_stability.hpp>
 
@@ -31,7 +31,7 @@ Json statistics_json(const Statistics& s) {
 
 std::string summary(const RunSpec& spec, const std::string& backend, const EnsembleResult& result,
                     const EnsembleOutcome& outcome, const StatisticsFile& energies, bool has_modified,
-                    const Certificate& certificate, const RunCaseOptions& options, const FileHashes& hashes) {
+                    const Certificate& certificate, const RunCaseOptions& options, const CaseRecord& record) {
   std::int64_t steps = 0;
   std::int64_t iterations = 0;
   std::int64_t fallbacks = 0;
@@ -48,27 +48,29 @@ std::string summary(const RunSpec& spec, const std::string& backend, const Ensem
                                     : Json(nullptr);
   energy["law"] = outcome.law().empty() ? Json(nullptr) : Json(outcome.law());
   Json about = Json::object();
-  for (const auto& [name, version] : all_versions(options)) about[name] = version;
-  const Json json = {
-      {"status", to_string(outcome.status())},
-      {"message", outcome.message},
-      {"problem", spec.problem},
-      {"method", spec.method},
-      {"backend", backend},
-      {"h", spec.h},
-      {"members", result.members.size()},
-      {"side_by_side", result.side_by_side},
-      {"statuses", {{"success", outcome.succeeded}, {"failed", outcome.failed}, {"interrupted", outcome.interrupted}}},
-      {"laws", {{"holds", outcome.holds}, {"violated", outcome.violated}, {"not promised", outcome.not_promised}}},
-      {"steps", steps},
-      {"t", energies.last().t},
-      {"energy", energy},
-      {"counts", {{"scalar_iterations", iterations}, {"fallbacks", fallbacks}, {"replaced", replaced}}},
-      {"wall_seconds", result.wall_seconds},
-      {"certificate", Json::parse(certificate_json(certificate))},
-      {"versions", about},
-      {"threads", options.threads},
-      {"sha256", hashes}};
+  for (const auto& [name, version] : record.versions()) about[name] = version;
+  Json json = {{"status", to_string(outcome.status())},
+               {"message", outcome.message},
+               {"problem", spec.problem},
+               {"method", spec.method},
+               {"backend", backend},
+               {"h", spec.h},
+               {"members", result.members.size()},
+               {"side_by_side", result.side_by_side},
+               {"statuses",
+                {{"success", outcome.succeeded}, {"failed", outcome.failed}, {"interrupted", outcome.interrupted}}},
+               {"laws",
+                {{"holds", outcome.holds}, {"violated", outcome.violated}, {"not promised", outcome.not_promised}}},
+               {"steps", steps},
+               {"t", energies.last().t},
+               {"energy", energy},
+               {"counts", {{"scalar_iterations", iterations}, {"fallbacks", fallbacks}, {"replaced", replaced}}},
+               {"wall_seconds", result.wall_seconds},
+               {"certificate", Json::parse(certificate_json(certificate))},
+               {"versions", about},
+               {"threads", options.threads},
+               {"sha256", record.hashes()}};
+  json.update(Json::parse(resumed_json(record.resumed_with())));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -100,13 +102,7 @@ std::vector<std::string> notes_on(const Members& members, const Simulation& simu
   return all;
 }
 
-}  // namespace
-
-EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& directory,
-                                     const RunCaseOptions& options) {
-  if (options.max_hours > 0)
-    throw Error("an ensemble keeps no checkpoints, from which it could go on after {:.3g} hours", options.max_hours);
-  spec.output_directory = directory.string();
+EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& options) {
   require_thread_count(options.threads);
   const Members members = make_members(spec);
   const Problem& problem = *members.list.front().problem;
@@ -120,13 +116,36 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
                                                     .sample_solution = false});
   std::vector<std::string> notes = notes_on(members, *simulation, spec);
   if (std::string note = note_on_threads(options.threads); !note.empty()) notes.push_back(std::move(note));
-  const FileHashes hashes = hashes_of(spec, write_case(spec));
-  const std::atomic<bool>& stop = *begin_run(options);
-  const CaseFolder case_folder(directory, RunKind::ensemble, spec, options.restart);
-  const Folder& folder = case_folder.folder();
-  if (options.introduce) options.introduce(headline(spec, *simulation), notes);
-  ReserveFile reserve(folder, 2 * ReserveFile::of_a_summary);
-  StatisticsFile energies(folder, has_modified);
+  const std::string line = headline(spec, *simulation);
+  CaseRecord record = from != nullptr ? CaseRecord(*from, line, options)
+                                      : CaseRecord(spec, RunKind::ensemble, line, std::move(notes), options);
+  const Folder& folder = record.folder();
+  const SavedRun* saved = record.saved();
+  if (saved != nullptr) record.put_new_end();
+  std::optional<StatisticsFile> energies;
+  if (saved != nullptr) {
+    energies.emplace(folder, has_modified, saved->energies.file, *record.rest());
+    record.take_over();
+  } else {
+    energies.emplace(folder, has_modified);
+  }
+  State reached;  // by the last record
+  reached.t = saved != nullptr ? saved->t : spec.t_start;
+  reached.n = saved != nullptr ? saved->steps : 0;
+  CheckpointKeeper keeper(folder,
+                          {.when = spec.checkpoint,
+                           .asked = options.save,
+                           .hours = options.max_hours,
+                           .stops_at_once = options.stops_at_once,
+                           .now =
+                               [&] {
+                                 SavedRun now = record.now(reached.t, reached.n);
+                                 now.energies.file = energies->mark();
+                                 return now;
+                               },
+                           .beside = [&](Archive& archive) { archive(*energies); },
+                           .warn = options.warn},
+                          saved);
   const EnsembleResult result =
       run_ensemble(members.list,
                    {.simulation = simulation_options(spec),
@@ -138,15 +157,17 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
                     .promise = [&](const Simulation& member) { return promise_energy_law(member, spec.t_end); },
                     .objection = negative_rate,
                     .on_record =
-                        [&](const EnsembleRecord& record) {
-                          energies.write(record);
-                          State reached;
-                          reached.t = record.t;
-                          reached.n = std::llround((record.t - spec.t_start) / spec.h);
+                        [&](const EnsembleRecord& row) {
+                          energies->write(row);
+                          reached.t = row.t;
+                          reached.n = std::llround((row.t - spec.t_start) / spec.h);
                           for (Observer* watching : options.observers) watching->pass(reached);
                         },
-                    .stop = &stop});
+                    .stop = &record.stop(),
+                    .resumption = {.checkpoints = &keeper, .from = record.rest()}});
   EnsembleOutcome outcome(result);
+  if (outcome.interrupted > 0) outcome.message += keeper.why_stopped();
+  if (outcome.interrupted > 0 || !outcome.is_written) outcome.message += keeper.way_on(reached.t);
   // Each gets its chance to be whole, also where another one was not.
   const auto attempt = [&](const auto& write) {
     try {
@@ -156,22 +177,34 @@ EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& 
     }
   };
   if (options.ends) options.ends();
-  attempt([&] { energies.commit(); });
+  attempt([&] { energies->commit(); });
   attempt([&] { write_members(folder, members, result, has_modified); });
   attempt([&] { write_finals(folder, problem, result); });
   const std::string backend =
       spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
   const auto summarised = [&] {
-    return summary(spec, backend, result, outcome, energies, has_modified, certificate, options, hashes);
+    return summary(spec, backend, result, outcome, *energies, has_modified, certificate, options, record);
   };
-  reserve.release();
   attempt([&] { write_file(folder, "summary.json", summarised()); });
+  if (outcome.interrupted == 0 && outcome.is_written) remove_checkpoints(folder);
   return {.outcome = outcome,
-          .first = energies.first(),
-          .last = energies.last(),
+          .first = energies->first(),
+          .last = energies->last(),
           .members = std::ssize(result.members),
           .wall_seconds = result.wall_seconds,
           .summary = summarised()};
+}
+
+}  // namespace
+
+EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& directory,
+                                     const RunCaseOptions& options) {
+  spec.output_directory = directory.string();
+  return run(std::move(spec), nullptr, options);
+}
+
+EnsembleCaseResult resume_ensemble_case(GoingOn from, const RunCaseOptions& options) {
+  return run(from.spec, &from, options);
 }
 
 }  // namespace seiche

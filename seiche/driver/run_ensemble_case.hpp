@@ -18,5 +18,7 @@ struct EnsembleCaseResult {
 // `directory`. Throws Error as run_case. Fails if any member failed; what the others computed is on disk.
 EnsembleCaseResult run_ensemble_case(RunSpec spec, const std::filesystem::path& directory,
                                      const RunCaseOptions& options = {});
+// Leaves the same files with the same numbers as an ensemble that was never stopped.
+EnsembleCaseResult resume_ensemble_case(GoingOn from, const RunCaseOptions& options = {});
 
 }  // namespace seiche

@@ -5,7 +5,7 @@
 #include <seiche/figure/ensemble_pictures.hpp>
 #include <seiche/output/csv_table.hpp>
 #include <seiche/output/text_table.hpp>
-#include <seiche/study/killed_ensemble.hpp>
+#include <seiche/study/member_counts.hpp>
 
 #include <fmt/ranges.h>
 
@@ -118,7 +118,6 @@ EnsemblePictures ensemble_pictures(const fs::path& directory) {
   const std::string colour = method_line(spec.method).colour;
   EnsemblePictures pictures{.list = {energy_picture(CsvTable::read(directory / "energy.csv"), titled, colour)},
                             .warning = ""};
-  if (!fs::is_regular_file(directory / "members.csv")) return pictures;  // of an ensemble that was killed
   const TextTable members(directory / "members.csv");
   pictures.warning = shortfall(members);
   for (const auto& [parameter, range] : spec.ensemble->parameters)

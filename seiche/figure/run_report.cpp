@@ -8,7 +8,7 @@
 #include <seiche/figure/style.hpp>
 #include <seiche/output/citation.hpp>
 #include <seiche/output/file/atomic_file.hpp>
-#include <seiche/output/run_folder.hpp>
+#include <seiche/record/run_folder.hpp>
 #include <seiche/study/run_files.hpp>
 
 #include <fmt/format.h>

@@ -17,6 +17,7 @@ EnergyTrace::EnergyTrace(const Folder& folder, bool has_modified_energy, Schedul
     header += ",round_off";
   }
   file_.write(header + "\n");
+  file_.flush();  // whoever looks sees that the run has begun
 }
 
 EnergyTrace::EnergyTrace(const Folder& folder, const Mark& mark, bool has_modified_energy, Schedule schedule,
@@ -47,17 +48,6 @@ void EnergyTrace::observe(const State& state, const EnergyReading& energy) {
   if (has_ledger_) add_ledger(energy);
   file_.write(row_.line());
   file_.keep_lines();
-  clock_.waits(state.n);
-  if (clock_.is_overdue()) flush();
-}
-
-void EnergyTrace::pass(const State& state) {
-  if (clock_.is_overdue(state.n)) flush();
-}
-
-void EnergyTrace::flush() {
-  file_.flush();
-  clock_.flushed();
 }
 
 void EnergyTrace::add_ledger(const EnergyReading& energy) {

@@ -1,13 +1,12 @@
 // energy.csv: t, H and, for methods that have one, the modified energy at every due step; with a ledger also where
 // the change of H since the row before comes from (StepLedger), its last column what is left, round-off. Streamed, so
-// that a long run costs no memory; on the disk after seconds, so that little is lost where a program is killed.
+// that a long run costs no memory.
 #pragma once
 
 #include <seiche/core/control/archive.hpp>
 #include <seiche/core/observer.hpp>
 #include <seiche/output/csv_row.hpp>
 #include <seiche/output/file/atomic_file.hpp>
-#include <seiche/output/file/flush_clock.hpp>
 
 #include <string>
 
@@ -31,9 +30,7 @@ class EnergyTrace : public Observer {
 
   bool is_due(const State& state, bool last) const override { return schedule_.is_due(state.n, last); }
   void observe(const State& state, const EnergyReading& energy) override;
-  void pass(const State& state) override;
   void finish(const RunReport& report) override;
-  void flush();
   Mark mark();  // with its rows on the disk
 
  private:
@@ -45,7 +42,6 @@ class EnergyTrace : public Observer {
   EnergyReading last_;  // shown
   bool is_first_ = true;
   CsvRow row_;
-  FlushClock clock_{FlushClock::Clock::time_point{}};  // the first row goes to the disk at once
 };
 
 }  // namespace seiche

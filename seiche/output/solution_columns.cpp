@@ -81,8 +81,6 @@ std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layo
   for (const auto& [name, value] : {std::pair("status", "unfinished"), {"message", ""}, {"energy_law", ""}})
     set_attribute(file.id(), name, value);
 
-  // Written again with more rows, these chunks keep their size and place, and whatever tells where they are stays as
-  // it is.
   const Hdf5Layout per_time{.chunk = {1024}, .compressed = false};
   Hdf5Dataset t = make(file, "t", "time", per_time);
   const std::vector<Hdf5Dataset> axes = make_axes(file, layout);

@@ -89,29 +89,15 @@ SolutionReader::SolutionReader(const std::filesystem::path& path, Unguarded)
   points_ = static_cast<Index>(data_.front().row_size());
 }
 
-// A program that was killed may have written more rows of some than of others: what counts is what all have.
 void SolutionReader::count_times(const std::filesystem::path& path) {
-  std::uint64_t least = std::min(t_.rows(), H_.rows());
-  if (modified_) least = std::min(least, modified_->rows());
-  for (const Hdf5Dataset& data : data_) least = std::min(least, data.rows());
-  const bool is_finished = text("status") != "unfinished";
   const auto require_whole = [&](const Hdf5Dataset& data) {
-    if (is_finished && data.rows() != least)
-      throw Error("{} is damaged: {} has {} rows, and others have {}", path.string(), data.name(), data.rows(), least);
+    if (data.rows() != t_.rows())
+      throw Error("{} is damaged: {} has {} rows, and t has {}", path.string(), data.name(), data.rows(), t_.rows());
   };
-  require_whole(t_);
   require_whole(H_);
   if (modified_) require_whole(*modified_);
   for (const Hdf5Dataset& data : data_) require_whole(data);
-  count_ = static_cast<Index>(least);
-}
-
-std::uint64_t SolutionReader::surplus() const {
-  const auto least = static_cast<std::uint64_t>(count_);
-  std::uint64_t more = t_.rows() - least + (H_.rows() - least);
-  if (modified_) more += modified_->rows() - least;
-  for (const Hdf5Dataset& data : data_) more += (data.rows() - least) * data.row_size();
-  return more;
+  count_ = static_cast<Index>(t_.rows());
 }
 
 std::vector<double> SolutionReader::modified_energies() const {
@@ -203,16 +189,6 @@ std::string SolutionReader::what_another_process_finds(const std::filesystem::pa
 void require_readable(const std::filesystem::path& solution) {
   if (const std::string damage = SolutionReader::what_another_process_finds(solution); !damage.empty())
     throw Error(damage);
-}
-
-void cut_solution(const Folder& folder, const std::string& name) {
-  const SolutionReader solution(folder.path() / name);
-  std::vector<std::string> names = solution.fields();
-  names.insert(names.end(), {"H", "t"});
-  if (Hdf5File::open(folder, name).has("H_modified")) names.emplace_back("H_modified");
-  Hdf5File file = Hdf5File::open_to_write(folder, name);
-  for (const std::string& one : names) file.dataset(one).cut(static_cast<std::uint64_t>(solution.count()));
-  file.close();
 }
 
 }  // namespace seiche

@@ -24,14 +24,12 @@ class SolutionReader {
   // file cannot be read, or is no solution.
   explicit SolutionReader(const std::filesystem::path& path);
 
-  Index count() const { return count_; }  // of times for which everything is there
+  Index count() const { return count_; }  // of times
   std::vector<double> times() const { return first_of(t_); }
   std::vector<double> energies() const { return first_of(H_); }
   std::vector<double> modified_energies() const;  // none where the method has none
   // Throws Error where something else in the file than times, energies and fields cannot be read, or leads out of it.
   void require_whole() const;
-  // Values of an unfinished file that belong to no time, since others are missing for it; cut_solution takes them away.
-  std::uint64_t surplus() const;
   const std::vector<std::string>& fields() const { return fields_; }
   const std::string& meaning(Index field) const { return meanings_[static_cast<std::size_t>(field)]; }
   const std::vector<CoordinateAxis>& axes() const { return axes_; }  // of space; none for a single point
@@ -71,8 +69,5 @@ class SolutionReader {
 // Throws Error with what another process finds damaged anywhere in the file: in this one, HDF5 would leave objects open
 // and complain about them when the program ends.
 void require_readable(const std::filesystem::path& solution);
-
-// So that readers that know nothing of this find the same number of rows everywhere.
-void cut_solution(const Folder& folder, const std::string& name);
 
 }  // namespace seiche

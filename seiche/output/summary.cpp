@@ -20,12 +20,6 @@ Json energy_json(const EnergySummary& energy) {
           {"max_increase", number(energy.max_increase)}};
 }
 
-Json resumed_json(const ResumedWith& resumed) {
-  Json settings = Json::object();
-  if (resumed.end) settings["time.end"] = number(*resumed.end);
-  return {{"t", number(resumed.t)}, {"versions", resumed.versions}, {"settings", settings}};
-}
-
 }  // namespace
 
 void ResumedWith::archive(Archive& a) {
@@ -37,6 +31,17 @@ void ResumedWith::archive(Archive& a) {
   a(t, names, numbers, end);
   a.require(names.size() == numbers.size());
   for (std::size_t i = 0; i < names.size(); ++i) versions[names[i]] = numbers[i];
+}
+
+std::string resumed_json(const std::vector<ResumedWith>& all) {
+  Json found = Json::object();
+  for (const ResumedWith& resumed : all) {
+    Json settings = Json::object();
+    if (resumed.end) settings["time.end"] = number(*resumed.end);
+    found["resumed_at"].push_back(number(resumed.t));
+    found["resumed_with"].push_back({{"t", number(resumed.t)}, {"versions", resumed.versions}, {"settings", settings}});
+  }
+  return found.dump();
 }
 
 std::string summary_json(const RunIdentity& run, const RunReport& report) {
@@ -69,10 +74,7 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                   {"versions", versions}};
   if (run.threads > 0) summary["threads"] = run.threads;
   if (!run.hashes.empty()) summary["sha256"] = run.hashes;
-  for (const ResumedWith& resumed : run.resumed_with) {
-    summary["resumed_at"].push_back(number(resumed.t));
-    summary["resumed_with"].push_back(resumed_json(resumed));
-  }
+  if (!run.resumed_with.empty()) summary.update(Json::parse(resumed_json(run.resumed_with)));
   if (!run.certificate.empty()) summary["certificate"] = Json::parse(run.certificate);
   if (run.tolerance) {
     summary["tolerance"] = number(*run.tolerance);

@@ -36,6 +36,8 @@ struct RunIdentity {
   std::time_t finished = std::time(nullptr);
 };
 
+// {"resumed_at": […], "resumed_with": […]}, or {} of a run that never was.
+std::string resumed_json(const std::vector<ResumedWith>& all);
 // A number that is not finite becomes null, since JSON has no NaN; so does `modified` for a method that has none.
 std::string summary_json(const RunIdentity& run, const RunReport& report);
 void write_summary(const Folder& folder, const RunIdentity& run, const RunReport& report);

@@ -18,7 +18,7 @@
 namespace seiche {
 namespace {
 
-constexpr std::string_view format = "Seiche checkpoint 5\n", of_any_version = "Seiche checkpoint ";
+constexpr std::string_view format = "Seiche checkpoint 6\n", of_any_version = "Seiche checkpoint ";
 constexpr std::uint64_t piece = std::uint64_t{1} << 20U;
 
 struct Tail {
@@ -152,6 +152,15 @@ std::vector<std::string> checkpoints_in(const std::filesystem::path& directory) 
     if (std::filesystem::exists(std::filesystem::symlink_status(directory / name, none))) names.emplace_back(name);
   }
   return names;
+}
+
+void promote_checkpoint(const Folder& folder, const std::string& name) {
+  if (name != earlier_checkpoint_name) return;
+  try {
+    rename_file(folder, name, checkpoint_name);
+  } catch (const Error&) {  // a folder has that name
+    return;
+  }
 }
 
 void remove_checkpoints(const Folder& folder) {

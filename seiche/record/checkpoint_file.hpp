@@ -31,6 +31,9 @@ void replace_beginning(const Folder& folder, const std::string& name, std::uint6
 bool is_checkpoint(const std::filesystem::path& file);
 // Their names, the newest first; links that lead nowhere are among them, since a word about these is due.
 std::vector<std::string> checkpoints_in(const std::filesystem::path& directory);
+// The one of this name becomes the newest, if it is the earlier one, since a run goes on from it: else the next commit
+// would put the damaged one in its place. Where that cannot be, both stay.
+void promote_checkpoint(const Folder& folder, const std::string& name);
 void remove_checkpoints(const Folder& folder);  // does nothing where it holds none
 
 }  // namespace seiche

@@ -13,8 +13,6 @@
 namespace seiche {
 namespace {
 
-constexpr const char* solution_name = "solution.h5";
-
 std::filesystem::path path_of(const Folder& folder) { return folder.path() / segments_folder; }
 
 }  // namespace
@@ -38,7 +36,7 @@ void SegmentsMark::archive(Archive& a) {
 
 std::string complaint_about(const Folder& folder, const SegmentsMark& mark) {
   if (mark.sealed.empty()) return "";
-  const Folder inside(path_of(folder));
+  const Folder inside = folder.inside(segments_folder);
   for (std::size_t k = 0; k < mark.sealed.size(); ++k)
     if (std::string said = complaint_about_whole(inside, segment_name(k + 1), mark.sealed[k].file); !said.empty())
       return fmt::format("{}/{}", segments_folder, said);
@@ -64,7 +62,7 @@ struct Segments::Open {
 
   Open(const Folder& folder, const SolutionLayout& layout, const SolutionDescription& description, bool has_modified)
       : path(folder, solution_name),
-        file(Hdf5File::create_plain(path.open(), path.temporary())),
+        file(Hdf5File::create(path.open(), path.temporary())),
         columns(make_columns(file, layout, description, has_modified)) {}
   void close() {
     columns.clear();
@@ -107,23 +105,35 @@ Segments::Open& Segments::open() {
   return *open_;
 }
 
-void Segments::append(std::span<const double> fields, std::span<const double> numbers) {
+template <class Action>
+void Segments::attempt(const Action& action) {
   require_writable();
-  is_broken_ = true;  // until all of it succeeded
-  const std::uint64_t points = layout_.points();
-  const std::size_t count = layout_.fields.size();
-  const bool is_large = chunk_ == 1;  // large rows are not kept twice
-  for (std::size_t f = 0; f < count; ++f) {
-    const std::span<const double> row = fields.subspan(f * points, points);
-    if (is_large) {
-      open().columns[f].append(row);
-    } else {
-      mark_.unfinished[f].insert(mark_.unfinished[f].end(), row.begin(), row.end());
-    }
+  is_broken_ = true;
+  try {
+    action();
+  } catch (...) {
+    open_.reset();
+    throw;
   }
-  for (std::size_t i = 0; i < numbers.size(); ++i) mark_.unfinished[count + i].push_back(numbers[i]);
-  if (mark_.unfinished.back().size() == chunk_) write_rows(open());
   is_broken_ = false;
+}
+
+void Segments::append(std::span<const double> fields, std::span<const double> numbers) {
+  attempt([&] {
+    const std::uint64_t points = layout_.points();
+    const std::size_t count = layout_.fields.size();
+    const bool is_large = chunk_ == 1;  // large rows are not kept twice
+    for (std::size_t f = 0; f < count; ++f) {
+      const std::span<const double> row = fields.subspan(f * points, points);
+      if (is_large) {
+        open().columns[f].append(row);
+      } else {
+        mark_.unfinished[f].insert(mark_.unfinished[f].end(), row.begin(), row.end());
+      }
+    }
+    for (std::size_t i = 0; i < numbers.size(); ++i) mark_.unfinished[count + i].push_back(numbers[i]);
+    if (mark_.unfinished.back().size() == chunk_) write_rows(open());
+  });
 }
 
 void Segments::write_rows(Open& to) {
@@ -135,16 +145,15 @@ void Segments::write_rows(Open& to) {
 }
 
 SegmentsMark Segments::seal() {
-  require_writable();
-  if (!open_) return mark_;
-  is_broken_ = true;
-  const Folder inside = folder_.inside(segments_folder);
-  open_->close();
-  const FileMark file = open_->path.mark();
-  open_->path.commit_as(inside, segment_name(mark_.sealed.size() + 1));
-  mark_.sealed.push_back({.rows = open_->rows, .file = file});
-  open_.reset();
-  is_broken_ = false;
+  attempt([&] {
+    if (!open_) return;
+    const Folder inside = folder_.make_inside(segments_folder);
+    open_->close();
+    const FileMark file = open_->path.mark();
+    open_->path.commit_as(inside, segment_name(mark_.sealed.size() + 1));
+    mark_.sealed.push_back({.rows = open_->rows, .file = file});
+    open_.reset();
+  });
   return mark_;
 }
 
@@ -172,16 +181,15 @@ void Segments::join(Open& to) const {
 
 void Segments::finish(const RunReport& report) {
   if (!mark_.sealed.empty()) seal();
-  require_writable();
-  is_broken_ = true;
-  Open& last = open();
-  join(last);
-  write_rows(last);
-  describe_end(last.file, description_, report);
-  last.close();
-  last.path.commit();
-  open_.reset();
-  is_broken_ = false;
+  attempt([&] {
+    Open& last = open();
+    join(last);
+    write_rows(last);
+    describe_end(last.file, description_, report);
+    last.close();
+    last.path.commit();
+    open_.reset();
+  });
   is_finished_ = true;
 }
 

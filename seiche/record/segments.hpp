@@ -18,6 +18,7 @@
 
 namespace seiche {
 
+inline constexpr const char* solution_name = "solution.h5";
 inline constexpr const char* segments_folder = "solution";
 std::string segment_name(std::size_t number);  // "000001.h5" of 1
 
@@ -56,11 +57,13 @@ class Segments {
   Segments& operator=(const Segments&) = delete;
 
   // A row: all fields one after the other, and H, H_modified if there is one, t. Throws Error where a chunk cannot be
-  // written; from then on everything does.
+  // written; from then on everything does, and what is not sealed is gone, which makes room.
   void append(std::span<const double> fields, std::span<const double> numbers);
   // What was appended is on the disk under its final name, but for the rows that the mark holds. Throws Error where it
   // cannot be; the mark before this one still holds then.
   SegmentsMark seal();
+  bool is_broken() const { return is_broken_; }      // something could not be written
+  bool is_finished() const { return is_finished_; }  // solution.h5 is there
   // solution.h5: the bytes that it has where nothing was ever sealed. The segments stay, and no row is taken any more.
   // Throws Error where it cannot be written.
   void finish(const RunReport& report);
@@ -71,6 +74,8 @@ class Segments {
   void require_same_layout(bool has_modified_energy) const;
   void write_rows(Open& to);
   void require_writable() const;
+  template <class Action>
+  void attempt(const Action& action);
   void join(Open& to) const;
 
   Folder folder_;

@@ -32,16 +32,12 @@ class Increase {
 
 struct States {
   std::vector<double> times, H, modified;
-  bool all = true;
 };
 
 States judged_states(const std::filesystem::path& file, const RunSpec& spec) {
   if (!std::filesystem::exists(file) || spec.snapshot_interval > 0) return {};
   const SolutionReader solution(file);
-  return {.times = solution.times(),
-          .H = solution.energies(),
-          .modified = solution.modified_energies(),
-          .all = solution.text("status") != "unfinished"};
+  return {.times = solution.times(), .H = solution.energies(), .modified = solution.modified_energies()};
 }
 
 }  // namespace
@@ -79,7 +75,7 @@ LargestIncreases largest_increases(const std::filesystem::path& directory, const
   // With a tolerance a run judges every step.
   return {.H = H.largest(),
           .modified = has_modified ? modified.largest() : std::numeric_limits<double>::quiet_NaN(),
-          .of_all = states.all && (!spec.tolerance || spec.energy_every == 1)};
+          .of_all = !spec.tolerance || spec.energy_every == 1};
 }
 
 }  // namespace seiche

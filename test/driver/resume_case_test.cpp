@@ -5,11 +5,9 @@
 
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/core/error.hpp>
-#include <seiche/driver/run_case.hpp>
-#include <seiche/driver/saved_run.hpp>
+#include <seiche/driver/going_on.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/study/audit/audit.hpp>
-#include <seiche/study/recovery.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -84,8 +82,13 @@ class ResumeCase : public InTemporaryDirectory {
     });
   }
   CaseResult resume(const std::string& folder, std::int64_t stops_after = -1, std::optional<double> t_end = {}) {
-    return run_stopped(stops_after,
-                       [&](const RunCaseOptions& options) { return resume_case(directory / folder, t_end, options); });
+    return run_stopped(stops_after, [&](const RunCaseOptions& options) {
+      return resume_case(going_on(directory / folder, t_end, options), options);
+    });
+  }
+  CaseResult recover(const std::string& folder) const {
+    const RunCaseOptions options{.stops_at_once = true};
+    return resume_case(going_on(directory / folder, {}, options), options);
   }
   template <class Run>
   CaseResult run_stopped(std::int64_t n, const Run& with) {
@@ -103,15 +106,15 @@ class ResumeCase : public InTemporaryDirectory {
     AfterEachStep kills([](const State&) { throw Killed(); });
     RunCaseOptions options;
     options.observers = {&kills};
-    EXPECT_THROW(resume_case(directory / folder, t_end, options), Killed);
+    EXPECT_THROW(resume_case(going_on(directory / folder, t_end, options), options), Killed);
   }
   void write(const fs::path& name, const std::string& text) const {
     std::ofstream(directory / name, std::ios::binary) << text;
   }
   std::map<std::string, std::string> files_of(const std::string& folder) const {
     std::map<std::string, std::string> all;
-    for (const auto& entry : fs::directory_iterator(directory / folder))
-      all[entry.path().filename().string()] = text_of(entry.path());
+    for (const auto& entry : fs::recursive_directory_iterator(directory / folder))
+      if (entry.is_regular_file()) all[fs::relative(entry.path(), directory).string()] = text_of(entry.path());
     return all;
   }
   std::vector<std::string> contradicted(const std::string& folder) const {
@@ -250,9 +253,9 @@ TEST_F(ResumeCase, RefusesAnEndThatCannotBeAndChangesNothing) {
 TEST_F(ResumeCase, LosesNothingWhereItsFilesCannotBeMade) {
   run(some_cases().front().text, "out", 100);
   const auto before = files_of("out");
-  const fs::path in_the_way = directory / "out" / settling_name;
+  const fs::path in_the_way = directory / "out/energy.csv.partial";
   fs::create_directory(in_the_way);
-  EXPECT_THAT(error_of([&] { resume("out"); }), HasSubstr("solution.h5"));
+  EXPECT_THAT(error_of([&] { resume("out"); }), HasSubstr("energy.csv.partial"));
   fs::remove(in_the_way);
   EXPECT_TRUE(files_of("out") == before);
   EXPECT_EQ(resume("out").report.status, RunReport::Status::success);
@@ -278,10 +281,9 @@ TEST_F(ResumeCase, IsRecoveredWithTheCaseOfItsCheckpoint) {
   for (const std::string damage : {"", "[[["}) {
     fs::remove(directory / "out/case.toml");
     if (!damage.empty()) write("out/case.toml", damage);
-    const Recovery found = recover(Folder(directory / "out"), case_of_checkpoint(directory / "out"));
-    EXPECT_THAT(found.saved, testing::ElementsAre(HasSubstr("case.toml, from the checkpoint")));
+    EXPECT_EQ(recover("out").report.status, RunReport::Status::interrupted);
     EXPECT_EQ(text_of(directory / "out/case.toml"), whole) << damage;
-    EXPECT_EQ(text_of(directory / "out/case_before_recover.toml"), damage);
+    EXPECT_EQ(text_of(directory / "out/case_before_resume.toml"), damage);
     EXPECT_THAT(contradicted("out"), testing::IsEmpty());
   }
 }
@@ -293,13 +295,44 @@ TEST_F(ResumeCase, IsRecoveredWithoutWhatTellsOfAnEarlierEnd) {
     run(some_cases().front().text, "out", 100);
     auto before = files_of("out");
     kill_resume("out", t_end);
-    for (const char* name : {"case.toml", "summary.json", "final.txt", "solution.xdmf", "report.html"})
-      write(fs::path("out") / name, before[name]);
-    recover(Folder(directory / "out"), case_of_checkpoint(directory / "out"));
-    EXPECT_EQ(nlohmann::json::parse(text_of(directory / "out/summary.json"))["status"], "unfinished");
-    EXPECT_FALSE(fs::exists(directory / "out/report.html"));
+    for (const std::string name : {"out/case.toml", "out/final.txt", "out/solution.xdmf", "out/report.html"})
+      write(name, before[name]);
+    const CaseResult recovered = recover("out");
+    EXPECT_EQ(recovered.report.status, RunReport::Status::interrupted);
+    EXPECT_THAT(recovered.message, HasSubstr("goes on from there"));
     EXPECT_THAT(contradicted("out"), testing::IsEmpty()) << t_end.value_or(4.01);
     EXPECT_EQ(resume("out").report.t, t_end.value_or(4.01));
+  }
+}
+
+// What it leaves is what an interruption at the checkpoint would have left.
+TEST_F(ResumeCase, IsRecoveredAsIfItHadBeenStoppedAtTheCheckpoint) {
+  for (const ACase& c : some_cases()) {
+    const std::int64_t n = c.most_steps / 2;
+    const CaseResult stopped = run(c.text, c.name, n);
+    run(c.text, c.name + "_killed", n);
+    kill_resume(c.name + "_killed");
+    const CaseResult recovered = recover(c.name + "_killed");
+    expect_same_files(c.name, c.name + "_killed");
+    EXPECT_EQ(recovered.report.steps, stopped.report.steps) << c.name;
+    EXPECT_EQ(recovered.report.potential_counts.gradients, stopped.report.potential_counts.gradients) << c.name;
+  }
+}
+
+// Of steps that no solution was found for, and of one that failed: all there is is in the files, and the next run takes
+// their place.
+TEST_F(ResumeCase, IsNotOfferedWhereItWouldComeNoFarther) {
+  const std::string begin =
+      "[problem]\nname = \"custom\"\nfields = [\"q\", \"p\"]\nH = \"p^2/2 - q^4/4\"\n"
+      "initial = { q = \"1\", p = \"0\" }\n[time]\nend = 50\n[checkpoint]\nevery_steps = 3\n[method]\nh = \"1/8\"\n";
+  for (const std::string method : {"egc4", "seisav"}) {
+    const std::string text = begin + "name = \"" + method + "\"\n";
+    const CaseResult failed = run(text, method);
+    ASSERT_EQ(failed.report.status, RunReport::Status::failed) << failed.message;
+    EXPECT_EQ(failed.report.step_failed, method == "seisav") << failed.message;
+    EXPECT_THAT(failed.message, Not(HasSubstr("seiche resume"))) << method;
+    EXPECT_THAT(checkpoints_in(directory / method), testing::IsEmpty()) << method;
+    EXPECT_EQ(run(text, method).message, failed.message) << method;
   }
 }
 
@@ -348,7 +381,7 @@ TEST_F(ResumeCase, GoesOnInAFolderThatIsRenamedMeanwhile) {
     RunCaseOptions options;
     options.observers = {&renames};
     options.warn = [&](const std::string& note) { warned.push_back(note); };
-    const CaseResult done = resumes ? resume_case(directory / out, {}, options)
+    const CaseResult done = resumes ? resume_case(going_on(directory / out, {}, options), options)
                                     : run_case(spec(some_cases().front().text), directory / out, options);
     EXPECT_EQ(done.report.status, RunReport::Status::success) << done.message;
     EXPECT_THAT(warned, testing::ElementsAre(HasSubstr("there is no report.html")));
@@ -423,7 +456,7 @@ TEST_F(DamagedCheckpoint, LeavesTheNewEndToTheOneBefore) {
 
 // A pipe without a writer would be waited for.
 TEST_F(DamagedCheckpoint, IsNotFollowedWhereAPipeIsInThePlaceOfAFile) {
-  for (const std::string name : {"energy.csv", "solution.h5"}) {
+  for (const std::string name : {"energy.csv"}) {
     const fs::path file = directory / "out" / name, partial = directory / "out" / (name + ".partial");
     fs::rename(file, directory / "kept");
     for (const fs::path& place : {file, partial}) {

@@ -195,10 +195,6 @@ TEST_F(PictureChoice, AnEnsembleHasItsEnergiesAndWhatEachParameterDoes) {
   EXPECT_THAT(said(), HasSubstr("have nothing to colour"));
   EXPECT_EQ(seiche("plot '" + out().string() + "'", "SEICHE_PYTHON=/bin/false"), 1);
   EXPECT_TRUE(fs::exists(out() / "figures/energy.pdf")) << "what cannot be drawn again stays";
-  fs::remove(out() / "members.csv");
-  EXPECT_EQ(seiche("plot --format png '" + out().string() + "'"), 0) << said();
-  EXPECT_THAT(said(), HasSubstr("1 in ")) << "of an ensemble that was killed the energies are left";
-  EXPECT_FALSE(fs::exists(out() / "figures/members_gamma.png")) << "nothing old stands beside new pictures";
 }
 
 }  // namespace TEST_FILE

@@ -5,7 +5,6 @@
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/folder_lock.hpp>
-#include <seiche/output/file/reserve_file.hpp>
 #include <seiche/output/file/sha256.hpp>
 #include <seiche/output/final_state.hpp>
 #include <seiche/output/progress.hpp>
@@ -175,21 +174,6 @@ TEST_F(Output, WhereTheLockIsGoneNothingGetsAName) {
   EXPECT_TRUE(fs::exists(directory / ".seiche.lock"));
 }
 
-TEST_F(Output, TheReserveIsRoomOnTheDiskUntilItIsGivenBack) {
-  const auto used = [&] {
-    struct stat status = {};
-    return ::stat((directory / ".seiche.reserve").c_str(), &status) == 0 ? status.st_blocks * 512 : 0;
-  };
-  {
-    ReserveFile reserve(Folder(directory), 1 << 20);
-    if (used() < 1 << 20) GTEST_SKIP() << "this file system sets no room aside";
-    reserve.release_most();
-    EXPECT_LE(used(), 1 << 16);
-    EXPECT_GE(used(), 1 << 15);
-  }
-  EXPECT_TRUE(fs::is_empty(directory));
-}
-
 // As on a file system that tells only then that there was no room.
 TEST_F(Output, AFileThatCannotBeClosedIsNotThere) {
   AtomicFile file(directory / "x");
@@ -224,23 +208,6 @@ TEST_F(Output, TheEnergyTraceHasAColumnForTheModifiedEnergyOnlyWhereThereIsOne) 
               (modified ? std::vector<std::string>{"t,H,H_modified", "0.25,0.10000000000000001,0.33333333333333331"}
                         : std::vector<std::string>{"t,H", "0.25,0.10000000000000001"}));
   }
-}
-
-// Where one row comes at once, and the next after hours.
-TEST_F(Output, ARowReachesTheDiskSoonAlsoWhereNoOtherOneFollows) {
-  const auto lines_after_steps = [this](const char* seconds) {
-    ::setenv("SEICHE_FLUSH_SECONDS", seconds, 1);
-    EnergyTrace trace(Folder(directory), false);
-    ::unsetenv("SEICHE_FLUSH_SECONDS");
-    State state{.z = {}, .t = 0, .n = 0};
-    trace.observe(state, {.H = 1});
-    state.n = 1;
-    trace.observe(state, {.H = 2});
-    for (state.n = 2; state.n < 1000; ++state.n) trace.pass(state);
-    return lines("energy.csv.partial").size();
-  };
-  EXPECT_EQ(lines_after_steps("60"), 2U) << "the first at once";
-  EXPECT_EQ(lines_after_steps("1e-6"), 3U);
 }
 
 TEST_F(Output, ManyRowsGoToTheDiskInLargePieces) {

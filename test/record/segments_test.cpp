@@ -257,7 +257,7 @@ TEST_F(SegmentFiles, DoNotFollowALinkInThePlaceOfTheirFolder) {
   fs::create_directory_symlink(elsewhere, folder / segments_folder);
   Segments segments = few.segments(folder);
   for (std::uint64_t row = 0; row < few.layout.chunk().front(); ++row) few.append(segments, row);
-  EXPECT_THAT(error_of([&] { segments.seal(); }), HasSubstr("cannot make the folder"));
+  EXPECT_THAT(error_of([&] { segments.seal(); }), HasSubstr("cannot open the folder"));
   EXPECT_TRUE(fs::is_empty(elsewhere));
 }
 

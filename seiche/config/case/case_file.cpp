@@ -38,7 +38,7 @@ class Sections {
  private:
   // Only the first of each kind, since all are in the order of the source: nearest names of a million take too long.
   void refuse_unknown() {
-    const std::vector<std::string> sections = case_sections();
+    const std::vector<std::string>& sections = case_sections();
     bool is_told = false;
     for (const CaseSection& section : r_.table.sections) {
       const bool known = std::find(sections.begin(), sections.end(), section.name) != sections.end();
@@ -116,8 +116,6 @@ class Sections {
   void read_ensemble() {
     const CaseSection* section = r_.table.section("ensemble");
     if (section == nullptr || !section->is_table) return;
-    if (spec_.checkpoint != CheckpointSpec{})
-      spec_.notes.emplace_back("an ensemble keeps no checkpoints: [checkpoint] has no effect");
     if (spec_.ledger)
       r_.complain(section->order, section->place, Error("an ensemble keeps no ledger: write output.ledger = \"off\""));
     if (spec_.tolerance)

@@ -273,10 +273,12 @@ void add_output(KeyRows& rows) {
 void add_checkpoint(KeyRows& rows) {
   const std::size_t first = rows.all.size();
   rows.begin("checkpoint");
-  rows.number("every_seconds",
-              "time between checkpoints, from which `seiche resume` goes on; 0: only when a signal asks for one",
-              from_0, {"600"}, "", read_every_seconds,
-              [](const RunSpec& spec) { return Maybe(spec.checkpoint.every_seconds); });
+  rows.number(
+      "every_seconds",
+      "time between checkpoints, from which `seiche resume` goes on; 0: only when a signal asks for one; not given: "
+      "after 5, 10, 20, 40 s and then every minute, or fewer where they would take more than 1 % of the time",
+      from_0, unless_given("60"), "", read_every_seconds,
+      [](const RunSpec& spec) { return spec.checkpoint.every_seconds; });
   rows.whole(
       "every_steps", "steps; 0: by the clock alone", from_0, "0", "",
       [](auto& spec) -> auto& { return spec.checkpoint.every_steps; });

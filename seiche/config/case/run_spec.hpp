@@ -35,9 +35,9 @@ using InitialData = std::variant<PresetData, FileData, FormulaData>;
 
 // When a run keeps a checkpoint, beside those that signals ask for.
 struct CheckpointSpec {
-  double every_seconds = 600;    // 0: never by the clock
-  std::int64_t every_steps = 0;  // 0: never by steps
-  std::int64_t keep = 2;         // files: the newest, and the one before it
+  std::optional<double> every_seconds = {};  // 0: never by the clock; none: as CheckpointKeeper finds right
+  std::int64_t every_steps = 0;              // 0: never by steps
+  std::int64_t keep = 2;                     // files: the newest, and the one before it
   bool operator==(const CheckpointSpec&) const = default;
 };
 

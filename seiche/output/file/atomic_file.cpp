@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace seiche {
@@ -57,15 +58,14 @@ int failure_to_sync(int result) {
 PartialPath::PartialPath(Folder folder, std::string name)
     : folder_(std::move(folder)), name_(std::move(name)), temporary_(name_ + ".partial") {}
 
-PartialPath::PartialPath(Folder folder, std::string name, std::string temporary)
-    : folder_(std::move(folder)), name_(std::move(name)), temporary_(std::move(temporary)) {}
-
 PartialPath::PartialPath(const std::filesystem::path& path)
     : PartialPath(Folder(path.parent_path()), path.filename().string()) {}
 
 PartialPath::~PartialPath() {
   const bool is_ours = file_ < 0 || FileIdentity(folder_.descriptor(), temporary_) == FileIdentity(file_);
   if (!kept_ && is_ours) ::unlinkat(folder_.descriptor(), temporary_.c_str(), 0);
+  // A library that could not write it may have it open, and keep the room that it takes.
+  if (!kept_ && file_ >= 0) std::ignore = ::ftruncate(file_, 0);
   if (file_ >= 0) ::close(file_);
 }
 
@@ -90,18 +90,6 @@ int PartialPath::reopen() {
   if (left == name_ && ::renameat(folder_.descriptor(), name_.c_str(), folder_.descriptor(), temporary_.c_str()) != 0)
     throw cannot_write(path(), errno);
   return file_ = open_file(folder_, temporary_, O_RDWR);
-}
-
-void PartialPath::take_place() {
-  folder_.require_lock();
-  const std::string partial = name_ + ".partial";
-  if (::renameat(folder_.descriptor(), temporary_.c_str(), folder_.descriptor(), partial.c_str()) != 0)
-    throw cannot_write(path(), errno);
-  temporary_ = partial;
-  kept_ = true;
-  if (const int failure = failure_to_sync(::fsync(folder_.descriptor())); failure != 0)
-    throw cannot_write(path(), failure);
-  ::unlinkat(folder_.descriptor(), name_.c_str(), 0);  // what is there under the other name is no longer needed
 }
 
 void PartialPath::sync() {

@@ -22,7 +22,6 @@ struct FileMark {
 class PartialPath {
  public:
   PartialPath(Folder folder, std::string name);  // NAME.partial
-  PartialPath(Folder folder, std::string name, std::string temporary);
   explicit PartialPath(const std::filesystem::path& path);
   ~PartialPath();
   PartialPath(const PartialPath&) = delete;
@@ -38,11 +37,9 @@ class PartialPath {
   // What an earlier run has left under the temporary name, or else under the final one, which it then no longer has; to
   // be written on. Throws Error where there is neither, and for what is not a file: a pipe, a folder.
   int reopen();
-  void sync();  // what has been written to it is on the disk
+  void sync();  // what has been written to it is on the disk then
   // Of what has been written to it. Throws Error where it cannot be read.
   FileMark mark() const;
-  // It takes the place of what an earlier run has left, as NAME.partial, and is kept from now on.
-  void take_place();
   void keep() {
     kept_ = true;
   }  // from now on the temporary stays also without commit: it holds what cannot be had again

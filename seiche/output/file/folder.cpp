@@ -22,16 +22,21 @@ Folder::Folder(const std::filesystem::path& path) : open_(std::make_shared<Open>
 }
 
 Folder Folder::inside(const std::string& name) const {
-  require_lock();
   const auto inner = std::make_shared<Open>();
   inner->path = path() / name;
   inner->around = open_;
+  inner->descriptor = ::openat(descriptor(), name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (inner->descriptor < 0) throw Error("cannot open the folder {}: {}", inner->path.string(), std::strerror(errno));
+  return Folder(inner);
+}
+
+Folder Folder::make_inside(const std::string& name) const {
+  require_lock();
   const bool is_new = ::mkdirat(descriptor(), name.c_str(), 0777) == 0;
   if (is_new) ::fsync(descriptor());  // before anything vouches for what is in it
-  if (is_new || errno == EEXIST)
-    inner->descriptor = ::openat(descriptor(), name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (inner->descriptor < 0) throw Error("cannot make the folder {}: {}", inner->path.string(), std::strerror(errno));
-  return Folder(inner);
+  if (!is_new && errno != EEXIST)
+    throw Error("cannot make the folder {}: {}", (path() / name).string(), std::strerror(errno));
+  return inside(name);
 }
 
 const Folder::Open& Folder::locked() const {

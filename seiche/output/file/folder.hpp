@@ -13,9 +13,11 @@ class Folder {
  public:
   explicit Folder(const std::filesystem::path& path);  // throws Error where it is not a folder, or cannot be opened
 
-  // A folder in this one, made if it is missing, and under its lock. Throws Error where the name is that of a file or a
-  // link, and where the lock is no longer ours.
+  // A folder in this one, under its lock. Throws Error where it is missing, and where the name is that of a file or a
+  // link.
   Folder inside(const std::string& name) const;
+  // The same, made if it is missing. Throws Error where the lock is no longer ours, too.
+  Folder make_inside(const std::string& name) const;
 
   const std::filesystem::path& path() const;  // by which it was opened
   int descriptor() const;

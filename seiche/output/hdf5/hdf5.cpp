@@ -2,7 +2,6 @@
 #include <seiche/output/file/folder_open.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/hdf5/hdf5_calls.hpp>
-#include <seiche/output/hdf5/hdf5_driver.hpp>
 #include <seiche/output/hdf5/hdf5_whole.hpp>
 
 #include <fcntl.h>
@@ -91,21 +90,6 @@ void Hdf5Dataset::append(std::span<const double> rows) {
   hdf5_check(H5Dwrite(id(), H5T_NATIVE_DOUBLE, memory.id(), place.id(), H5P_DEFAULT, rows.data()), what);
 }
 
-void Hdf5Dataset::write_in_place(std::uint64_t first, std::span<const double> rows) {
-  const Hdf5Quiet quiet;
-  const std::string what =
-      fmt::format("cannot write rows {} to {} of {}", first, first + rows.size() / row_size(), name_);
-  std::vector<double> whole(chunk().front() * row_size(), 0.0);
-  std::copy(rows.begin(), rows.end(), whole.begin());
-  shape_[0] = first + rows.size() / row_size();
-  hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), what);
-  std::vector<hsize_t> corner(shape_.size(), 0);
-  corner[0] = first;
-  constexpr std::uint32_t no_filter = 0xffffffff;
-  hdf5_check(H5Dwrite_chunk(id(), H5P_DEFAULT, no_filter, corner.data(), whole.size() * sizeof(double), whole.data()),
-             what);
-}
-
 Hdf5Shape Hdf5Dataset::chunk() const {
   const std::string what = fmt::format("{} has no chunks", name_);
   const Hdf5Handle options = hdf5_handle(H5Dget_create_plist(id()), H5Pclose, what);
@@ -147,13 +131,6 @@ void Hdf5Dataset::append_chunks(const Hdf5Dataset& from, std::uint64_t first, st
     while (next_corner());
 }
 
-void Hdf5Dataset::cut(std::uint64_t rows) {
-  const Hdf5Quiet quiet;
-  if (rows >= shape_[0]) return;
-  shape_[0] = rows;
-  hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), fmt::format("cannot cut {}", name_));
-}
-
 void Hdf5Dataset::read(std::uint64_t first, std::span<double> values) const {
   const Hdf5Quiet quiet;
   const std::uint64_t count = values.size() / std::max<std::uint64_t>(row_size(), 1);
@@ -184,17 +161,12 @@ Hdf5Handle creation() {
   return options;
 }
 
+// By the descriptor: the path of the file may lead elsewhere by now.
+std::string path_of(int file) { return fmt::format("/proc/self/fd/{}", file); }
+
 }  // namespace
 
 Hdf5File Hdf5File::create(int file, const std::filesystem::path& path) {
-  const Hdf5Quiet quiet;
-  const Hdf5Handle access = ordered_file_access(file);
-  return Hdf5File(path, hdf5_handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation().id(), access.id()), H5Fclose,
-                                    fmt::format("cannot write {}", path.string())));
-}
-
-// By the descriptor: the path may lead elsewhere by now.
-Hdf5File Hdf5File::create_plain(int file, const std::filesystem::path& path) {
   const Hdf5Quiet quiet;
   const std::string what = fmt::format("cannot write {}", path.string());
   const Hdf5Handle access = hdf5_handle(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
@@ -202,9 +174,8 @@ Hdf5File Hdf5File::create_plain(int file, const std::filesystem::path& path) {
 #if H5_VERSION_GE(1, 10, 7)
   H5Pset_file_locking(access.id(), false, true);  // the folder is locked
 #endif
-  const std::string opened = fmt::format("/proc/self/fd/{}", file);
-  return Hdf5File(path,
-                  hdf5_handle(H5Fcreate(opened.c_str(), H5F_ACC_TRUNC, creation().id(), access.id()), H5Fclose, what));
+  return Hdf5File(path, hdf5_handle(H5Fcreate(path_of(file).c_str(), H5F_ACC_TRUNC, creation().id(), access.id()),
+                                    H5Fclose, what));
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
@@ -213,19 +184,14 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
                                     fmt::format("cannot read {}", path.string())));
 }
 
-Hdf5File Hdf5File::open(const Folder& folder, const std::string& name, bool to_write) {
+Hdf5File Hdf5File::open(const Folder& folder, const std::string& name) {
   const Hdf5Quiet quiet;
   const std::filesystem::path path = folder.path() / name;
-  const std::string what = fmt::format("cannot {} {}", to_write ? "write" : "read", path.string());
-  const int file = open_file(folder, name, to_write ? O_RDWR : O_RDONLY);
-  const Hdf5Handle access = ordered_file_access(file);
-  const Hdf5Handle::Id opened = H5Fopen(path.c_str(), to_write ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access.id());
-  ::close(file);  // the driver has its own
-  return Hdf5File(path, hdf5_handle(opened, H5Fclose, what));
+  const int file = open_file(folder, name, O_RDONLY);
+  const Hdf5Handle::Id opened = H5Fopen(path_of(file).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ::close(file);  // HDF5 has its own
+  return Hdf5File(path, hdf5_handle(opened, H5Fclose, fmt::format("cannot read {}", path.string())));
 }
-
-Hdf5File Hdf5File::open(const Folder& folder, const std::string& name) { return open(folder, name, false); }
-Hdf5File Hdf5File::open_to_write(const Folder& folder, const std::string& name) { return open(folder, name, true); }
 
 void Hdf5File::make_group(const std::string& name) {
   const Hdf5Quiet quiet;

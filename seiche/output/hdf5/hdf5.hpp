@@ -50,14 +50,9 @@ class Hdf5Dataset {
   std::uint64_t row_size() const;  // values in one row, which is what belongs to one index of the first axis
 
   void append(std::span<const double> rows);  // whole rows, behind the last one
-  // Whole rows from `first` on, with which a chunk begins, and no more than it holds; the last ones of the data set
-  // from now on. The chunk stays uncompressed and where it is, however often it is written. Its rows must not be
-  // divided among chunks.
-  void write_in_place(std::uint64_t first, std::span<const double> rows);
   // Rows of a data set of the same layout, behind the last one, as the bytes that they are there, compressed or not.
   // They fill chunks, there and here.
   void append_chunks(const Hdf5Dataset& from, std::uint64_t first, std::uint64_t rows);
-  void cut(std::uint64_t rows);  // those behind are gone
   // Whole rows from `first` on, as many as `values` holds.
   void read(std::uint64_t first, std::span<double> values) const;
 
@@ -78,12 +73,9 @@ struct Hdf5Layout {
 
 class Hdf5File {
  public:
-  // Into an open file, which can be read whenever the program ends, with the rows of the last flush (hdf5_driver.hpp).
-  static Hdf5File create(int file, const std::filesystem::path& path);
-  static Hdf5File open_to_write(const Folder& folder, const std::string& name);  // likewise
   // Into an open file, by HDF5's own driver: it can be read once it is closed. What fills a chunk goes there at once,
   // so that the same calls leave the same bytes.
-  static Hdf5File create_plain(int file, const std::filesystem::path& path);
+  static Hdf5File create(int file, const std::filesystem::path& path);
   static Hdf5File open(const std::filesystem::path& path);  // to be read
   static Hdf5File open(const Folder& folder, const std::string& name);
 
@@ -97,12 +89,10 @@ class Hdf5File {
 
   Hdf5Handle::Id id() const { return handle_.id(); }
   void flush();
-  void close();                        // after all of its data sets
-  void abandon() { handle_.close(); }  // as close, and never throws
+  void close();  // after all of its data sets
 
  private:
   explicit Hdf5File(std::filesystem::path path, Hdf5Handle handle);
-  static Hdf5File open(const Folder& folder, const std::string& name, bool to_write);
   void refuse_link(const std::string& name) const;
 
   std::filesystem::path path_;

@@ -6,8 +6,8 @@
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/output/csv_table.hpp>
-#include <seiche/output/run_folder.hpp>
 #include <seiche/output/solution_reader.hpp>
+#include <seiche/record/run_folder.hpp>
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/study/audit/audit.hpp>
 #include <seiche/study/audit/audit_book.hpp>
@@ -162,25 +162,14 @@ class Auditor {
               same ? "the case that it holds says the same" : "the case that it holds says something else");
   }
 
-  // Of a run that was killed final.txt is that of the end where it came so far, and else the last state in solution.h5,
-  // behind which energy.csv may go on.
   void final_state() {
-    const std::string claim =
-        is_whole() ? "the last H is that of final.txt" : "the last H of energy.csv or solution.h5 is that of final.txt";
-    if (!is_whole() && !std::filesystem::exists(directory_ / "final.txt"))
-      return book_.add(claim, Verdict::not_checked, "the run was killed before it left a state");
     const EnergyTerms end = energies_.of(read_initial_file(directory_ / "final.txt", problem_));
-    double last = H_.back();
-    if (!is_whole() && has_states()) {
-      const std::vector<double> in_solution = SolutionReader(directory_ / "solution.h5").energies();
-      const bool is_nearer =
-          !in_solution.empty() && std::abs(end.sum() - in_solution.back()) < std::abs(end.sum() - last);
-      if (is_nearer) last = in_solution.back();
-    }
-    book_.compare(claim, end.sum(), last, std::max(round_off_, end.round_off()));
+    book_.compare("the last H is that of final.txt", end.sum(), H_.back(), std::max(round_off_, end.round_off()));
   }
-  bool is_whole() const { return summary_.value("status", Json()) != "unfinished"; }
-  bool has_states() const { return is_whole() || std::filesystem::exists(directory_ / "solution.h5"); }
+  // A run whose disk was full may have left none.
+  bool has_states() const {
+    return summary_.value("status", Json()) != "failed" || std::filesystem::exists(directory_ / "solution.h5");
+  }
 
   // H of every state in solution.h5 against the H beside it, and against energy.csv where that has the time too.
   void snapshots() {
@@ -270,7 +259,7 @@ class Auditor {
 
   // Between two rows of a file no step rises by more than the largest rise of a step.
   void largest_rise(double written) {
-    if (increases_.of_all || !is_whole())
+    if (increases_.of_all)
       return book_.compare("energy.max_increase of summary.json is the largest of energy.csv and solution.h5",
                            increases_.H, written, 0);
     const double most = std::max(1.0, written > 0 ? steps_between_rows() : 1.0) * written + 50 * epsilon * largest_;
@@ -386,25 +375,6 @@ void require_plain_files(const std::filesystem::path& directory) {
   }
 }
 
-// Of a run that ended before its first row `seiche recover` leaves these two.
-Audit audit_of_nothing(const Json& summary, const RunSpec& spec) {
-  AuditBook book;
-  std::vector<std::string> differences;
-  if (summary["method"] != spec.method)
-    differences.push_back(
-        fmt::format("method = {} in case.toml and {} in summary.json", spec.method, summary["method"].dump()));
-  book.add_differences("case.toml and summary.json are of one run", differences, spec.method);
-  book.add("energy.csv has the rows of this run, one after the other", Verdict::not_checked,
-           "the run ended before it had written one");
-  return book.audit();
-}
-
-bool is_without_rows(const std::filesystem::path& directory) {
-  if (std::filesystem::exists(directory / "energy.csv") || !std::filesystem::exists(directory / "summary.json"))
-    return false;
-  return summary_of(directory / "summary.json").value("status", Json()) == "unfinished";
-}
-
 }  // namespace
 
 bool Audit::confirms() const {
@@ -419,13 +389,12 @@ bool Audit::confirms() const {
 Audit audit(const std::filesystem::path& directory) {
   if (!std::filesystem::is_directory(directory)) throw Error("{} is no directory of a run", directory.string());
   require_plain_files(directory);
-  require_recovered(directory);
+  require_ended(directory);
   if (look_at(directory / "case.toml").kind == InputKind::missing)
     throw Error("{} is no directory of a finished run: it has no case.toml", directory.string());
   if (std::filesystem::exists(directory / "solution.h5")) require_readable(directory / "solution.h5");
   std::string lost;
   RunSpec spec = case_of_run(directory, lost);
-  if (is_without_rows(directory)) return audit_of_nothing(summary_of(directory / "summary.json"), spec);
   return spec.ensemble ? audit_ensemble(directory, spec) : Auditor(directory, std::move(spec), lost).run();
 }
 

@@ -7,7 +7,7 @@
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/study/audit/audit_book.hpp>
 #include <seiche/study/audit/audit_ensemble.hpp>
-#include <seiche/study/killed_ensemble.hpp>
+#include <seiche/study/member_counts.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -119,15 +119,6 @@ void compare_origin(AuditBook& book, const RunSpec& spec, const CsvTable& energy
     differences.push_back(fmt::format("t = {} in summary.json and {} in energy.csv", number("t"), t));
   book.add_differences("case.toml, summary.json and energy.csv are of one ensemble", differences,
                        fmt::format("{}, h = {} and {} members in all", spec.method, spec.h, spec.ensemble->count()));
-}
-
-// Of an ensemble that was killed before it wrote of its members.
-Audit audit_of_statistics(const CsvTable& energy, const Json& summary, const RunSpec& spec) {
-  AuditBook book;
-  compare_origin(book, spec, energy, summary);
-  book.add("members.csv and finals.csv agree with energy.csv", Verdict::not_checked,
-           "the ensemble was killed before both were written");
-  return book.audit();
 }
 
 class EnsembleAuditor {
@@ -316,11 +307,6 @@ class EnsembleAuditor {
 }  // namespace
 
 Audit audit_ensemble(const std::filesystem::path& directory, const RunSpec& spec) {
-  const Json summary = ensemble_summary(directory / "summary.json");
-  const bool has_members =
-      std::filesystem::exists(directory / "members.csv") && std::filesystem::exists(directory / "finals.csv");
-  if (!has_members && summary.value("status", Json()) == "unfinished")
-    return audit_of_statistics(CsvTable::read(directory / "energy.csv"), summary, spec);
   return EnsembleAuditor(directory, spec).run();
 }
 

@@ -1,8 +1,9 @@
 // The files that a run or an ensemble leaves in its folder, told from those of others by how they begin.
 #pragma once
 
+#include <seiche/output/file/folder.hpp>
+
 #include <filesystem>
-#include <string>
 
 namespace seiche {
 
@@ -15,17 +16,15 @@ inline constexpr const char* report_mark = "<meta name=\"generator\" content=\"S
 void require_own_files(const std::filesystem::path& directory, RunKind kind, bool report);
 void require_own_report(const std::filesystem::path& directory);
 
-// What a run or ensemble that did not reach its end has left and no other one would leave again: "energy.csv.partial
-// (18.2 MB) and solution.h5.partial (3.6 MB)"; "" where every run there has ended, or has not written a row.
-std::string unfinished_files(const std::filesystem::path& directory);
-// Throws Error, which says what can be done, where there are such files, or what was recovered of them.
-void require_finished(const std::filesystem::path& directory);
-// The same for those who would read them.
-void require_recovered(const std::filesystem::path& directory);
+// Throws Error, which names the ways on, where a run in the folder could go on from a checkpoint: for those who would
+// write there.
+void require_no_checkpoint(const std::filesystem::path& directory);
+// The same for those who would read what a run leaves at its end, where it has left none yet.
+void require_ended(const std::filesystem::path& directory);
 
 // Of an earlier run or ensemble everything but its pictures and fftw_wisdom: a program that is killed must not leave
 // its case beside another one's results.
-void remove_earlier_results(const std::filesystem::path& directory);
+void remove_earlier_results(const Folder& folder);
 void remove_own_report(const std::filesystem::path& directory);
 
 }  // namespace seiche

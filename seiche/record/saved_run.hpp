@@ -1,12 +1,12 @@
-// What a checkpoint of a case holds, and the two files in which a run keeps it.
+// What a checkpoint of a case holds: how far its files had come, and what a resume says of the run so far.
 #pragma once
 
 #include <seiche/core/control/archive.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/file/sha256.hpp>
-#include <seiche/output/solution_file.hpp>
 #include <seiche/output/summary.hpp>
 #include <seiche/record/checkpoint_file.hpp>
+#include <seiche/record/solution_file.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -21,13 +21,12 @@ struct SavedRun {
   std::string case_text;                  // as case.toml
   FileHashes hashes;                      // of that, and of the files that it names
   std::vector<std::string> notes;         // what was said before the first step
-  std::vector<double> resumed_at;         // times at which it had gone on from a checkpoint itself
-  std::vector<ResumedWith> resumed_with;  // likewise, one for each of them
+  std::vector<ResumedWith> resumed_with;  // where it had gone on from a checkpoint itself, and with what
   std::optional<double> new_end;          // of case_text, where a resume has put it there and no step was taken yet
   double t = 0.0;
   std::int64_t steps = 0;
   EnergyTrace::Mark energies;
-  SolutionFile::Mark solution;
+  std::optional<SolutionFile::Mark> solution;  // none of an ensemble
   void archive(Archive& a);
 };
 

@@ -9,12 +9,12 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/output/solution_file.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/output/xdmf.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/truss.hpp>
+#include <seiche/record/solution_file.hpp>
 #include <seiche/study/audit/audit.hpp>
 
 #include <algorithm>
@@ -194,8 +194,7 @@ TEST_F(Solution, IsThereWholeOrNotAtAll) {
     observe(solution, problem, 0);
     EXPECT_FALSE(fs::exists(file()));
   }
-  EXPECT_FALSE(fs::exists(file()));
-  EXPECT_EQ(SolutionReader(file().string() + ".partial").count(), 1) << "of one with a row everything";
+  EXPECT_TRUE(fs::is_empty(directory)) << "nor of one that was not finished";
   {
     SolutionFile solution(Folder(directory), problem, space, {}, false);
     observe(solution, problem, 0);
@@ -208,110 +207,6 @@ TEST_F(Solution, IsThereWholeOrNotAtAll) {
   EXPECT_EQ(SolutionReader(file()).text("status"), "interrupted");
   EXPECT_EQ(SolutionReader(file()).text("message"), "stopped");
   EXPECT_THAT(text("solution.xdmf"), HasSubstr("solution.h5:/q"));
-}
-
-TEST_F(Solution, WhatWasComputedIsReadableBeforeTheEnd) {
-  const Problem problem = klein_gordon({.grid = {.points = {2048}, .length = {2.0}}});
-  const HalvingSpace space(problem.size());
-  SolutionFile solution(Folder(directory), problem, space, {}, false);
-  for (Index k = 0; k < 100; ++k) observe(solution, problem, k);
-  fs::copy(file().string() + ".partial", directory / "killed.h5");  // as a program leaves it that is killed now
-  const SolutionReader left(directory / "killed.h5");
-  EXPECT_EQ(left.count(), 96) << "twelve whole chunks of 8 rows";
-  EXPECT_EQ(left.text("status"), "unfinished");
-}
-
-// Half a chunk, more of it, all of it, and one that is full at once.
-TEST_F(Solution, AChunkThatIsWrittenBeforeItIsFullStaysWhereItIs) {
-  constexpr std::uint64_t rows = 512, values = 64;
-  std::vector<double> all(2 * rows * values);
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::sin(static_cast<double>(i));
-  const Folder folder(directory);
-  PartialPath path(folder, "x.h5");
-  Hdf5File h5 = Hdf5File::create(path.open(), path.temporary());
-  {
-    Hdf5Dataset u = h5.make_dataset("u", {.row = {values}, .chunk = {rows, values}});
-    h5.flush();
-    std::vector<std::uintmax_t> sizes;
-    for (const std::uint64_t count : {std::uint64_t{7}, rows / 2, rows}) {
-      u.write_in_place(0, {all.data(), count * values});
-      h5.flush();
-      sizes.push_back(fs::file_size(path.temporary()));
-      const Hdf5File read = Hdf5File::open(path.temporary());
-      std::vector<double> back(count * values);
-      read.dataset("u").read(0, back);
-      EXPECT_TRUE(std::equal(back.begin(), back.end(), all.begin())) << count;
-    }
-    EXPECT_EQ(sizes.front(), sizes.back());
-    u.append(std::span(all).subspan(rows * values));
-  }
-  h5.close();
-  std::vector<double> back(all.size());
-  Hdf5File::open(path.temporary()).dataset("u").read(0, back);
-  EXPECT_EQ(back, all);
-}
-
-// Where one row comes at once, and the next after hours.
-TEST_F(Solution, ARowReachesTheDiskSoonAlsoWhereNoOtherOneFollows) {
-  const Problem problem = oscillator({});
-  const HalvingSpace space(problem.size());
-  ::setenv("SEICHE_FLUSH_SECONDS", "1e-6", 1);
-  SolutionFile solution(Folder(directory), problem, space, {}, false);
-  ::unsetenv("SEICHE_FLUSH_SECONDS");
-  observe(solution, problem, 0);
-  for (Index n = 1; n < 1000; ++n) solution.pass({.z = {}, .t = 0, .n = n});
-  EXPECT_EQ(SolutionReader(file().string() + ".partial").count(), 1);
-}
-
-TEST_F(Solution, ItsBytesDoNotTellWhenItsRowsWereWritten) {
-  for (const Problem& problem : {oscillator({}), klein_gordon({.grid = {.points = {64}, .length = {2.0}}}), plane()}) {
-    const auto bytes_with = [&](const char* flush_seconds) {
-      if (flush_seconds != nullptr) ::setenv("SEICHE_FLUSH_SECONDS", flush_seconds, 1);
-      const HalvingSpace space(problem.size());
-      SolutionFile solution(Folder(directory), problem, space, {}, true, {.texts = {{"case", "of some kind"}}});
-      ::unsetenv("SEICHE_FLUSH_SECONDS");
-      for (Index k = 0; k < 1500; ++k) observe(solution, problem, k);
-      solution.finish({});
-      const std::string finished = text("solution.h5");
-      solution.settle();
-      const std::string settled = text("solution.h5");
-      EXPECT_EQ(finished == settled, flush_seconds == nullptr);
-      EXPECT_EQ(std::distance(fs::directory_iterator(directory), fs::directory_iterator()), 1);
-      return settled;
-    };
-    EXPECT_TRUE(bytes_with(nullptr) == bytes_with("0")) << problem.name;
-  }
-}
-
-// As a program leaves it that is killed between two of them.
-TEST_F(Solution, AReaderCountsTheTimesForWhichAllIsThere) {
-  write(klein_gordon({.grid = {.points = {8}, .length = {2.0}}}), 6);
-  const Folder folder(directory);
-  {
-    Hdf5File h5 = Hdf5File::open_to_write(folder, "solution.h5");
-    h5.dataset("t").cut(5);
-    h5.dataset("v").cut(4);
-    set_attribute(h5.id(), "status", "unfinished");
-  }
-  {
-    const SolutionReader left(file());
-    EXPECT_EQ(left.times(), (std::vector<double>{0, 0.5, 1, 1.5}));
-    EXPECT_EQ(left.energies().size(), 4U);
-    EXPECT_EQ(left.surplus(), 1 + 2 + 2 + 2 * 8U);
-  }
-  cut_solution(folder, "solution.h5");
-  {
-    const SolutionReader cut(file());
-    EXPECT_EQ(cut.surplus(), 0U);
-    Vector values;
-    cut.state(3, values);
-    EXPECT_EQ(values, Vector::LinSpaced(16, 3000, 3015));
-  }
-  Hdf5File h5 = Hdf5File::open_to_write(folder, "solution.h5");
-  h5.dataset("v").cut(2);
-  set_attribute(h5.id(), "status", "success");
-  h5.close();
-  EXPECT_THAT(error_of([&] { SolutionReader damaged(file()); }), HasSubstr("is damaged"));
 }
 
 TEST_F(Solution, AsksForItsTimesWithAnInterval) {
@@ -519,9 +414,6 @@ TEST_F(Solution, AFullDiskEndsTheRunWithASentence) {
   EXPECT_THAT(text("stderr.txt"), HasSubstr("File too large"));
   EXPECT_THAT(text("stderr.txt"), Not(HasSubstr("HDF5"))) << "which says the same in a hundred lines";
   EXPECT_FALSE(fs::exists(directory / "out/solution.h5.partial"));
-  const SolutionReader left(directory / "out/solution.h5");
-  EXPECT_GT(left.count(), 60) << "of about a hundred rows that fit";
-  EXPECT_EQ(left.text("status"), "unfinished");
   EXPECT_THAT(text("out/summary.json"), HasSubstr("\"status\": \"failed\""));
   EXPECT_TRUE(fs::exists(directory / "out/final.txt"));
 }

@@ -1,17 +1,13 @@
 #include <seiche/core/error.hpp>
-#include <seiche/output/file/reserve_file.hpp>
-#include <seiche/output/run_folder.hpp>
-#include <seiche/output/solution_file.hpp>
-#include <seiche/output/solution_reader.hpp>
+#include <seiche/record/checkpoint_file.hpp>
+#include <seiche/record/run_folder.hpp>
+#include <seiche/record/segments.hpp>
 
-#include <fmt/ranges.h>
-
-#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <system_error>
 
 namespace seiche {
 namespace {
@@ -78,65 +74,34 @@ void require_own(const fs::path& path, bool (*is_ours)(const std::string&)) {
                 path.string());
 }
 
-std::string in_bytes(std::uintmax_t size) {
-  constexpr double kilo = 1e3, mega = 1e6;
-  const auto bytes = static_cast<double>(size);
-  if (bytes < kilo) return fmt::format("{} bytes", size);
-  return bytes < mega ? fmt::format("{:.1f} kB", bytes / kilo) : fmt::format("{:.1f} MB", bytes / mega);
-}
-
-bool holds_rows_of_text(const fs::path& path) {
-  const std::string text = beginning_of(path);
-  return std::count(text.begin(), text.end(), '\n') > 1;  // one is the header
-}
-
-// What cannot be read may hold something all the same; but without its first bytes a file has never had a row.
-bool holds_rows_of_solution(const fs::path& path) {
-  if (!is_hdf5(beginning_of(path))) return false;
-  try {
-    return SolutionReader(path).count() > 0;
-  } catch (const Error&) {
-    return true;
-  }
+// Where segments of the solution will lie; other files in that folder are left alone.
+void require_own_segments(const fs::path& directory) {
+  const fs::path inside = directory / segments_folder;
+  std::error_code none;
+  const fs::file_status status = fs::symlink_status(inside, none);
+  if (!fs::exists(status)) return;
+  if (!fs::is_directory(status))
+    throw Error("{} is in the way of a folder of that name: move it away, or take another folder", inside.string());
+  for (std::size_t n = 1; fs::exists(inside / segment_name(n), none); ++n)
+    require_own(inside / segment_name(n), is_hdf5);
 }
 
 }  // namespace
 
-std::string unfinished_files(const fs::path& directory) {
-  const auto holds_rows = [](const fs::path& path) {
-    std::error_code none;
-    if (!fs::is_regular_file(fs::symlink_status(path, none)) || fs::file_size(path, none) == 0) return false;
-    return path.stem() == "energy.csv" ? holds_rows_of_text(path) : holds_rows_of_solution(path);
-  };
-  std::vector<std::string> found;
-  for (const char* name : {"energy.csv.partial", "solution.h5.partial"})
-    if (const fs::path path = directory / name; holds_rows(path))
-      found.push_back(fmt::format("{} ({})", name, in_bytes(fs::file_size(path))));
-  return fmt::format("{}", fmt::join(found, " and "));
-}
-
-void require_finished(const fs::path& directory) {
-  const std::string files = unfinished_files(directory);
-  if (!files.empty())
+void require_no_checkpoint(const fs::path& directory) {
+  if (!checkpoints_in(directory).empty())
     throw Error(
-        "{0} holds a run that did not finish, {1}: `seiche recover {0}` makes it readable, `seiche run` with "
-        "--restart removes it and begins anew, and another folder keeps both",
-        directory.string(), files);
-  if (fs::exists(directory / "energy.csv") &&
-      beginning_of(directory / "summary.json").starts_with("{\n  \"status\": \"unfinished\""))
-    throw Error(
-        "{} holds what `seiche recover` saved of a run that did not finish: take another folder, or "
-        "`seiche run` with --restart, which removes it and begins anew",
+        "{0} holds a checkpoint of a run that did not reach its end: `seiche resume {0}` goes on from it, `seiche run` "
+        "with --restart removes it and begins anew, and another folder keeps both",
         directory.string());
 }
 
-void require_recovered(const fs::path& directory) {
-  const std::string files = unfinished_files(directory);
-  if (!files.empty())
+void require_ended(const fs::path& directory) {
+  if (!fs::exists(directory / "summary.json") && !checkpoints_in(directory).empty())
     throw Error(
-        "{0} holds a run that is going on, or did not finish, {1}: in the latter case `seiche recover "
-        "{0}` makes it readable",
-        directory.string(), files);
+        "{0} holds a run that is going on, or was killed: in the latter case `seiche resume {0}` goes on from its "
+        "checkpoint, and `seiche recover {0}` makes readable what it vouches for",
+        directory.string());
 }
 
 void require_own_report(const fs::path& directory) { require_own(directory / "report.html", is_report); }
@@ -144,6 +109,7 @@ void require_own_report(const fs::path& directory) { require_own(directory / "re
 void require_own_files(const fs::path& directory, RunKind kind, bool report) {
   for (const RunFile& file : files)
     if (kind == RunKind::run ? file.of_run : file.of_ensemble) require_own(directory / file.name, file.is_ours);
+  if (kind == RunKind::run) require_own_segments(directory);
   if (report) require_own_report(directory);
 }
 
@@ -153,16 +119,19 @@ void remove_own_report(const fs::path& directory) {
   if (!is_foreign(path, is_report)) fs::remove(path, ignored);
 }
 
-void remove_earlier_results(const fs::path& directory) {
-  // Without a case of ours nothing beside it is known to be ours, whatever it is called.
-  if (!fs::exists(directory / "case.toml") || is_foreign(directory / "case.toml", is_settled_case)) return;
+void remove_earlier_results(const Folder& folder) {
+  // Without a case or a checkpoint of ours nothing beside it is known to be ours, whatever it is called.
+  const fs::path& directory = folder.path();
+  const bool has_case = fs::exists(directory / "case.toml") && !is_foreign(directory / "case.toml", is_settled_case);
+  if (!has_case && checkpoints_in(directory).empty()) return;
   std::error_code ignored;
   for (const RunFile& file : files) {
     const fs::path path = directory / file.name;
     if (!is_foreign(path, file.is_ours)) fs::remove(path, ignored);
     fs::remove(path.string() + ".partial", ignored);  // of a run that was killed
   }
-  for (const char* name : {reserve_name, settling_name}) fs::remove(directory / name, ignored);
+  remove_checkpoints(folder);
+  remove_segments(folder);
 }
 
 }  // namespace seiche

@@ -1,5 +1,5 @@
 #include <seiche/core/error.hpp>
-#include <seiche/driver/saved_run.hpp>
+#include <seiche/record/saved_run.hpp>
 
 #include <fmt/ranges.h>
 
@@ -26,10 +26,9 @@ void SavedRun::archive(Archive& a) {
     files.push_back(file);
     sums.push_back(sum);
   }
-  a(versions, case_text, files, sums, notes, resumed_at, resumed_with, new_end, t, steps, energies, solution);
+  a(versions, case_text, files, sums, notes, resumed_with, new_end, t, steps, energies, solution);
   for (std::size_t i = 0; i < std::min(files.size(), sums.size()); ++i) hashes[files[i]] = sums[i];
-  a.require(solution.in_last <= solution.rows && files.size() == sums.size() &&
-            resumed_at.size() == resumed_with.size());
+  a.require(files.size() == sums.size());
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
@@ -66,7 +65,7 @@ std::string case_of_checkpoint(const std::filesystem::path& directory) {
 
 std::string complaint_about(const Folder& folder, const SavedRun& run) {
   std::string of_energies = EnergyTrace::complaint(folder, run.energies);
-  return of_energies.empty() ? SolutionFile::complaint(folder, run.solution) : of_energies;
+  return of_energies.empty() && run.solution ? complaint_about(folder, run.solution->rows) : of_energies;
 }
 
 Checkpoint newest_checkpoint(const Folder& folder, std::vector<std::string>& notes) {

@@ -1,0 +1,101 @@
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/core/error.hpp>
+#include <seiche/core/text/input_file.hpp>
+#include <seiche/driver/case_record.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace seiche {
+namespace {
+
+std::vector<std::string> lines_of(const std::map<std::string, std::string>& versions) {
+  std::vector<std::string> lines;
+  for (const auto& [name, version] : versions) lines.push_back(fmt::format("{} {}", name, version));
+  return lines;
+}
+
+}  // namespace
+
+CaseRecord::CaseRecord(const RunSpec& spec, RunKind kind, const std::string& headline, std::vector<std::string> notes,
+                       const RunCaseOptions& options)
+    : options_(options),
+      versions_(all_versions(options)),
+      notes_(std::move(notes)),
+      case_text_(write_case(spec)),
+      hashes_(hashes_of(spec, case_text_)),
+      stop_(begin_run(options)),
+      own_folder_(std::in_place, spec.output_directory, kind, spec, options.restart),
+      folder_(&*own_folder_) {
+  if (options_.introduce) options_.introduce(headline, notes_);
+}
+
+CaseRecord::CaseRecord(GoingOn& from, const std::string& headline, const RunCaseOptions& options)
+    : options_(options),
+      versions_(all_versions(options)),
+      notes_(from.from.run.notes),
+      case_text_(from.new_end ? write_case(from.spec) : from.from.run.case_text),
+      hashes_(from.from.run.hashes),
+      from_(&from),
+      folder_(from.folder.get()) {
+  const SavedRun& saved = from.from.run;
+  hashes_["case.toml"] = sha256(case_text_);
+  std::vector<std::string> said = {
+      fmt::format("going on from {}, t = {:.9g} (step {})", from.from.name, saved.t, saved.steps)};
+  for (const std::string& version : lines_of(versions_))
+    if (std::find(saved.versions.begin(), saved.versions.end(), version) == saved.versions.end())
+      said.push_back(fmt::format("the checkpoint was not written by {}: last bits may differ", version));
+  notes_.insert(notes_.end(), said.begin() + 1, said.end());
+  stop_ = begin_run(options);
+  if (options_.introduce) options_.introduce(headline, said);
+}
+
+void CaseRecord::put_new_end() const {
+  if (from_->new_end) write_new_end(folder(), case_text_, *from_->new_end);
+}
+
+void CaseRecord::take_over() {
+  const std::filesystem::path path = folder().path() / "case.toml";
+  const std::string found = text_of_file(path);
+  if (found != case_text_ && found != from_->from.run.case_text) {
+    const bool is_there = look_at(path).kind != InputKind::missing;
+    notes_.push_back(is_there ? fmt::format("case.toml was not that of the checkpoint, which counts: it is {} now",
+                                            put_aside(folder(), "case.toml", "case_before_resume.toml"))
+                              : "case.toml was missing: it is that of the checkpoint again");
+    if (options_.warn) options_.warn(notes_.back());
+  }
+  if (found != case_text_) write_file(folder(), "case.toml", case_text_);
+  promote_checkpoint(folder(), from_->from.name);
+  for (const char* name : {"summary.json", "final.txt", "solution.h5", "solution.xdmf", "members.csv", "finals.csv"})
+    remove_file(folder(), name);
+  if (folder().is_at_its_path()) remove_own_report(folder().path());
+}
+
+SavedRun CaseRecord::now(double t, std::int64_t steps) const {
+  SavedRun saved{.versions = lines_of(versions_),
+                 .case_text = case_text_,
+                 .hashes = hashes_,
+                 .notes = notes_,
+                 .resumed_with = resumed_with(),
+                 .new_end = {},
+                 .t = t,
+                 .steps = steps,
+                 .energies = {},
+                 .solution = {}};
+  if (from_ != nullptr && !goes_on()) saved.new_end = from_->from.run.new_end;
+  return saved;
+}
+
+std::vector<ResumedWith> CaseRecord::resumed_with() const {
+  if (from_ == nullptr) return {};
+  const SavedRun& saved = from_->from.run;
+  std::vector<ResumedWith> all = saved.resumed_with;
+  if (goes_on())
+    all.push_back({.t = saved.t, .versions = versions_, .end = from_->new_end ? from_->new_end : saved.new_end});
+  return all;
+}
+
+}  // namespace seiche

@@ -1,0 +1,55 @@
+// What the record of a run and that of an ensemble have in common: the folder with its case, what was said before the
+// first step, and what the run went on from.
+#pragma once
+
+#include <seiche/driver/going_on.hpp>
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace seiche {
+
+class CaseRecord {
+ public:
+  // From the start: makes the folder that the case names. `notes`: what there is to say before the first step.
+  CaseRecord(const RunSpec& spec, RunKind kind, const std::string& headline, std::vector<std::string> notes,
+             const RunCaseOptions& options);
+  // From a checkpoint, which outlives the record: nothing on the disk is changed before `take_over`.
+  CaseRecord(GoingOn& from, const std::string& headline, const RunCaseOptions& options);
+
+  const Folder& folder() const { return folder_->folder(); }
+  const std::atomic<bool>& stop() const { return *stop_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+  const FileHashes& hashes() const { return hashes_; }
+  const std::map<std::string, std::string>& versions() const { return versions_; }
+  const SavedRun* saved() const { return from_ != nullptr ? &from_->from.run : nullptr; }  // null: from the start
+  Archive* rest() const { return from_ != nullptr ? &from_->from.rest : nullptr; }
+
+  // Makes the folder that of a run that goes on. First, and before any file is opened: the new end in its checkpoints.
+  void put_new_end() const;
+  // Then what tells of the end of before goes, and case.toml is that of the checkpoint; another one is kept aside.
+  void take_over();
+
+  // What a checkpoint holds beside what is known to the time loop and to the files of the run.
+  SavedRun now(double t, std::int64_t steps) const;
+  std::vector<ResumedWith> resumed_with() const;
+
+ private:
+  bool goes_on() const { return from_ != nullptr && !options_.stops_at_once; }
+
+  const RunCaseOptions& options_;
+  std::map<std::string, std::string> versions_;
+  std::vector<std::string> notes_;
+  std::string case_text_;  // of case.toml
+  FileHashes hashes_;
+  const std::atomic<bool>* stop_ = nullptr;
+  GoingOn* from_ = nullptr;
+  std::optional<CaseFolder> own_folder_;  // of a run from the start
+  CaseFolder* folder_;
+};
+
+}  // namespace seiche
