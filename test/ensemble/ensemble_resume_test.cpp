@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -111,8 +111,7 @@ void expect_same(const EnsembleResult& one, const EnsembleResult& other, const s
     EXPECT_EQ(a.replaced.count, b.replaced.count) << where;
     const Vector &y = one.members[m].final, &z = other.members[m].final;
     ASSERT_EQ(y.size(), z.size()) << where;
-    EXPECT_EQ(std::memcmp(y.data(), z.data(), sizeof(double) * static_cast<std::size_t>(y.size())), 0)
-        << where << " member " << m;
+    EXPECT_TRUE(std::equal(y.begin(), y.end(), z.begin())) << where << " member " << m;
   }
 }
 
