@@ -163,6 +163,8 @@ CaseResult CaseRun::result() {
   if (is_over(ended) && last_words.are_written()) {
     remove_checkpoints(folder);
     remove_segments(folder);
+  } else if (is_over(ended)) {
+    report.message += keeper_->way_on(report.t);  // which makes the summary again
   }
   return {.report = report,
           .message = with_notes(report).message,
