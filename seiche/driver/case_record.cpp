@@ -54,10 +54,11 @@ CaseRecord::CaseRecord(GoingOn& from, const std::string& headline, const RunCase
 }
 
 void CaseRecord::put_new_end() const {
-  if (from_->new_end) write_new_end(folder(), case_text_, *from_->new_end);
+  if (from_ != nullptr && from_->new_end) write_new_end(folder(), case_text_, *from_->new_end);
 }
 
 void CaseRecord::take_over() {
+  if (from_ == nullptr) return;
   const std::filesystem::path path = folder().path() / "case.toml";
   const std::string found = text_of_file(path);
   if (found != case_text_ && found != from_->from.run.case_text) {

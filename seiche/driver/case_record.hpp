@@ -18,7 +18,7 @@ class CaseRecord {
   // From the start: makes the folder that the case names. `notes`: what there is to say before the first step.
   CaseRecord(const RunSpec& spec, RunKind kind, const std::string& headline, std::vector<std::string> notes,
              const RunCaseOptions& options);
-  // From a checkpoint, which outlives the record: nothing on the disk is changed before `take_over`.
+  // From a checkpoint, which outlives the record: nothing on the disk is changed before the next two.
   CaseRecord(GoingOn& from, const std::string& headline, const RunCaseOptions& options);
 
   const Folder& folder() const { return folder_->folder(); }
@@ -29,9 +29,11 @@ class CaseRecord {
   const SavedRun* saved() const { return from_ != nullptr ? &from_->from.run : nullptr; }  // null: from the start
   Archive* rest() const { return from_ != nullptr ? &from_->from.rest : nullptr; }
 
-  // Makes the folder that of a run that goes on. First, and before any file is opened: the new end in its checkpoints.
+  // These make the folder that of a run that goes on, and do nothing for one from the start. Before its files are
+  // opened: a new end is put into its checkpoints.
   void put_new_end() const;
-  // Then what tells of the end of before goes, and case.toml is that of the checkpoint; another one is kept aside.
+  // When they are: what tells of the end of before goes, and case.toml is that of the checkpoint; another one is kept
+  // aside.
   void take_over();
 
   // What a checkpoint holds beside what is known to the time loop and to the files of the run.

@@ -125,9 +125,9 @@ CaseResult CaseRun::result() {
   Simulation& simulation = run_.simulation();
   const auto summary = [this](const RunReport& report) { return this->summary(report); };
   LastWords last_words(folder, simulation, summary);
-  if (record_.saved() != nullptr) record_.put_new_end();
+  record_.put_new_end();
   make_files();
-  if (record_.saved() != nullptr) record_.take_over();
+  record_.take_over();
   if (spec_.ledger) simulation.stepper().keep_ledger();
   const auto warn = [this](const std::string& note) { this->warn(note); };
   keeper_.emplace(folder,

@@ -1,4 +1,4 @@
-// What a run writes first when its time loop has ended: the files that cannot be made later from others.
+// What a run says at its end, behind its solution: the files that cannot be made later from others.
 #pragma once
 
 #include <seiche/core/observer.hpp>

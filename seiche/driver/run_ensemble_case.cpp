@@ -121,14 +121,14 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
                                       : CaseRecord(spec, RunKind::ensemble, line, std::move(notes), options);
   const Folder& folder = record.folder();
   const SavedRun* saved = record.saved();
-  if (saved != nullptr) record.put_new_end();
+  record.put_new_end();
   std::optional<StatisticsFile> energies;
   if (saved != nullptr) {
     energies.emplace(folder, has_modified, saved->energies.file, *record.rest());
-    record.take_over();
   } else {
     energies.emplace(folder, has_modified);
   }
+  record.take_over();
   State reached;  // by the last record
   reached.t = saved != nullptr ? saved->t : spec.t_start;
   reached.n = saved != nullptr ? saved->steps : 0;

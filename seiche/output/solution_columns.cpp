@@ -107,9 +107,7 @@ std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layo
   return columns;
 }
 
-void describe_end(Hdf5File& file, const SolutionDescription& description, const RunReport& report) {
-  for (const auto& [name, text] : description.texts)
-    if (text_attribute(file.id(), name) != text) set_attribute(file.id(), name, text);
+void describe_end(Hdf5File& file, const RunReport& report) {
   set_attribute(file.id(), "message", report.message);
   set_attribute(file.id(), "energy_law", to_string(report.law));
   set_attribute(file.id(), "status", to_string(report.status));

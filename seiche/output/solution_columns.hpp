@@ -20,7 +20,7 @@ struct SolutionDescription {
 // All but the rows, in a new file. Returns the columns: the fields, H, H_modified if there is one, and t.
 std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layout,
                                       const SolutionDescription& description, bool has_modified_energy);
-// How the run ended, and texts of the description that have become others since.
-void describe_end(Hdf5File& file, const SolutionDescription& description, const RunReport& report);
+// How the run ended.
+void describe_end(Hdf5File& file, const RunReport& report);
 
 }  // namespace seiche

@@ -1,4 +1,3 @@
-#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/summary.hpp>
 
 #include <fmt/chrono.h>
@@ -82,10 +81,6 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
   }
   // Bytes of a file name that are no UTF-8 must not turn a report into an exception.
   return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-void write_summary(const Folder& folder, const RunIdentity& run, const RunReport& report) {
-  write_file(folder, "summary.json", summary_json(run, report));
 }
 
 }  // namespace seiche

@@ -3,7 +3,6 @@
 
 #include <seiche/core/control/archive.hpp>
 #include <seiche/core/run_report.hpp>
-#include <seiche/output/file/folder.hpp>
 #include <seiche/output/file/sha256.hpp>
 
 #include <ctime>
@@ -40,6 +39,5 @@ struct RunIdentity {
 std::string resumed_json(const std::vector<ResumedWith>& all);
 // A number that is not finite becomes null, since JSON has no NaN; so does `modified` for a method that has none.
 std::string summary_json(const RunIdentity& run, const RunReport& report);
-void write_summary(const Folder& folder, const RunIdentity& run, const RunReport& report);
 
 }  // namespace seiche

@@ -43,7 +43,7 @@ bool is_settled_case(const std::string& text) {
          !text.starts_with('#') && text.find("\n#") == std::string::npos;
 }
 
-// By the case an earlier run is known, so that it goes last.
+// By the case an earlier run is known, so that it goes last of these.
 constexpr std::array files = {
     RunFile{"energy.csv", true, true, is_energies},  RunFile{"solution.h5", true, false, is_hdf5},
     RunFile{"solution.xdmf", true, false, is_xdmf},  RunFile{"final.txt", true, false, is_state},

@@ -45,6 +45,7 @@ std::string complaint_about(const Folder& folder, const SegmentsMark& mark) {
 
 void remove_segments(const Folder& folder, std::size_t kept) {
   std::error_code none;
+  if (!folder.has_lock()) return;
   if (!std::filesystem::is_directory(std::filesystem::symlink_status(path_of(folder), none))) return;
   const Folder inside = folder.inside(segments_folder);
   std::size_t last = kept;
@@ -185,7 +186,7 @@ void Segments::finish(const RunReport& report) {
     Open& last = open();
     join(last);
     write_rows(last);
-    describe_end(last.file, description_, report);
+    describe_end(last.file, report);
     last.close();
     last.path.commit();
     open_.reset();

@@ -42,8 +42,7 @@ struct SegmentsMark {
 // Why the segments of a folder are not those of the mark; "" where they are. Throws Error where one is missing, or
 // cannot be read.
 std::string complaint_about(const Folder& folder, const SegmentsMark& mark);
-// All of them but the first `kept`; and their folder, where it is empty then. Throws Error where the lock is no longer
-// ours.
+// All of them but the first `kept`; and their folder, where it is empty then. Nothing where the lock is no longer ours.
 void remove_segments(const Folder& folder, std::size_t kept = 0);
 
 class Segments {

@@ -1,10 +1,9 @@
 // An ensemble that goes on from what was saved of it ends with the same bits.
 #include <test/support/cases.hpp>
 #include <test/support/error_of.hpp>
+#include <test/support/members.hpp>
 
-#include <seiche/damping/rates.hpp>
 #include <seiche/ensemble/ensemble.hpp>
-#include <seiche/problem/sparse.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,19 +45,6 @@ std::vector<EnsembleMember> larger_and_larger(const Problem& problem, std::size_
   std::vector<EnsembleMember> members;
   for (std::size_t m = 0; m < count; ++m)
     members.push_back({shared, (1 + 0.1 * static_cast<double>(m)) * problem.initial});
-  return members;
-}
-
-// At γ = −4.25 the second one has no propagator, so that the block goes on without panels.
-std::vector<EnsembleMember> one_without_a_propagator() {
-  SparseMatrix M(2, 2);
-  M.setIdentity();
-  std::vector<EnsembleMember> members;
-  for (const double gamma : {0.1, -4.25, 0.2}) {
-    auto problem = std::make_shared<const Problem>(
-        sparse_problem({.matrices = {.S = {}, .M = M, .D = {}}, .quartic = 1.0, .gamma = constant_rate(gamma)}));
-    members.push_back({problem, problem->initial});
-  }
   return members;
 }
 

@@ -270,13 +270,6 @@ void remove_file(const Folder& folder, const std::string& name) noexcept {
   }
 }
 
-std::uintmax_t end_of_lines(const std::filesystem::path& path) {
-  const int file = open_file(Folder(path.parent_path()), path.filename().string(), O_RDONLY);
-  const std::uintmax_t end = end_of_lines(file);
-  ::close(file);
-  return end;
-}
-
 void make_directory(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);

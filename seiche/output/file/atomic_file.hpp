@@ -108,9 +108,6 @@ std::string put_aside(const Folder& folder, const std::string& name, const std::
 // Does nothing if it does not exist, or where the lock of the folder is no longer ours.
 void remove_file(const Folder& folder, const std::string& name) noexcept;
 
-// The end of the last line that has one; what is behind it was torn off by a full disk or the end of the program.
-std::uintmax_t end_of_lines(const std::filesystem::path& path);
-
 // With its parents; fine if it exists.
 void make_directory(const std::filesystem::path& path);
 
