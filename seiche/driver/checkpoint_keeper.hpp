@@ -38,7 +38,7 @@ class CheckpointKeeper : public Checkpoints {
   using Clock = std::chrono::steady_clock;
 
   Wish look(std::int64_t n) override;
-  bool is_time(double passed) const;
+  bool is_time(double now) const;
   void plan_next_look(std::int64_t n, Clock::time_point now);
   void plan_next_save(double began);
   double passed() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }

@@ -8,8 +8,8 @@
 
 namespace seiche {
 
-LastWords::LastWords(const Folder& folder, const Simulation& simulation, Summary summary)
-    : folder_(folder), simulation_(simulation), summary_(std::move(summary)) {}
+LastWords::LastWords(Folder folder, const Simulation& simulation, Summary summary)
+    : folder_(std::move(folder)), simulation_(simulation), summary_(std::move(summary)) {}
 
 void LastWords::write(const RunReport& report) {
   std::string failure;

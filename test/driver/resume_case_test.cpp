@@ -9,6 +9,7 @@
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/study/audit/audit.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -326,7 +327,7 @@ TEST_F(ResumeCase, IsNotOfferedWhereItWouldComeNoFarther) {
       "[problem]\nname = \"custom\"\nfields = [\"q\", \"p\"]\nH = \"p^2/2 - q^4/4\"\n"
       "initial = { q = \"1\", p = \"0\" }\n[time]\nend = 50\n[checkpoint]\nevery_steps = 3\n[method]\nh = \"1/8\"\n";
   for (const std::string method : {"egc4", "seisav"}) {
-    const std::string text = begin + "name = \"" + method + "\"\n";
+    const std::string text = fmt::format("{}name = \"{}\"\n", begin, method);
     const CaseResult failed = run(text, method);
     ASSERT_EQ(failed.report.status, RunReport::Status::failed) << failed.message;
     EXPECT_EQ(failed.report.step_failed, method == "seisav") << failed.message;
