@@ -30,8 +30,8 @@ struct SolutionLayout {
   // The data set that lists the points one by one: "mesh/points", or "mesh/numbers" where they lie nowhere and stand in
   // a row; "" where a line or a single point needs none.
   std::string mesh() const;
-  // Chunks of t and space: whole rows of about half a megabyte, fewer points where one row is more, and no more than
-  // 1024 rows.
+  // Chunks of t and space: rows of 128 kB together and at most 1024; where one is larger it is a chunk, or where it is
+  // larger than half a megabyte several.
   Hdf5Shape chunk() const;
 };
 

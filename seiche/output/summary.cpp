@@ -21,17 +21,6 @@ Json energy_json(const EnergySummary& energy) {
 
 }  // namespace
 
-void ResumedWith::archive(Archive& a) {
-  std::vector<std::string> names, numbers;
-  for (const auto& [name, number] : versions) {
-    names.push_back(name);
-    numbers.push_back(number);
-  }
-  a(t, names, numbers, end);
-  a.require(names.size() == numbers.size());
-  for (std::size_t i = 0; i < names.size(); ++i) versions[names[i]] = numbers[i];
-}
-
 std::string resumed_json(const std::vector<ResumedWith>& all) {
   Json found = Json::object();
   for (const ResumedWith& resumed : all) {

@@ -18,7 +18,7 @@ struct ResumedWith {
   double t = 0.0;                               // of the checkpoint
   std::map<std::string, std::string> versions;  // what computed from there on
   std::optional<double> end = std::nullopt;     // another time.end than that of the checkpoint
-  void archive(Archive& a);
+  void archive(Archive& a) { a(t, versions, end); }
 };
 
 struct RunIdentity {

@@ -3,7 +3,6 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -21,14 +20,7 @@ std::uint64_t archived_size(SavedRun run) {
 }  // namespace
 
 void SavedRun::archive(Archive& a) {
-  std::vector<std::string> files, sums;
-  for (const auto& [file, sum] : hashes) {
-    files.push_back(file);
-    sums.push_back(sum);
-  }
-  a(versions, case_text, files, sums, notes, resumed_with, new_end, t, steps, energies, solution);
-  for (std::size_t i = 0; i < std::min(files.size(), sums.size()); ++i) hashes[files[i]] = sums[i];
-  a.require(files.size() == sums.size());
+  a(versions, case_text, hashes, notes, resumed_with, new_end, t, steps, energies, solution);
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {

@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace seiche {
@@ -61,6 +63,13 @@ class Archive {
   void operator()(std::vector<T>& list) {
     list.resize(count(list.size()));
     for (T& value : list) (*this)(value);
+  }
+  template <class Key, class T>
+  void operator()(std::map<Key, T>& map) {
+    std::vector<std::pair<Key, T>> list(map.begin(), map.end());
+    list.resize(count(list.size()));
+    for (auto& [key, value] : list) (*this)(key, value);
+    map = std::map<Key, T>(list.begin(), list.end());
   }
   template <class T>
   void operator()(std::optional<T>& value) {
