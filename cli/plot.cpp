@@ -15,6 +15,7 @@
 #include <seiche/output/solution_layout.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/output/xdmf.hpp>
+#include <seiche/record/checkpoint_file.hpp>
 #include <seiche/record/run_folder.hpp>
 
 #include <unistd.h>
@@ -153,6 +154,11 @@ ExitCode plot(const PlotArguments& arguments) {
   if (holds_ensemble(arguments.directory)) return plot_ensemble(arguments, options);
   const RunFiles run = read_run(arguments.directory);
   const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
+  if (!std::filesystem::exists(run.directory / "solution.h5") && !checkpoints_in(run.directory).empty())
+    throw Error(
+        "{0} has no solution.h5, since there was no room for it: `seiche recover {0}` writes what a checkpoint vouches for, "
+        "and `seiche resume {0}` goes on from it",
+        run.directory.string());
   if (!std::filesystem::exists(run.directory / "solution.h5"))
     throw Error(
         "{0} has no solution.h5 and nothing to draw: its run ended before a state was written, or the file was removed; "

@@ -9,6 +9,7 @@
 #include <seiche/driver/going_on.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
+#include <seiche/record/run_folder.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -22,8 +23,9 @@ ExitCode recover_run(const std::string& directory) {
   const std::filesystem::path path = directory;
   if (look_at(path / "case.toml").kind == InputKind::missing && checkpoints_in(path).empty())
     throw Error("{} holds no run: there is no case.toml in it", directory);
-  if (look_at(path / "summary.json").kind != InputKind::missing) {
-    if (checkpoints_in(path).empty()) remove_segments(CaseFolder(path).folder());  // killed before they were
+  const bool has_checkpoint = !checkpoints_in(path).empty(), complete = is_complete(path);
+  if (complete || (!has_checkpoint && look_at(path / "summary.json").kind != InputKind::missing)) {
+    if (complete && !has_checkpoint) remove_segments(CaseFolder(path).folder());  // killed before they were
     print_note(fmt::format("{} holds no unfinished files: there is nothing to recover", directory));
     return success;
   }
@@ -46,7 +48,8 @@ ExitCode recover_run(const std::string& directory) {
     status = result.report.status;
     message = result.message;
   }
-  print_lines(fmt::format("{:<10} {}, up to t = {:.9g}\n", "saved", directory, t));
+  if (status != RunReport::Status::failed)
+    print_lines(fmt::format("{:<10} {}, up to t = {:.9g}\n", "saved", directory, t));
   print_lines(fmt::format("{}: {}\n", to_string(status), message));
   return status == RunReport::Status::failed ? computation_failed : success;
 }

@@ -61,7 +61,7 @@ void CaseRecord::take_over() {
   if (from_ == nullptr) return;
   const std::filesystem::path path = folder().path() / "case.toml";
   const std::string found = text_of_file(path);
-  if (found != case_text_ && found != from_->from.run.case_text) {
+  if (found != case_text_ && found != from_->from.run.case_text && !is_of_before_new_end(found)) {
     const bool is_there = look_at(path).kind != InputKind::missing;
     notes_.push_back(is_there ? fmt::format("case.toml was not that of the checkpoint, which counts: it is {} now",
                                             put_aside(folder(), "case.toml", "case_before_resume.toml"))
@@ -70,12 +70,23 @@ void CaseRecord::take_over() {
   }
   if (found != case_text_) write_file(folder(), "case.toml", case_text_);
   promote_checkpoint(folder(), from_->from.name);
-  for (const char* name : {"summary.json", "final.txt", "solution.h5", "solution.xdmf", "members.csv", "finals.csv"})
-    remove_file(folder(), name);
-  if (folder().is_at_its_path()) remove_own_report(folder().path());
+  remove_what_tells_of_end(folder());
 }
 
-SavedRun CaseRecord::now(double t, std::int64_t steps) const {
+bool CaseRecord::is_of_before_new_end(const std::string& case_text) const {
+  if (!from_->from.run.new_end) return false;
+  try {
+    RunSpec spec = parse_case(case_text, "case.toml", {}, folder().path());
+    const bool is_settled = write_case(spec) == case_text;
+    spec.t_end = from_->spec.t_end;
+    spec.output_directory = from_->spec.output_directory;
+    return is_settled && write_case(spec) == write_case(from_->spec);
+  } catch (const Error&) {  // whatever it is
+    return false;
+  }
+}
+
+SavedRun CaseRecord::now(std::int64_t n, double t) const {
   SavedRun saved{.versions = lines_of(versions_),
                  .case_text = case_text_,
                  .hashes = hashes_,
@@ -83,7 +94,7 @@ SavedRun CaseRecord::now(double t, std::int64_t steps) const {
                  .resumed_with = resumed_with(),
                  .new_end = {},
                  .t = t,
-                 .steps = steps,
+                 .steps = n,
                  .energies = {},
                  .solution = {}};
   if (from_ != nullptr && !goes_on()) saved.new_end = from_->from.run.new_end;

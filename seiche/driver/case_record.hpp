@@ -37,10 +37,12 @@ class CaseRecord {
   void take_over();
 
   // What a checkpoint holds beside what is known to the time loop and to the files of the run.
-  SavedRun now(double t, std::int64_t steps) const;
+  SavedRun now(std::int64_t n, double t) const;
   std::vector<ResumedWith> resumed_with() const;
 
  private:
+  // Of a resume that was killed when it had put a new end into its checkpoints, and not yet here.
+  bool is_of_before_new_end(const std::string& case_text) const;
   bool goes_on() const { return from_ != nullptr && !options_.stops_at_once; }
 
   const RunCaseOptions& options_;

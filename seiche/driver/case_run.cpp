@@ -135,7 +135,7 @@ CaseResult CaseRun::result() {
                                             .asked = options_.save,
                                             .hours = options_.max_hours,
                                             .stops_at_once = options_.stops_at_once,
-                                            .now = [this] { return now(); },
+                                            .now = [this](std::int64_t n, double t) { return now(n, t); },
                                             .warn = warn},
                   record_.saved());
   const std::atomic<bool>* leave = nullptr;
@@ -196,9 +196,8 @@ void CaseRun::make_files() {
 }
 
 // The order matters: what a checkpoint vouches for is on the disk before it is.
-SavedRun CaseRun::now() {
-  const State& state = run_.simulation().state();
-  SavedRun saved = record_.now(state.t, state.n);
+SavedRun CaseRun::now(std::int64_t n, double t) {
+  SavedRun saved = record_.now(n, t);
   saved.solution = solution_->mark();
   saved.energies = trace_->mark();
   return saved;

@@ -30,7 +30,7 @@ class CaseRun {
                                 GoingOn* from);
   void make_files();
   void warn(const std::string& note) const;
-  SavedRun now();
+  SavedRun now(std::int64_t n, double t);
 
   // No resume comes farther: the run reached its end, or a step failed, and all files are whole.
   bool is_over(const RunReport& report) const;

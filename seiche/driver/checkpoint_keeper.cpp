@@ -44,10 +44,11 @@ Checkpoints::Wish CheckpointKeeper::look(std::int64_t n) {
 
 bool CheckpointKeeper::is_time(double now) const { return options_.when.every_seconds != 0.0 && now >= next_save_; }
 
-// In about a hundredth of a second, and no later than at the next step that wants a checkpoint.
+// In about a hundredth of a second, and no later than at the next step that wants a checkpoint. After so few steps at
+// most that later ones may take much longer, as exponentials of longer steps do.
 void CheckpointKeeper::plan_next_look(std::int64_t n, Clock::time_point now) {
   constexpr double interval = 0.01;
-  constexpr std::int64_t longest = std::int64_t{1} << 24;
+  constexpr std::int64_t longest = 64;
   const double since = std::chrono::duration<double>(now - last_look_).count();
   if (n > last_n_) stride_ = since < interval / 2 ? std::min(2 * stride_, longest) : stride_;
   if (since > 2 * interval) stride_ = std::max<std::int64_t>(stride_ / 2, 1);
@@ -69,9 +70,9 @@ void CheckpointKeeper::plan_next_save(double began) {
   }
 }
 
-void CheckpointKeeper::save(FunctionRef<void(Archive&)> run) {
+void CheckpointKeeper::save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) {
   const double began = passed();
-  SavedRun saved = options_.now();  // brings the rows so far to the disk: where that fails, the run does
+  SavedRun saved = options_.now(n, t);  // brings the rows so far to the disk: where that fails, the run does
   try {
     commit_checkpoint(folder_, options_.when.keep > 1, [&](Archive& archive) {
       archive(saved);

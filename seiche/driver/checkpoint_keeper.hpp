@@ -20,7 +20,8 @@ class CheckpointKeeper : public Checkpoints {
     std::atomic<bool>* asked = nullptr;  // set by a signal: one more, and on
     double hours = 0;                    // after which the run is to be saved and to stop; 0: never
     bool stops_at_once = false;
-    std::function<SavedRun()> now = {};         // with what was recorded so far on the disk
+    // After so many steps, at t, with what was recorded so far on the disk.
+    std::function<SavedRun(std::int64_t n, double t)> now = {};
     std::function<void(Archive&)> beside = {};  // what else the time loop does not know; may be null
     std::function<void(const std::string&)> warn = {};
   };
@@ -28,7 +29,7 @@ class CheckpointKeeper : public Checkpoints {
   CheckpointKeeper(Folder folder, Options options, const SavedRun* from);
 
   // A checkpoint that cannot be written ends no run: that is said once.
-  void save(FunctionRef<void(Archive&)> run) override;
+  void save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) override;
   // What to say of a run that has not come to its end, but to t: "; `seiche resume out` goes on from there"; "" where
   // no checkpoint was written.
   std::string way_on(double t) const;

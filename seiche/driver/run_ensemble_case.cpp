@@ -129,17 +129,14 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
     energies.emplace(folder, has_modified);
   }
   record.take_over();
-  State reached;  // by the last record
-  reached.t = saved != nullptr ? saved->t : spec.t_start;
-  reached.n = saved != nullptr ? saved->steps : 0;
   CheckpointKeeper keeper(folder,
                           {.when = spec.checkpoint,
                            .asked = options.save,
                            .hours = options.max_hours,
                            .stops_at_once = options.stops_at_once,
                            .now =
-                               [&] {
-                                 SavedRun now = record.now(reached.t, reached.n);
+                               [&](std::int64_t n, double t) {
+                                 SavedRun now = record.now(n, t);
                                  now.energies.file = energies->mark();
                                  return now;
                                },
@@ -159,6 +156,7 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
                     .on_record =
                         [&](const EnsembleRecord& row) {
                           energies->write(row);
+                          State reached;
                           reached.t = row.t;
                           reached.n = std::llround((row.t - spec.t_start) / spec.h);
                           for (Observer* watching : options.observers) watching->pass(reached);
@@ -167,7 +165,6 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
                     .resumption = {.checkpoints = &keeper, .from = record.rest()}});
   EnsembleOutcome outcome(result);
   if (outcome.interrupted > 0) outcome.message += keeper.why_stopped();
-  if (outcome.interrupted > 0 || !outcome.is_written) outcome.message += keeper.way_on(reached.t);
   // Each gets its chance to be whole, also where another one was not.
   const auto attempt = [&](const auto& write) {
     try {
@@ -180,6 +177,9 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
   attempt([&] { energies->commit(); });
   attempt([&] { write_members(folder, members, result, has_modified); });
   attempt([&] { write_finals(folder, problem, result); });
+  const std::string way_on = keeper.way_on(energies->last().t);
+  const bool is_said = outcome.interrupted > 0 || !outcome.is_written;
+  if (is_said) outcome.message += way_on;
   const std::string backend =
       spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
   const auto summarised = [&] {
@@ -187,6 +187,7 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
   };
   attempt([&] { write_file(folder, "summary.json", summarised()); });
   if (outcome.interrupted == 0 && outcome.is_written) remove_checkpoints(folder);
+  if (!outcome.is_written && !is_said) outcome.message += way_on;  // of the summary that could not be written
   return {.outcome = outcome,
           .first = energies->first(),
           .last = energies->last(),

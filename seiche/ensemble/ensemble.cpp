@@ -50,7 +50,7 @@ class Run {
     try {
       advance_all();
     } catch (const Error& error) {
-      if (!is_publishing_) throw;
+      if (!is_handing_over_) throw;
       result.failure = error.what();
     }
     result.members.resize(members_.size());
@@ -136,7 +136,8 @@ class Run {
     Checkpoints* const keeper = options_.resumption.checkpoints;
     if (keeper == nullptr) return stopped();
     const Checkpoints::Wish wish = stopped() ? Checkpoints::Wish::save_and_stop : keeper->wish(n_);
-    if (wish != Checkpoints::Wish::none) keeper->save([this](Archive& a) { archive(a); });
+    if (wish != Checkpoints::Wish::none)
+      hand_over([&] { keeper->save(n_, grid_.time(n_), [this](Archive& a) { archive(a); }); });
     return wish == Checkpoints::Wish::save_and_stop;
   }
 
@@ -224,10 +225,18 @@ class Run {
       row.H = statistics(H);
       row.modified = statistics(modified);
     });
-    is_publishing_ = true;
-    for (const EnsembleRecord& row : rows)
-      if (row.running > 0) options_.on_record(row);
-    is_publishing_ = false;
+    hand_over([&] {
+      for (const EnsembleRecord& row : rows)
+        if (row.running > 0) options_.on_record(row);
+    });
+  }
+
+  // An Error of those who get rows and checkpoints ends the run, whose members are what they were.
+  template <class Action>
+  void hand_over(const Action& action) {
+    is_handing_over_ = true;
+    action();
+    is_handing_over_ = false;
   }
 
   static std::vector<double> of_running(const std::vector<double>& all, const Records& records, std::size_t record) {
@@ -285,7 +294,7 @@ class Run {
   std::int64_t batch_steps_ = 1;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   double seconds_earlier_ = 0.0;  // of the run that this one goes on from
-  bool is_publishing_ = false;    // does on_record speak?
+  bool is_handing_over_ = false;
 };
 
 }  // namespace

@@ -35,7 +35,8 @@ struct EnsembleOptions {
   std::function<void()> on_pause =
       {};  // on the calling thread, about every tenth of a second, however far records lie apart
   const std::atomic<bool>* stop = nullptr;  // the run ends soon after it is set, and records where
-  Resumption resumption = {};               // to the same bits, whatever the number of threads was before
+  // To the same bits, whatever the number of threads was before. An Error of who keeps checkpoints ends the run.
+  Resumption resumption = {};
 };
 
 struct MemberResult {
@@ -46,7 +47,7 @@ struct MemberResult {
 struct EnsembleResult {
   std::vector<MemberResult> members;
   bool side_by_side = false;  // members were stepped side by side
-  std::string failure;        // what on_record threw, or ""
+  std::string failure;        // what on_record threw, or who keeps checkpoints, or ""
   double wall_seconds = 0.0;
 };
 

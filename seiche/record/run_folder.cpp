@@ -1,8 +1,10 @@
 #include <seiche/core/error.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/record/checkpoint_file.hpp>
 #include <seiche/record/run_folder.hpp>
 #include <seiche/record/segments.hpp>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string>
@@ -17,6 +19,7 @@ namespace fs = std::filesystem;
 struct RunFile {
   const char* name;
   bool of_run, of_ensemble;
+  bool tells_of_end;
   bool (*is_ours)(const std::string& text);
 };
 
@@ -43,12 +46,12 @@ bool is_settled_case(const std::string& text) {
          !text.starts_with('#') && text.find("\n#") == std::string::npos;
 }
 
-// By the case an earlier run is known, so that it goes last of these.
+// In the order in which they are removed: by the case an earlier run is known.
 constexpr std::array files = {
-    RunFile{"energy.csv", true, true, is_energies},  RunFile{"solution.h5", true, false, is_hdf5},
-    RunFile{"solution.xdmf", true, false, is_xdmf},  RunFile{"final.txt", true, false, is_state},
-    RunFile{"members.csv", false, true, is_members}, RunFile{"finals.csv", false, true, is_members},
-    RunFile{"summary.json", true, true, is_summary}, RunFile{"case.toml", true, true, is_settled_case}};
+    RunFile{"summary.json", true, true, true, is_summary}, RunFile{"solution.h5", true, false, true, is_hdf5},
+    RunFile{"solution.xdmf", true, false, true, is_xdmf},  RunFile{"final.txt", true, false, true, is_state},
+    RunFile{"members.csv", false, true, true, is_members}, RunFile{"finals.csv", false, true, true, is_members},
+    RunFile{"energy.csv", true, true, false, is_energies}, RunFile{"case.toml", true, true, false, is_settled_case}};
 
 // Enough of a file to know it by; of a case all there is.
 std::string beginning_of(const fs::path& path) {
@@ -68,13 +71,24 @@ bool is_foreign(const fs::path& path, bool (*is_ours)(const std::string&)) {
   return !text.empty() && !is_ours(text);  // of what is empty nothing is lost
 }
 
+void remove_own(const Folder& folder, const RunFile& file) {
+  if (!is_foreign(folder.path() / file.name, file.is_ours)) remove_file(folder, file.name);
+}
+
 void require_own(const fs::path& path, bool (*is_ours)(const std::string&)) {
   if (is_foreign(path, is_ours))
     throw Error("{} would be replaced, and Seiche did not write it: move it away, or take another folder",
                 path.string());
 }
 
-// Where segments of the solution will lie; other files in that folder are left alone.
+// By a case or a checkpoint of ours: without one nothing beside it is known to be ours, whatever it is called.
+bool holds_run(const fs::path& directory) {
+  std::error_code none;
+  const fs::path settled = directory / "case.toml";
+  return (fs::exists(settled, none) && !is_foreign(settled, is_settled_case)) || !checkpoints_in(directory).empty();
+}
+
+// Where segments of the solution will lie, which begin as any HDF5 file does; other files in there are left alone.
 void require_own_segments(const fs::path& directory) {
   const fs::path inside = directory / segments_folder;
   std::error_code none;
@@ -82,8 +96,10 @@ void require_own_segments(const fs::path& directory) {
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status))
     throw Error("{} is in the way of a folder of that name: move it away, or take another folder", inside.string());
+  const auto nothing = [](const std::string&) { return false; };
+  const bool may_be_ours = holds_run(directory);
   for (std::size_t n = 1; fs::exists(inside / segment_name(n), none); ++n)
-    require_own(inside / segment_name(n), is_hdf5);
+    require_own(inside / segment_name(n), may_be_ours ? is_hdf5 : +nothing);
 }
 
 }  // namespace
@@ -113,25 +129,35 @@ void require_own_files(const fs::path& directory, RunKind kind, bool report) {
   if (report) require_own_report(directory);
 }
 
+bool is_complete(const fs::path& directory) {
+  const auto has_all = [&](bool RunFile::*kind) {
+    return std::all_of(files.begin(), files.end(), [&](const RunFile& file) {
+      return !(file.*kind) || file.name == std::string_view("solution.xdmf") || fs::exists(directory / file.name);
+    });
+  };
+  return has_all(&RunFile::of_run) || has_all(&RunFile::of_ensemble);
+}
+
 void remove_own_report(const fs::path& directory) {
   std::error_code ignored;
   const fs::path path = directory / "report.html";
   if (!is_foreign(path, is_report)) fs::remove(path, ignored);
 }
 
+void remove_what_tells_of_end(const Folder& folder) {
+  for (const RunFile& file : files)
+    if (file.tells_of_end) remove_own(folder, file);
+  if (folder.is_at_its_path()) remove_own_report(folder.path());
+}
+
 void remove_earlier_results(const Folder& folder) {
-  // Without a case or a checkpoint of ours nothing beside it is known to be ours, whatever it is called.
-  const fs::path& directory = folder.path();
-  const bool has_case = fs::exists(directory / "case.toml") && !is_foreign(directory / "case.toml", is_settled_case);
-  if (!has_case && checkpoints_in(directory).empty()) return;
-  std::error_code ignored;
-  for (const RunFile& file : files) {
-    const fs::path path = directory / file.name;
-    if (!is_foreign(path, file.is_ours)) fs::remove(path, ignored);
-    fs::remove(path.string() + ".partial", ignored);  // of a run that was killed
-  }
+  if (!holds_run(folder.path())) return;
   remove_checkpoints(folder);
   remove_segments(folder);
+  for (const RunFile& file : files) {
+    remove_own(folder, file);
+    remove_file(folder, std::string(file.name) + ".partial");  // of a run that was killed
+  }
 }
 
 }  // namespace seiche

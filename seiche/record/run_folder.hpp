@@ -22,6 +22,11 @@ void require_no_checkpoint(const std::filesystem::path& directory);
 // The same for those who would read what a run leaves at its end, where it has left none yet.
 void require_ended(const std::filesystem::path& directory);
 
+// Is everything there that is to be read when a run or an ensemble has ended, or was interrupted?
+bool is_complete(const std::filesystem::path& directory);
+
+// What a run that goes on leaves anew at its end.
+void remove_what_tells_of_end(const Folder& folder);
 // Of an earlier run or ensemble everything but its pictures and fftw_wisdom: a program that is killed must not leave
 // its case beside another one's results.
 void remove_earlier_results(const Folder& folder);

@@ -17,8 +17,8 @@ class Checkpoints {
   // After n steps; costs a comparison as long as none can be due. Keepers that follow a clock, or wait for a
   // signal, look at it a hundred times a second at most.
   Wish wish(std::int64_t n) { return n < next_look_ ? Wish::none : look(n); }
-  // run(archive) writes the run, behind whatever is in the archive.
-  virtual void save(FunctionRef<void(Archive&)> run) = 0;
+  // After n steps, at t: run(archive) writes the run, behind whatever is in the archive.
+  virtual void save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) = 0;
 
  protected:
   virtual Wish look(std::int64_t n) = 0;

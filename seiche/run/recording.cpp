@@ -196,7 +196,7 @@ double Recording::seconds() const {
 bool Recording::pauses(bool stops, Checkpoints* checkpoints, FunctionRef<void(Archive&)> run) const {
   if (checkpoints == nullptr) return stops;
   const Checkpoints::Wish wish = stops ? Checkpoints::Wish::save_and_stop : checkpoints->wish(state_.n);
-  if (wish != Checkpoints::Wish::none && system_.space->is_finite(state_.z)) checkpoints->save(run);
+  if (wish != Checkpoints::Wish::none && system_.space->is_finite(state_.z)) checkpoints->save(state_.n, state_.t, run);
   return wish == Checkpoints::Wish::save_and_stop;
 }
 

@@ -1,12 +1,11 @@
 // What a run leaves on a disk that fails at any write, and what one leaves that is killed at any call.
-#include <test/support/error_of.hpp>
 #include <test/support/program.hpp>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <seiche/driver/going_on.hpp>
+#include <seiche/record/checkpoint_file.hpp>
 #include <seiche/study/audit/audit.hpp>
 
 #include <algorithm>
@@ -55,7 +54,7 @@ TEST_F(DiskFaults, WhicheverWriteFailsTheRunGoesOnFromItsNewestCheckpoint) {
   write_case();
   ASSERT_EQ(seiche(short_run).exit, 0) << text("stderr.txt");
   fs::rename(directory / "out", directory / "whole");
-  int resumed = 0;
+  int resumed = 0, recovered = 0;
   for (const auto& [error, once] : {std::pair(ENOSPC, false), std::pair(EIO, true), std::pair(EDQUOT, false)}) {
     for (int n = once ? 2 : 1;; n += 17) {
       fs::remove_all(directory / "out");
@@ -70,6 +69,12 @@ TEST_F(DiskFaults, WhicheverWriteFailsTheRunGoesOnFromItsNewestCheckpoint) {
       EXPECT_THAT(result.err, HasSubstr(std::strerror(error))) << where;
       if (has("out/checkpoint.seiche") || has("out/checkpoint_prev.seiche")) {
         EXPECT_THAT(result.err, HasSubstr("`seiche resume out` goes on from")) << where;
+        if (has("out/summary.json") && !has("out/solution.h5")) {
+          EXPECT_THAT(seiche("plot out").err, HasSubstr("`seiche resume out`")) << where;
+          EXPECT_THAT(seiche("recover out").err, HasSubstr("saved")) << where;
+          EXPECT_TRUE(has("out/solution.h5")) << where;
+          ++recovered;
+        }
         const Result again = seiche("resume out --quiet");
         ASSERT_EQ(again.exit, 0) << where << "\n" << result.err << again.err;
         expect_same_files("whole", "out", where);
@@ -80,6 +85,7 @@ TEST_F(DiskFaults, WhicheverWriteFailsTheRunGoesOnFromItsNewestCheckpoint) {
     }
   }
   EXPECT_GT(resumed, 20);
+  EXPECT_GT(recovered, 0);
 }
 
 // In a checkpoint too, whose rows are not called damaged.
@@ -197,6 +203,41 @@ TEST_F(DiskFaults, AWriteThatWritesNothingIsAFullDisk) {
   EXPECT_GT(full, 0);
 }
 
+// What ensembles leave is small, and written at few places.
+TEST_F(DiskFaults, AnEnsembleWhoseWriteFailsGoesOnToo) {
+#if defined(SEICHE_SANITIZED)
+  GTEST_SKIP() << "the address sanitizer has to be loaded first";
+#endif
+  write_case();
+  const std::string run =
+      "run case.toml --out out --quiet --set time.end=4 ensemble.members=40 ensemble.perturb_initial=0.01 "
+      "output.energy_every=1 checkpoint.every_steps=40";
+  ASSERT_EQ(seiche(run).exit, 0) << text("stderr.txt");
+  fs::rename(directory / "out", directory / "whole");
+  int resumed = 0;
+  for (const int error : {ENOSPC, EIO}) {
+    for (int n = 1;; ++n) {
+      fs::remove_all(directory / "out");
+      const std::string where = fmt::format("write {} fails with {}", n, error);
+      const Result result =
+          seiche(run, fmt::format("LD_PRELOAD='{}' SEICHE_FAIL_AT={} SEICHE_FAIL_WITH={} {}", failing_writes_path(), n,
+                                  error, error == EIO ? "SEICHE_FAIL_ONCE=1" : ""));
+      if (result.exit == 0) break;
+      ASSERT_LT(n, 2000) << "it never succeeds";
+      if (result.exit == 2) continue;  // before the first step
+      EXPECT_THAT(result.err, HasSubstr(std::strerror(error))) << where;
+      if (!has("out/checkpoint.seiche") && !has("out/checkpoint_prev.seiche")) continue;
+      EXPECT_THAT(result.err, HasSubstr("`seiche resume out` goes on from")) << where;
+      const Result again = seiche("resume out --quiet");
+      ASSERT_EQ(again.exit, 0) << where << "\n" << result.err << again.err;
+      for (const char* name : {"energy.csv", "members.csv", "finals.csv"})
+        ASSERT_TRUE(text(fs::path("whole") / name) == text(fs::path("out") / name)) << where << " " << name;
+      ++resumed;
+    }
+  }
+  EXPECT_GT(resumed, 5);
+}
+
 // Killed at whichever of its calls, a run or a resume leaves what `recover` makes a folder of that nothing contradicts.
 class KilledAnywhere : public DiskFaults {
  protected:
@@ -222,7 +263,7 @@ class KilledAnywhere : public DiskFaults {
     }
   }
   // In a copy of `begun`, if there is one, at every `stride`-th call until it succeeds.
-  void expect_recovered(const std::string& words, int stride = 1) const {
+  void expect_recovered(const std::string& words, int stride = 1, bool begins_anew = false) const {
     for (int n = 1;; n += stride) {
       const std::string where = fmt::format("{} killed at {}: ", words, n);
       fs::remove_all(directory / "out");
@@ -230,16 +271,19 @@ class KilledAnywhere : public DiskFaults {
       if (!is_killed_at(words, n)) break;
       ASSERT_LT(n, 1000) << "it never succeeds";
       if (!has("out")) continue;
-      if (!checkpoints_in(directory / "out").empty()) {
-        const std::string refusal = error_of([&] {
-          const RunCaseOptions options{.stops_at_once = true};
-          resume_case(going_on(directory / "out", {}, options), options);
-        });
-        ASSERT_EQ(refusal, "") << where;
+      const bool has_checkpoint = !checkpoints_in(directory / "out").empty();
+      if (has_checkpoint) {
+        const Result recovered = seiche("recover out");
+        ASSERT_EQ(recovered.exit, 0) << where << recovered.err;
+        ASSERT_FALSE(has("out/case_before_resume.toml")) << where << "a case of ours is put aside";
+      }
+      if (has("out/summary.json")) {
         for (const AuditEntry& entry : audit(directory / "out").entries)
           ASSERT_NE(entry.verdict, AuditEntry::Verdict::contradicted) << where << entry.claim << ": " << entry.evidence;
-      } else if (!has("out/summary.json")) {
-        ASSERT_FALSE(has("begun")) << where << "the checkpoint is lost";
+        ASSERT_TRUE(has_checkpoint || json::parse(text("out/summary.json"))["status"] == "success") << where;
+      } else {
+        ASSERT_FALSE(has_checkpoint) << where;
+        ASSERT_TRUE(!has("begun") || begins_anew) << where << "the checkpoint is lost";
         ASSERT_EQ(seiche("run case.toml --out out --quiet").exit, 0) << where << "nothing is lost by that";
       }
     }
@@ -254,6 +298,10 @@ TEST_F(KilledAnywhere, TheResumeOfAStoppedRunDoesToo) {
 TEST_F(KilledAnywhere, TheResumeOfAKilledRunDoesToo) {
   kill_a_run_behind_a_checkpoint();
   expect_recovered(resume);
+}
+TEST_F(KilledAnywhere, ARunThatBeginsAnewDoesToo) {
+  kill_a_run_behind_a_checkpoint();
+  expect_recovered(run + "--out out --restart", 2, true);
 }
 TEST_F(KilledAnywhere, AResumeToANewEndDoesToo) {
   stop_a_run();

@@ -110,6 +110,25 @@ TEST_F(ResumeEnsemble, IsRecoveredWithoutGoingOn) {
   expect_same_files("whole", "out");
 }
 
+// It is saved between two records.
+TEST_F(ResumeEnsemble, SaysToWhichTimeItHadCome) {
+  RunSpec seldom = spec(4);
+  seldom.energy_every = 100;
+  StopsBehind at_once(-1), never(1e9);
+  run_ensemble_case(seldom, directory / "whole", options(never));
+  const EnsembleCaseResult stopped = run_ensemble_case(seldom, directory / "out", options(at_once));
+  EXPECT_THAT(stopped.outcome.message, HasSubstr("goes on from there"));
+  const fs::path checkpoint = directory / "out/checkpoint.seiche";
+  const SavedRun saved = read_checkpoint(checkpoint).run;
+  EXPECT_EQ(saved.steps, 1);
+  EXPECT_EQ(saved.t, 1.0 / 32);
+  const std::string before = text_of(checkpoint);
+  EXPECT_THAT(error_of([&] { resume("out", 1e9, 1.0 / 64); }), HasSubstr("the checkpoint is at t = 0.03125"));
+  EXPECT_EQ(text_of(checkpoint), before);
+  resume("out");
+  expect_same_files("whole", "out");
+}
+
 TEST_F(ResumeEnsemble, RefusesFilesThatDoNotBeginAsTheyDid) {
   run("out", 1);
   fs::resize_file(directory / "out/energy.csv", 100);

@@ -19,14 +19,21 @@ namespace TEST_FILE {
 class Keeper : public Checkpoints {
  public:
   std::vector<std::string> saved;
+  std::vector<std::int64_t> steps;
+  std::vector<double> times;
   std::vector<std::size_t> records_before;
   const std::vector<EnsembleRecord>* records = nullptr;
 
-  void save(FunctionRef<void(Archive&)> run) override {
+  std::size_t most = 1000;
+
+  void save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) override {
+    if (saved.size() == most) throw Error("the disk is full");
     std::string bytes;
     Archive archive([&bytes](std::string_view piece) { bytes += piece; });
     run(archive);
     saved.push_back(std::move(bytes));
+    steps.push_back(n);
+    times.push_back(t);
     records_before.push_back(records->size());
   }
 
@@ -110,6 +117,7 @@ TEST(EnsembleResume, EndsWithTheBitsOfOneThatWasNeverStopped) {
     ASSERT_GT(keeper.saved.size(), 4U) << ensemble.name;
     for (std::size_t k = 0; k < keeper.saved.size(); ++k) {
       const std::string where = ensemble.name + " from " + std::to_string(k);
+      EXPECT_EQ(keeper.times[k], static_cast<double>(keeper.steps[k]) * ensemble.options.h) << where;
       Archive from(keeper.saved[k]);
       std::vector<EnsembleRecord> rest;
       const EnsembleResult result = run(ensemble, {.from = &from}, 2, rest);
@@ -124,6 +132,22 @@ TEST(EnsembleResume, EndsWithTheBitsOfOneThatWasNeverStopped) {
         EXPECT_EQ(rest[r].modified.median, row.modified.median) << where;
       }
     }
+  }
+}
+
+// Its members are those of the last batch.
+TEST(EnsembleResume, EndsWhereItCannotBeSaved) {
+  const AnEnsemble ensemble = ensembles().front();
+  std::vector<EnsembleRecord> records;
+  Keeper keeper;
+  keeper.records = &records;
+  keeper.most = 3;
+  const EnsembleResult ended = run(ensemble, {.checkpoints = &keeper}, 1, records);
+  EXPECT_EQ(ended.failure, "the disk is full");
+  for (const MemberResult& member : ended.members) {
+    EXPECT_EQ(member.report.status, RunReport::Status::interrupted);
+    EXPECT_GE(member.report.t, keeper.times.back());
+    EXPECT_EQ(member.final.size(), ensemble.members.front().problem->size());
   }
 }
 

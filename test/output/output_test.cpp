@@ -171,6 +171,9 @@ TEST_F(Output, WhereTheLockIsGoneNothingGetsAName) {
   EXPECT_THAT(error_of([&] { begun.commit(); }), HasSubstr("its names may be those of another run"));
   EXPECT_THAT(error_of([&] { write_file(folder, "last", "of the first"); }), HasSubstr(directory.string()));
   EXPECT_EQ(text("last"), "of the other");
+  write_file(directory / "other.partial", "of the other");
+  { const PartialPath never_opened(folder, "other"); }
+  EXPECT_EQ(text("other.partial"), "of the other");
   EXPECT_TRUE(fs::exists(directory / ".seiche.lock"));
 }
 

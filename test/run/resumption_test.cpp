@@ -37,7 +37,7 @@ class Energies : public Observer {
 class AfterSteps : public Checkpoints {
  public:
   explicit AfterSteps(std::int64_t n) : n_(n) {}
-  void save(FunctionRef<void(Archive&)> run) override {
+  void save(std::int64_t, double, FunctionRef<void(Archive&)> run) override {
     bytes.emplace();
     Archive archive([this](std::string_view piece) { *bytes += piece; });
     run(archive);

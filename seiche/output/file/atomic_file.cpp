@@ -63,7 +63,7 @@ PartialPath::PartialPath(const std::filesystem::path& path)
 
 PartialPath::~PartialPath() {
   const bool is_ours = file_ < 0 || FileIdentity(folder_.descriptor(), temporary_) == FileIdentity(file_);
-  if (!kept_ && is_ours) ::unlinkat(folder_.descriptor(), temporary_.c_str(), 0);
+  if (!kept_ && is_ours && folder_.has_lock()) ::unlinkat(folder_.descriptor(), temporary_.c_str(), 0);
   // A library that could not write it may have it open, and keep the room that it takes.
   if (!kept_ && file_ >= 0) std::ignore = ::ftruncate(file_, 0);
   if (file_ >= 0) ::close(file_);
