@@ -25,7 +25,8 @@ ExitCode recover_run(const std::string& directory) {
     throw Error("{} holds no run: there is no case.toml in it", directory);
   const bool has_checkpoint = !checkpoints_in(path).empty(), complete = is_complete(path);
   if (complete || (!has_checkpoint && look_at(path / "summary.json").kind != InputKind::missing)) {
-    if (complete && !has_checkpoint) remove_segments(CaseFolder(path).folder());  // killed before they were
+    if (complete && !has_checkpoint && !needs_segments(path))
+      remove_segments(CaseFolder(path).folder());  // killed before they were
     print_note(fmt::format("{} holds no unfinished files: there is nothing to recover", directory));
     return success;
   }

@@ -23,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double bytes_per_GB = 1e9;
+
 // What solution.h5 says about itself: under the names of the CF conventions where these have one.
 SolutionDescription description(const RunSpec& spec, const Simulation& simulation,
                                 const std::map<std::string, std::string>& versions) {
@@ -162,7 +164,7 @@ CaseResult CaseRun::result() {
   }
   if (is_over(ended) && last_words.are_written()) {
     remove_checkpoints(folder);
-    remove_segments(folder);
+    if (solution_->is_joined()) remove_segments(folder);
   } else if (is_over(ended)) {
     report.message += keeper_->way_on(report.t);  // which makes the summary again
   }
@@ -192,7 +194,7 @@ void CaseRun::make_files() {
   }
   solution_.emplace(folder, simulation.problem(), *simulation.system().space, times, is_modified,
                     description(spec_, simulation, record_.versions()),
-                    saved != nullptr && saved->solution ? &*saved->solution : nullptr);
+                    saved != nullptr && saved->solution ? &*saved->solution : nullptr, bytes_per_GB * spec_.join_below);
 }
 
 // The order matters: what a checkpoint vouches for is on the disk before it is.

@@ -12,6 +12,15 @@ std::string meaning_of(const SolutionDescription& description, std::size_t field
   return field < description.meanings.size() ? description.meanings[field] : "field " + name;
 }
 
+std::vector<Hdf5Source> sources(const std::vector<RowsOfFields>& parts, const std::string& field) {
+  std::vector<Hdf5Source> all;
+  for (const RowsOfFields& part : parts)
+    all.push_back({.file = part.file,
+                   .dataset = part.file.empty() ? fmt::format("{}/{}", rest_group, field) : field,
+                   .rows = part.rows});
+  return all;
+}
+
 // Every problem is stated in units of its own, so that its numbers carry none.
 Hdf5Dataset make(Hdf5File& file, const std::string& name, const std::string& meaning, const Hdf5Layout& layout) {
   Hdf5Dataset data = file.make_dataset(name, layout);
@@ -74,7 +83,8 @@ void write_bars(Hdf5File& file, const SolutionLayout& layout) {
 }  // namespace
 
 std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layout,
-                                      const SolutionDescription& description, bool has_modified_energy) {
+                                      const SolutionDescription& description, bool has_modified_energy,
+                                      const std::vector<RowsOfFields>& parts) {
   set_attribute(file.id(), "Conventions", "CF-1.10");
   for (const auto& [name, text] : description.texts) set_attribute(file.id(), name, text);
   set_attribute(file.id(), "fields", fmt::format("{}", fmt::join(layout.fields, " ")));
@@ -84,10 +94,12 @@ std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layo
   const Hdf5Layout per_time{.chunk = {1024}, .compressed = false};
   Hdf5Dataset t = make(file, "t", "time", per_time);
   const std::vector<Hdf5Dataset> axes = make_axes(file, layout);
-  const Hdf5Layout per_field{.row = layout.shape(), .chunk = layout.chunk()};
+  Hdf5Layout per_field{.row = layout.shape(), .chunk = layout.chunk()};
   std::vector<Hdf5Dataset> columns;
-  for (std::size_t f = 0; f < layout.fields.size(); ++f)
+  for (std::size_t f = 0; f < layout.fields.size(); ++f) {
+    per_field.sources = sources(parts, layout.fields[f]);
     columns.push_back(make(file, layout.fields[f], meaning_of(description, f, layout.fields[f]), per_field));
+  }
   columns.push_back(make(file, "H", "energy H = ½zᵀMz + V(z), summed over points", per_time));
   if (has_modified_energy)
     columns.push_back(make(file, "H_modified", "modified energy, whose law the method keeps", per_time));

@@ -5,6 +5,7 @@
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/solution_layout.hpp>
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,9 +18,18 @@ struct SolutionDescription {
   std::map<std::string, std::string> texts = {};  // "equation", "method", "case", …
 };
 
-// All but the rows, in a new file. Returns the columns: the fields, H, H_modified if there is one, and t.
+// The rows of all fields lie in this file, under the names of the fields; "": in this one, in a group of its own.
+struct RowsOfFields {
+  std::string file;
+  std::uint64_t rows = 0;
+};
+inline constexpr const char* rest_group = "rest";
+
+// All but the rows, in a new file. Returns the columns: the fields, H, H_modified if there is one, and t. With `parts`
+// the fields are virtual and have all their rows; those of the group are left to be made.
 std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layout,
-                                      const SolutionDescription& description, bool has_modified_energy);
+                                      const SolutionDescription& description, bool has_modified_energy,
+                                      const std::vector<RowsOfFields>& parts = {});
 // How the run ended.
 void describe_end(Hdf5File& file, const RunReport& report);
 

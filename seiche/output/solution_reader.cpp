@@ -1,5 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/input_file.hpp>
+#include <seiche/core/text/shortened.hpp>
+#include <seiche/output/solution_columns.hpp>
 #include <seiche/output/solution_reader.hpp>
 
 #include <fcntl.h>
@@ -37,45 +39,55 @@ std::vector<double> all_of(const Hdf5Dataset& data) {
 }
 
 // So long may a processor take: damage can have HDF5 go round in circles.
-::rlim_t longest_reading(const std::filesystem::path& solution) {
-  constexpr std::uintmax_t seconds = 2, bytes_per_second = 20'000'000;
+::rlim_t longest_reading(const std::filesystem::path& solution, const std::filesystem::path& segments) {
+  namespace fs = std::filesystem;
+  constexpr std::uintmax_t seconds = 2, bytes_per_second = 20'000'000, parts_per_second = 20;
   std::error_code unknown;
-  const std::uintmax_t bytes = std::filesystem::file_size(solution, unknown);
-  return seconds + (unknown ? 0 : bytes / bytes_per_second);
+  const std::uintmax_t bytes = fs::file_size(solution, unknown);
+  std::error_code no_folder;
+  const auto parts = std::distance(fs::directory_iterator(solution.parent_path() / segments, no_folder), {});
+  return seconds + (unknown ? 0 : bytes / bytes_per_second) + static_cast<std::uintmax_t>(parts) / parts_per_second;
 }
 
-void end_at_first_fault(const std::filesystem::path& solution) {
+void set_limit(int resource, ::rlim_t wanted) {
+  ::rlimit limit{};
+  ::getrlimit(resource, &limit);
+  limit.rlim_cur = std::min(limit.rlim_max, wanted);
+  ::setrlimit(resource, &limit);
+}
+
+void end_at_first_fault(::rlim_t seconds) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(signal, SIG_DFL);
   if (const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0)
     ::dup2(nowhere, STDERR_FILENO);  // what libraries say when they break down
   const ::rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  ::rlimit time{};
-  ::getrlimit(RLIMIT_CPU, &time);
-  time.rlim_cur = std::min(time.rlim_max, longest_reading(solution));
-  ::setrlimit(RLIMIT_CPU, &time);
+  set_limit(RLIMIT_CPU, seconds);
+}
+
+// HDF5 keeps all of them open as long as the fields are; programs that draw inherit the limit.
+void allow_open(std::size_t count) {
+  constexpr std::size_t others = 256;
+  if (count == 0) return;
+  ::rlimit files{};
+  ::getrlimit(RLIMIT_NOFILE, &files);
+  set_limit(RLIMIT_NOFILE, std::max<::rlim_t>(files.rlim_cur, count + others));
 }
 
 }  // namespace
 
-SolutionReader::SolutionReader(const std::filesystem::path& path)
-    : SolutionReader(path, (what_another_process_finds(path), Unguarded())) {}
+SolutionReader::SolutionReader(const std::filesystem::path& path, const std::filesystem::path& segments)
+    : SolutionReader(path, segments, (what_another_process_finds(path, segments), Unguarded())) {}
 
-SolutionReader::SolutionReader(const std::filesystem::path& path, Unguarded)
+SolutionReader::SolutionReader(const std::filesystem::path& path, const std::filesystem::path& segments, Unguarded)
     : file_(Hdf5File::open(path)),
       t_(file_.dataset("t")),
       H_(file_.dataset("H")),
       fields_(words(text_attribute(file_.id(), "fields"))) {
-  for (const std::string& name : fields_) {
-    data_.push_back(file_.dataset(name));
-    meanings_.push_back(text_attribute(data_.back().id(), "long_name"));
-    Hdf5Shape shape = data_.back().shape();
-    shape.front() = data_.front().rows();
-    if (shape != data_.front().shape())
-      throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
-  }
+  for (const std::string& name : fields_) add_field(name, path, segments);
   if (data_.empty()) throw Error("{} holds no field", path.string());
   if (file_.has("H_modified")) modified_ = file_.dataset("H_modified");
+  require_own_parts();
   count_times(path);
   const Hdf5Shape& shape = data_.front().shape();
   const bool numbered = file_.has("point");
@@ -87,6 +99,47 @@ SolutionReader::SolutionReader(const std::filesystem::path& path, Unguarded)
                   shape[a]);
   }
   points_ = static_cast<Index>(data_.front().row_size());
+}
+
+// Files that others have put in the place of segments are not read: they may be links to anything.
+void SolutionReader::add_field(const std::string& name, const std::filesystem::path& path,
+                               const std::filesystem::path& segments) {
+  data_.push_back(file_.dataset_or_virtual(name));
+  meanings_.push_back(text_attribute(data_.back().id(), "long_name"));
+  Hdf5Shape shape = data_.back().shape();
+  shape.front() = data_.front().rows();
+  if (shape != data_.front().shape())
+    throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
+  std::vector<std::filesystem::path> parts;
+  const std::vector<Hdf5Source> sources = data_.back().sources();
+  for (const Hdf5Source& source : sources) {
+    const std::filesystem::path file = source.file;
+    const bool is_here = source.file.empty() && source.dataset == fmt::format("{}/{}", rest_group, name);
+    const bool is_segment = !source.file.empty() && file.parent_path() == segments && source.dataset == name;
+    if (!is_here && !is_segment)
+      throw Error("{} is damaged: it shows {} in {}, where no solution has it", path.string(), source.dataset,
+                  shortened(source.file));
+    if (is_segment) parts.push_back(path.parent_path() / file);
+  }
+  std::error_code none;
+  for (const std::filesystem::path& part : parts)
+    if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(part, none)))
+      throw Error("{} shows what lies in {}, which is not there, or is not a file", path.string(), part.string());
+  if (data_.size() == 1) allow_open((parts_ = parts).size());
+  if (parts != parts_) throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
+}
+
+void SolutionReader::require_own_parts() const {
+  const std::vector<Hdf5Source> sources = data_.front().sources();
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Hdf5File part = Hdf5File::open(parts_[k]);
+    for (std::size_t f = 0; f < data_.size(); ++f) {
+      Hdf5Shape shape = data_[f].shape();
+      shape.front() = sources[k].rows;
+      if (part.dataset(fields_[f]).shape() != shape)
+        throw Error("{} has other rows of {} than are shown of it", parts_[k].string(), fields_[f]);
+    }
+  }
 }
 
 void SolutionReader::count_times(const std::filesystem::path& path) {
@@ -156,16 +209,17 @@ void SolutionReader::field(Index field, Index k, Vector& values) const {
                                               {values.data(), static_cast<std::size_t>(points_)});
 }
 
-std::string SolutionReader::what_another_process_finds(const std::filesystem::path& solution) {
+std::string SolutionReader::what_another_process_finds(const std::filesystem::path& solution,
+                                                       const std::filesystem::path& segments) {
   if (look_at(solution).kind == InputKind::other) throw Error("{} is not a file", solution.string());
   constexpr int whole = 0, damaged = 3;
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return "";  // then without
   const ::pid_t child = ::fork();
   if (child == 0) {
-    end_at_first_fault(solution);
+    end_at_first_fault(longest_reading(solution, segments));
     try {
-      SolutionReader(solution, Unguarded()).require_whole();
+      SolutionReader(solution, segments, Unguarded()).require_whole();
     } catch (const std::exception& error) {
       const std::string_view said = error.what();
       ::_exit(::write(pipe[1], said.data(), std::min<std::size_t>(said.size(), PIPE_BUF)) < 0 ? whole : damaged);
@@ -187,7 +241,7 @@ std::string SolutionReader::what_another_process_finds(const std::filesystem::pa
 }
 
 void require_readable(const std::filesystem::path& solution) {
-  if (const std::string damage = SolutionReader::what_another_process_finds(solution); !damage.empty())
+  if (const std::string damage = SolutionReader::what_another_process_finds(solution, "solution"); !damage.empty())
     throw Error(damage);
 }
 

@@ -21,8 +21,9 @@ class SolutionReader {
  public:
   // Another process reads first: damage of a kind that HDF5 does not expect, such as a text of endless length or a heap
   // that leads into itself, ends the program that reads it, or never ends. Throws Error where that happened, where the
-  // file cannot be read, or is no solution.
-  explicit SolutionReader(const std::filesystem::path& path);
+  // file cannot be read, or is no solution. What it shows of other files lies in the folder `segments`:
+  // beside it, or a whole path.
+  explicit SolutionReader(const std::filesystem::path& path, const std::filesystem::path& segments = "solution");
 
   Index count() const { return count_; }  // of times
   std::vector<double> times() const { return first_of(t_); }
@@ -30,6 +31,8 @@ class SolutionReader {
   std::vector<double> modified_energies() const;  // none where the method has none
   // Throws Error where something else in the file than times, energies and fields cannot be read, or leads out of it.
   void require_whole() const;
+  // Where the fields lie, if not in this file.
+  const std::vector<std::filesystem::path>& parts() const { return parts_; }
   const std::vector<std::string>& fields() const { return fields_; }
   const std::string& meaning(Index field) const { return meanings_[static_cast<std::size_t>(field)]; }
   const std::vector<CoordinateAxis>& axes() const { return axes_; }  // of space; none for a single point
@@ -48,10 +51,13 @@ class SolutionReader {
 
  private:
   struct Unguarded {};
-  SolutionReader(const std::filesystem::path& path, Unguarded);
-  static std::string what_another_process_finds(const std::filesystem::path& solution);
+  SolutionReader(const std::filesystem::path& path, const std::filesystem::path& segments, Unguarded);
+  static std::string what_another_process_finds(const std::filesystem::path& solution,
+                                                const std::filesystem::path& segments);
   friend void require_readable(const std::filesystem::path& solution);
 
+  void add_field(const std::string& name, const std::filesystem::path& path, const std::filesystem::path& segments);
+  void require_own_parts() const;
   void count_times(const std::filesystem::path& path);
   std::vector<double> first_of(const Hdf5Dataset& data) const;  // as many as there are times
   std::vector<Place> places(const std::string& name) const;
@@ -61,6 +67,7 @@ class SolutionReader {
   std::optional<Hdf5Dataset> modified_;
   std::vector<std::string> fields_, meanings_;
   std::vector<Hdf5Dataset> data_;
+  std::vector<std::filesystem::path> parts_;
   std::vector<CoordinateAxis> axes_;
   Index points_ = 1;
   Index count_ = 0;

@@ -1,5 +1,6 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/file/atomic_file.hpp>
+#include <seiche/output/solution_reader.hpp>
 #include <seiche/record/checkpoint_file.hpp>
 #include <seiche/record/run_folder.hpp>
 #include <seiche/record/segments.hpp>
@@ -136,6 +137,14 @@ bool is_complete(const fs::path& directory) {
     });
   };
   return has_all(&RunFile::of_run) || has_all(&RunFile::of_ensemble);
+}
+
+bool needs_segments(const fs::path& directory) {
+  try {
+    return fs::exists(directory / solution_name) && !SolutionReader(directory / solution_name).parts().empty();
+  } catch (const Error&) {
+    return true;
+  }
 }
 
 void remove_own_report(const fs::path& directory) {

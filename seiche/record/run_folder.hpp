@@ -25,6 +25,9 @@ void require_ended(const std::filesystem::path& directory);
 // Is everything there that is to be read when a run or an ensemble has ended, or was interrupted?
 bool is_complete(const std::filesystem::path& directory);
 
+// Is there a solution.h5 that shows segments beside it, or one that cannot be read and may?
+bool needs_segments(const std::filesystem::path& directory);
+
 // What a run that goes on leaves anew at its end.
 void remove_what_tells_of_end(const Folder& folder);
 // Of an earlier run or ensemble everything but its pictures and fftw_wisdom: a program that is killed must not leave

@@ -1,6 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/file/folder_open.hpp>
 #include <seiche/record/segments.hpp>
+#include <seiche/record/whole_solution.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -55,35 +56,19 @@ void remove_segments(const Folder& folder, std::size_t kept) {
   ::unlinkat(folder.descriptor(), segments_folder, AT_REMOVEDIR);  // fails where something is in it
 }
 
-struct Segments::Open {
-  PartialPath path;
-  Hdf5File file;
-  std::vector<Hdf5Dataset> columns;
-  std::uint64_t rows = 0;
-
-  Open(const Folder& folder, const SolutionLayout& layout, const SolutionDescription& description, bool has_modified)
-      : path(folder, solution_name),
-        file(Hdf5File::create(path.open(), path.temporary())),
-        columns(make_columns(file, layout, description, has_modified)) {}
-  void close() {
-    columns.clear();
-    file.close();
-  }
-};
-
 Segments::Segments(Folder folder, SolutionLayout layout, SolutionDescription description, bool has_modified_energy,
-                   SegmentsMark mark)
+                   SegmentsMark mark, double join_below)
     : folder_(std::move(folder)),
       layout_(std::move(layout)),
       description_(std::move(description)),
       chunk_(layout_.chunk().front()),
-      mark_(std::move(mark)) {
+      mark_(std::move(mark)),
+      join_below_(join_below) {
   if (mark_.unfinished.empty()) {
     mark_.has_modified = has_modified_energy;
     mark_.unfinished.resize(layout_.fields.size() + mark_.numbers());
   }
   require_same_layout(has_modified_energy);
-  remove_segments(folder_, mark_.sealed.size());
 }
 
 Segments::~Segments() = default;
@@ -101,8 +86,10 @@ void Segments::require_writable() const {
   if (is_broken_) throw Error("{} could not be written", (folder_.path() / solution_name).string());
 }
 
-Segments::Open& Segments::open() {
-  if (!open_) open_ = std::make_unique<Open>(folder_, layout_, description_, mark_.has_modified);
+OpenSolution& Segments::open() {
+  if (open_) return *open_;
+  remove_segments(folder_, mark_.sealed.size());
+  open_ = std::make_unique<OpenSolution>(folder_, layout_, description_, mark_.has_modified);
   return *open_;
 }
 
@@ -137,7 +124,7 @@ void Segments::append(std::span<const double> fields, std::span<const double> nu
   });
 }
 
-void Segments::write_rows(Open& to) {
+void Segments::write_rows(OpenSolution& to) {
   to.rows += mark_.unfinished.back().size();
   for (std::size_t i = 0; i < to.columns.size(); ++i) {
     to.columns[i].append(mark_.unfinished[i]);
@@ -158,38 +145,23 @@ SegmentsMark Segments::seal() {
   return mark_;
 }
 
-// Segments hold whole chunks, so that their bytes are those of the chunks of the joined file.
-void Segments::join(Open& to) const {
-  if (mark_.sealed.empty()) return;
-  const Folder inside = folder_.inside(segments_folder);
-  for (std::size_t k = 0; k < mark_.sealed.size(); ++k) {
-    const Hdf5File from = Hdf5File::open(inside, segment_name(k + 1));
-    std::vector<Hdf5Dataset> columns;
-    for (const Hdf5Dataset& column : to.columns) columns.push_back(from.dataset(column.name()));
-    for (std::uint64_t first = 0; first < mark_.sealed[k].rows; first += chunk_) {
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        if (i < layout_.fields.size()) {
-          to.columns[i].append_chunks(columns[i], first, chunk_);
-        } else {
-          std::vector<double> values(chunk_);
-          columns[i].read(first, values);
-          to.columns[i].append(values);
-        }
-      }
-    }
-  }
-}
-
 void Segments::finish(const RunReport& report) {
   if (!mark_.sealed.empty()) seal();
   attempt([&] {
-    Open& last = open();
-    join(last);
-    write_rows(last);
-    describe_end(last.file, report);
-    last.close();
-    last.path.commit();
-    open_.reset();
+    if (mark_.sealed.empty()) {
+      write_rows(open());
+      open().commit(report);
+      open_.reset();
+      return;
+    }
+    double bytes = 0;
+    for (const SegmentsMark::Segment& segment : mark_.sealed) bytes += static_cast<double>(segment.file.length);
+    shows_segments_ = bytes > join_below_;
+    if (shows_segments_) {
+      show_segments(folder_, segments_folder, layout_, description_, mark_, report);
+    } else {
+      join_segments(folder_, layout_, description_, mark_, report);
+    }
   });
   is_finished_ = true;
 }

@@ -9,6 +9,7 @@
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/solution_columns.hpp>
 #include <seiche/output/solution_layout.hpp>
+#include <seiche/record/open_solution.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -18,7 +19,6 @@
 
 namespace seiche {
 
-inline constexpr const char* solution_name = "solution.h5";
 inline constexpr const char* segments_folder = "solution";
 std::string segment_name(std::size_t number);  // "000001.h5" of 1
 
@@ -48,9 +48,10 @@ void remove_segments(const Folder& folder, std::size_t kept = 0);
 class Segments {
  public:
   // Goes on behind the mark, which is one of the same layout, or of nothing: segments that it does not name are
-  // removed, and those that it names are only read. Throws Error where the mark is of another layout.
+  // removed when the next one begins, and those that it names are only read. At the end segments of so many bytes
+  // together stay where they are. Throws Error where the mark is of another layout.
   Segments(Folder folder, SolutionLayout layout, SolutionDescription description, bool has_modified_energy,
-           SegmentsMark mark = {});
+           SegmentsMark mark = {}, double join_below = 8e9);
   ~Segments();  // a segment that is not sealed is removed
   Segments(const Segments&) = delete;
   Segments& operator=(const Segments&) = delete;
@@ -61,29 +62,29 @@ class Segments {
   // What was appended is on the disk under its final name, but for the rows that the mark holds. Throws Error where it
   // cannot be; the mark before this one still holds then.
   SegmentsMark seal();
-  bool is_broken() const { return is_broken_; }      // something could not be written
-  bool is_finished() const { return is_finished_; }  // solution.h5 is there
-  // solution.h5: the bytes that it has where nothing was ever sealed. The segments stay, and no row is taken any more.
-  // Throws Error where it cannot be written.
+  bool is_broken() const { return is_broken_; }                        // something could not be written
+  bool is_finished() const { return is_finished_; }                    // solution.h5 is there
+  bool is_joined() const { return is_finished_ && !shows_segments_; }  // solution.h5 needs none of them
+  // solution.h5: the bytes that it has where nothing was ever sealed, or virtual data sets over segments that are too
+  // large to be joined. The segments stay, and no row is taken any more. Throws Error where it cannot be written.
   void finish(const RunReport& report);
 
  private:
-  struct Open;  // the segment that is being written
-  Open& open();
+  OpenSolution& open();  // the segment that is being written
   void require_same_layout(bool has_modified_energy) const;
-  void write_rows(Open& to);
+  void write_rows(OpenSolution& to);
   void require_writable() const;
   template <class Action>
   void attempt(const Action& action);
-  void join(Open& to) const;
 
   Folder folder_;
   SolutionLayout layout_;
   SolutionDescription description_;
   std::uint64_t chunk_;  // rows
   SegmentsMark mark_;
-  std::unique_ptr<Open> open_;
-  bool is_broken_ = false, is_finished_ = false;
+  double join_below_;  // bytes
+  std::unique_ptr<OpenSolution> open_;
+  bool is_broken_ = false, is_finished_ = false, shows_segments_ = false;
 };
 
 }  // namespace seiche

@@ -7,10 +7,12 @@
 namespace seiche {
 
 SolutionFile::SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
-                           bool has_modified_energy, const SolutionDescription& description, const Mark* from)
+                           bool has_modified_energy, const SolutionDescription& description, const Mark* from,
+                           double join_below)
     : folder_(folder),
       layout_(solution_layout(problem)),
-      segments_(folder, layout_, description, has_modified_energy, from != nullptr ? from->rows : SegmentsMark{}),
+      segments_(folder, layout_, description, has_modified_energy, from != nullptr ? from->rows : SegmentsMark{},
+                join_below),
       space_(space),
       times_(times),
       has_modified_(has_modified_energy),

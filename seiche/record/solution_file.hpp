@@ -32,15 +32,18 @@ class SolutionFile : public Observer {
     void archive(Archive& a) { a(rows, shown, last_t); }
   };
 
-  // From the start, or behind the mark `from` in what an earlier run has left. `space` outlives the observer.
+  // From the start, or behind the mark `from` in what an earlier run has left. `space` outlives the observer. Segments
+  // of more bytes than `join_below` are not joined.
   SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
-               bool has_modified_energy, const SolutionDescription& description = {}, const Mark* from = nullptr);
+               bool has_modified_energy, const SolutionDescription& description = {}, const Mark* from = nullptr,
+               double join_below = 8e9);
 
   bool is_due(const State& state, bool last) const override;
   double next_time() const override;
   void observe(const State& state, const EnergyReading& energy) override;
   void finish(const RunReport& report) override;  // solution.h5, unless a row could not be written
   bool is_finished() const { return segments_.is_finished(); }
+  bool is_joined() const { return segments_.is_joined(); }
   Mark mark();  // with its rows on the disk
   // solution.xdmf, after finish, for which ParaView asks; not where `stop` is set meanwhile. It shows every n-th time:
   // returns n.

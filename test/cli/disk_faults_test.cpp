@@ -299,6 +299,9 @@ TEST_F(KilledAnywhere, TheResumeOfAKilledRunDoesToo) {
   kill_a_run_behind_a_checkpoint();
   expect_recovered(resume);
 }
+TEST_F(KilledAnywhere, ARunWhoseSegmentsAreNotJoinedDoesToo) {
+  expect_recovered(run + "output.join_below=0 --out out", 2);
+}
 TEST_F(KilledAnywhere, ARunThatBeginsAnewDoesToo) {
   kill_a_run_behind_a_checkpoint();
   expect_recovered(run + "--out out --restart", 2, true);

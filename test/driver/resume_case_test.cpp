@@ -7,6 +7,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/driver/going_on.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
+#include <seiche/output/solution_reader.hpp>
 #include <seiche/study/audit/audit.hpp>
 
 #include <fmt/format.h>
@@ -318,6 +319,33 @@ TEST_F(ResumeCase, IsRecoveredAsIfItHadBeenStoppedAtTheCheckpoint) {
     EXPECT_EQ(recovered.report.steps, stopped.report.steps) << c.name;
     EXPECT_EQ(recovered.report.potential_counts.gradients, stopped.report.potential_counts.gradients) << c.name;
   }
+}
+
+TEST_F(ResumeCase, ShowsTheRowsOfARunThatWasNeverStoppedWhereTheyAreTooManyToBeJoined) {
+  const std::string plane =
+      "[problem]\nname = \"klein_gordon\"\npoints = [128, 130]\nlength = [1.0, 1.0]\n[method]\nh = \"1/64\"\n[time]\nend = 0.5\n"
+      "[output]\nsnapshot_every = 2\n";
+  run(plane, "whole");
+  const std::string not_joined = plane + "join_below = 0\n[checkpoint]\nevery_steps = 5\n";
+  run(not_joined, "out", 12);
+  EXPECT_EQ(SolutionReader(directory / "out/solution.h5").parts().size(), 3U) << "up to steps 5, 10 and 12";
+  EXPECT_THAT(contradicted("out"), testing::IsEmpty());
+  recover("out");
+  resume("out", 22);
+  resume("out");
+  EXPECT_THAT(contradicted("out"), testing::IsEmpty());
+  const SolutionReader whole(directory / "whole/solution.h5"), shown(directory / "out/solution.h5");
+  EXPECT_GT(shown.parts().size(), 4U);
+  ASSERT_EQ(shown.times(), whole.times());
+  EXPECT_EQ(shown.energies(), whole.energies());
+  Vector one, other;
+  for (Index k = 0; k < whole.count(); ++k) {
+    whole.state(k, one);
+    shown.state(k, other);
+    ASSERT_TRUE(std::equal(one.begin(), one.end(), other.begin())) << k;
+  }
+  run(plane, "out");
+  EXPECT_FALSE(fs::exists(directory / "out/solution"));
 }
 
 // Of steps that no solution was found for, and of one that failed: all there is is in the files, and the next run takes

@@ -1,8 +1,8 @@
 #include <seiche/core/error.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/record/checkpoint_file.hpp>
-#include <seiche/record/record_reader.hpp>
 #include <seiche/record/segments.hpp>
+#include <seiche/record/whole_solution.hpp>
 #include <test/support/error_of.hpp>
 #include <test/support/paths.hpp>
 #include <test/support/repetitions.hpp>
@@ -53,8 +53,8 @@ struct Solution {
   SolutionLayout layout;
   bool has_modified = true;
 
-  Segments segments(const fs::path& directory, SegmentsMark mark = {}) const {
-    return Segments(Folder(directory), layout, {.texts = {{"title", name}}}, has_modified, std::move(mark));
+  Segments segments(const fs::path& directory, SegmentsMark mark = {}, double join_below = 8e9) const {
+    return Segments(Folder(directory), layout, {.texts = {{"title", name}}}, has_modified, std::move(mark), join_below);
   }
   std::vector<double> state(std::uint64_t row) const {
     std::vector<double> values(layout.fields.size() * layout.points());
@@ -114,7 +114,7 @@ class SegmentFiles : public InTemporaryDirectory {
   int folders_ = 0;
 };
 
-void expect_rows(const RecordReader& record, const Solution& solution, std::uint64_t rows) {
+void expect_rows(const SolutionReader& record, const Solution& solution, std::uint64_t rows) {
   ASSERT_EQ(record.count(), static_cast<Index>(rows));
   const std::vector<double> t = record.times(), H = record.energies(), modified = record.modified_energies();
   Vector values;
@@ -127,6 +127,16 @@ void expect_rows(const RecordReader& record, const Solution& solution, std::uint
     record.state(static_cast<Index>(row), values);
     ASSERT_EQ(std::vector<double>(values.begin(), values.end()), solution.state(row)) << row;
   }
+}
+
+// What a run that goes on shows of itself: from another folder.
+void expect_shown(const fs::path& directory, const SegmentsMark& mark, const Solution& solution) {
+  const fs::path elsewhere = directory / "shown";
+  const std::string segments = directory / segments_folder;
+  fs::create_directory(elsewhere);
+  show_segments(Folder(elsewhere), segments, solution.layout, {}, mark, success());
+  expect_rows(SolutionReader(elsewhere / solution_name, segments), solution, mark.rows());
+  fs::remove_all(elsewhere);
 }
 
 TEST_F(SegmentFiles, AreJoinedToTheBytesOfAFileThatWasNeverSealed) {
@@ -157,13 +167,68 @@ TEST_F(SegmentFiles, AreReadWithTheRowsThatTheMarkHolds) {
     for (std::uint64_t row = 0, k = 1; k <= 3; ++k) {
       for (const std::uint64_t end = k * (chunk + chunk / 2); row < end; ++row) solution.append(segments, row);
       const SegmentsMark mark = segments.seal();
-      expect_rows(RecordReader(folder, mark), solution, row);
+      ASSERT_EQ(mark.rows(), row);
+      expect_shown(folder, mark, solution);
     }
     segments.finish(success());
     const SolutionReader joined(folder / "solution.h5");
     EXPECT_EQ(joined.count(), static_cast<Index>(3 * (chunk + chunk / 2)));
     EXPECT_EQ(joined.text("status"), "success");
   }
+}
+
+TEST_F(SegmentFiles, ThatAreTooLargeAreNotJoinedAndShown) {
+  for (const Solution& solution : solutions()) {
+    const std::uint64_t chunk = solution.layout.chunk().front(), rows = 3 * chunk + chunk / 2;
+    for (const double join_below : {0.0, 1e9}) {
+      const fs::path folder = fresh();
+      Segments segments = solution.segments(folder, {}, join_below);
+      for (std::uint64_t row = 0; row < rows; ++row) {
+        solution.append(segments, row);
+        if (row == chunk) segments.seal();
+      }
+      segments.finish(success());
+      EXPECT_EQ(segments.is_joined(), join_below > 0);
+      const SolutionReader shown(folder / solution_name);
+      EXPECT_EQ(shown.parts().size(), join_below > 0 ? 0U : 2U) << solution.name;
+      expect_rows(shown, solution, rows);
+      if (join_below > 0) fs::remove_all(folder / segments_folder);
+      expect_rows(SolutionReader(folder / solution_name), solution, rows);
+    }
+  }
+}
+
+// Each would be read as rows of NaN, or show what the file of another holds.
+TEST_F(SegmentFiles, AreShownOnlyWhereTheyAreThoseThatWereWritten) {
+  const Solution few = solutions()[1];
+  const fs::path folder = fresh(), file = folder / solution_name, second = folder / segments_folder / "000002.h5";
+  Segments segments = few.segments(folder, {}, 0);
+  const std::uint64_t chunk = few.layout.chunk().front();
+  for (std::uint64_t row = 0; row < 5 * chunk; ++row) {
+    few.append(segments, row);
+    if (row + 1 == 2 * chunk || row + 1 == 3 * chunk) segments.seal();
+  }
+  segments.finish(success());
+  EXPECT_EQ(error_of([&] { SolutionReader reads(file); }), "");
+  const std::string bytes = text_of(second);
+
+  fs::remove(second);
+  EXPECT_THAT(error_of([&] { SolutionReader reads(file); }), HasSubstr("000002.h5, which is not there"));
+  std::ofstream(folder / "other.h5", std::ios::binary) << bytes;
+  fs::create_symlink(folder / "other.h5", second);
+  EXPECT_THAT(error_of([&] { SolutionReader reads(file); }), HasSubstr("or is not a file"));
+  fs::remove(second);
+  fs::copy_file(folder / segments_folder / "000001.h5", second);
+  EXPECT_THAT(error_of([&] { SolutionReader reads(file); }), HasSubstr("has other rows of u"));
+  fs::remove(second);
+  std::ofstream(second, std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  EXPECT_THAT(error_of([&] { SolutionReader reads(file); }), HasSubstr("000002.h5"));
+  std::ofstream(second, std::ios::binary) << bytes;
+  EXPECT_EQ(error_of([&] { SolutionReader reads(file); }), "");
+
+  fs::rename(folder / segments_folder, folder / "elsewhere");
+  EXPECT_THAT(error_of([&] { SolutionReader reads(file); }), HasSubstr("which is not there"));
+  EXPECT_THAT(error_of([&] { SolutionReader reads(file, "elsewhere"); }), HasSubstr("where no solution has it"));
 }
 
 TEST_F(SegmentFiles, AreNotMadeWhereNoChunkWasFull) {
@@ -198,7 +263,9 @@ TEST_F(SegmentFiles, ThatNoMarkNamesAreRemovedAndNothingElse) {
   const fs::path inside = folder / segments_folder;
   std::ofstream(inside / "notes.txt") << "mine";
   mark.sealed.resize(2);
-  few.segments(folder, mark);
+  Segments segments = few.segments(folder, mark);
+  EXPECT_TRUE(fs::exists(inside / "000003.h5")) << "nothing has changed yet";
+  for (std::uint64_t row = 0; row < few.layout.chunk().front(); ++row) few.append(segments, row);
   EXPECT_TRUE(fs::exists(inside / "000002.h5"));
   EXPECT_FALSE(fs::exists(inside / "000003.h5"));
   EXPECT_FALSE(fs::exists(inside / "000004.h5"));
@@ -239,7 +306,6 @@ TEST_F(SegmentFiles, AreRefusedWithTheMarkOfAnotherSolution) {
   const std::vector<Solution> all = solutions();
   const SegmentsMark mark = sealed_four_times(all[1], fresh());
   EXPECT_THAT(error_of([&] { all[0].segments(fresh(), mark); }), HasSubstr("other fields, or another grid"));
-  EXPECT_THAT(error_of([&] { RecordReader(fresh(), {}); }), HasSubstr("names no field"));
 }
 
 TEST_F(SegmentFiles, TakeNoRowBehindTheirEnd) {
@@ -320,7 +386,7 @@ void expect_the_end(const fs::path& directory, const std::string& expected, cons
     archive(newest);
     ASSERT_EQ(mark.rows(), newest.rows()) << after;
     ASSERT_GT(mark.rows(), 0U) << after;
-    expect_rows(RecordReader(directory, mark), solutions()[1], mark.rows());
+    expect_shown(directory, mark, solutions()[1]);
   }
   ASSERT_EQ(end_of(directory, ""), 0) << after;
   EXPECT_EQ(text_of(directory / "solution.h5"), expected) << after;

@@ -160,6 +160,10 @@ void read_snapshot_interval(CaseReading& r, const KeyRow& row, const std::string
   }
 }
 
+void read_join_below(CaseReading& r, const KeyRow& row, const std::string& key, const CaseValue& value) {
+  r.spec.join_below = read_number_within(row, key, value);
+}
+
 void read_every_seconds(CaseReading& r, const KeyRow& row, const std::string& key, const CaseValue& value) {
   r.spec.checkpoint.every_seconds = read_number_within(row, key, value);
 }

@@ -29,6 +29,7 @@ ReadKey read_end;
 ReadKey read_backend;
 ReadKey read_directory;
 ReadKey read_snapshot_interval;
+ReadKey read_join_below;
 ReadKey read_every_seconds;
 
 }  // namespace seiche

@@ -267,6 +267,11 @@ void add_output(KeyRows& rows) {
       "unknowns",
       from_0, unless_given("0.5"), "saveat dtout dtsave saveinterval", read_snapshot_interval,
       [](const RunSpec& spec) { return unless_0(spec.snapshot_interval); });
+  rows.number(
+      "join_below",
+      "GB; a solution of more stays in solution/ at the end, as its checkpoints left it, and solution.h5 shows it",
+      from_0, unless_given("8"), "", read_join_below,
+      [](const RunSpec& spec) { return spec.join_below == RunSpec().join_below ? Maybe() : spec.join_below; });
 }
 
 // Its keys are written together, or not at all.

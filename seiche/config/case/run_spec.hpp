@@ -70,6 +70,7 @@ struct RunSpec {
   std::int64_t snapshot_every = 64;  // steps; 0: the first and the last state only
   bool ledger = false;               // columns in energy.csv: where the change of H comes from
   bool report = true;                // report.html
+  double join_below = 8;             // GB: at the end segments of less become one file
   CheckpointSpec checkpoint;
   double snapshot_interval = 0.0;  // time; 0: by steps. With a tolerance only
   bool snapshots_given = false;    // one of the two at least

@@ -2,6 +2,7 @@
 #include <seiche/output/file/folder_open.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/hdf5/hdf5_calls.hpp>
+#include <seiche/output/hdf5/hdf5_virtual.hpp>
 #include <seiche/output/hdf5/hdf5_whole.hpp>
 
 #include <fcntl.h>
@@ -57,6 +58,10 @@ Hdf5Handle chosen_rows(Hdf5Handle::Id dataset, const Hdf5Shape& shape, std::uint
   return space;
 }
 
+Error stored_elsewhere(const std::string& name) {
+  return Error("the HDF5 data set {} is stored in another file, and those of a solution are not", name);
+}
+
 Hdf5Handle flat_space(std::size_t size) {
   const hsize_t length = size;
   return hdf5_handle(H5Screate_simple(1, &length, nullptr), H5Sclose, "no HDF5 space for values");
@@ -68,8 +73,12 @@ Hdf5Dataset::Hdf5Dataset(Hdf5Handle handle, std::string name)
     : handle_(std::move(handle)), name_(std::move(name)), shape_(shape_of(handle_.id())) {
   if (shape_.empty()) throw Error("the HDF5 data set {} is a number and no array", name_);
   const Hdf5Handle options = hdf5_handle(H5Dget_create_plist(id()), H5Pclose, "an HDF5 data set has no layout");
-  if (H5Pget_external_count(options.id()) != 0 || H5Pget_layout(options.id()) == H5D_VIRTUAL)
-    throw Error("the HDF5 data set {} is stored in another file, and those of a solution are not", name_);
+  if (H5Pget_external_count(options.id()) != 0) throw stored_elsewhere(name_);
+}
+
+std::vector<Hdf5Source> Hdf5Dataset::sources() const {
+  const Hdf5Quiet quiet;
+  return sources_of(id(), shape_);
 }
 
 std::uint64_t Hdf5Dataset::row_size() const {
@@ -202,17 +211,22 @@ void Hdf5File::make_group(const std::string& name) {
 
 Hdf5Dataset Hdf5File::make_dataset(const std::string& name, const Hdf5Layout& layout) {
   const Hdf5Quiet quiet;
-  std::vector<hsize_t> size = {0}, most = {H5S_UNLIMITED};
-  for (const std::uint64_t n : layout.row) {
-    size.push_back(n);
-    most.push_back(n);
-  }
+  Hdf5Shape shape = {0};
+  for (const Hdf5Source& source : layout.sources) shape[0] += source.rows;
+  shape.insert(shape.end(), layout.row.begin(), layout.row.end());
+  const std::vector<hsize_t> size = sizes(shape);
+  std::vector<hsize_t> most = size;
+  if (layout.sources.empty()) most[0] = H5S_UNLIMITED;
   const std::string what = fmt::format("cannot make {} in {}", name, path_.string());
   const Hdf5Handle space =
       hdf5_handle(H5Screate_simple(static_cast<int>(size.size()), size.data(), most.data()), H5Sclose, what);
   const Hdf5Handle options = hdf5_handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
-  hdf5_check(H5Pset_chunk(options.id(), static_cast<int>(layout.chunk.size()), sizes(layout.chunk).data()), what);
-  if (layout.compressed) {
+  if (layout.sources.empty()) {
+    hdf5_check(H5Pset_chunk(options.id(), static_cast<int>(layout.chunk.size()), sizes(layout.chunk).data()), what);
+  } else {
+    set_sources(options.id(), shape, layout.sources);
+  }
+  if (layout.compressed && layout.sources.empty()) {
     hdf5_check(H5Pset_shuffle(options.id()), what);
     hdf5_check(H5Pset_deflate(options.id(), compression), what);
   }
@@ -236,6 +250,12 @@ void Hdf5File::refuse_link(const std::string& name) const {
 }
 
 Hdf5Dataset Hdf5File::dataset(const std::string& name) const {
+  Hdf5Dataset found = dataset_or_virtual(name);
+  if (!found.sources().empty()) throw stored_elsewhere(name);
+  return found;
+}
+
+Hdf5Dataset Hdf5File::dataset_or_virtual(const std::string& name) const {
   const Hdf5Quiet quiet;
   refuse_link(name);
   return {hdf5_handle(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose,

@@ -37,6 +37,13 @@ class Hdf5Handle {
 
 using Hdf5Shape = std::vector<std::uint64_t>;
 
+// Rows of a virtual data set, which lie in another data set.
+struct Hdf5Source {
+  std::string file;  // beside the one that names it, unless it is a whole path; "": the same one
+  std::string dataset;
+  std::uint64_t rows = 0;  // all that it has
+};
+
 // An array of doubles (or of whole numbers, which are shown as doubles too), in the order of C: the last axis runs
 // fastest.
 class Hdf5Dataset {
@@ -53,6 +60,8 @@ class Hdf5Dataset {
   // Rows of a data set of the same layout, behind the last one, as the bytes that they are there, compressed or not.
   // They fill chunks, there and here.
   void append_chunks(const Hdf5Dataset& from, std::uint64_t first, std::uint64_t rows);
+  // Where its rows lie, in their order, if it is virtual.
+  std::vector<Hdf5Source> sources() const;
   // Whole rows from `first` on, as many as `values` holds.
   void read(std::uint64_t first, std::span<double> values) const;
 
@@ -69,6 +78,7 @@ struct Hdf5Layout {
   Hdf5Shape chunk = {};  // of rows and row: compressed as one piece
   bool compressed = true;
   bool whole_numbers = false;
+  std::vector<Hdf5Source> sources = {};  // of a virtual data set, to which no row can be appended
 };
 
 class Hdf5File {
@@ -81,7 +91,9 @@ class Hdf5File {
 
   void make_group(const std::string& name);
   Hdf5Dataset make_dataset(const std::string& name, const Hdf5Layout& layout);  // with no row yet; "group/name" works
+  // Throws Error where it is not there, or its rows are not in this file.
   Hdf5Dataset dataset(const std::string& name) const;
+  Hdf5Dataset dataset_or_virtual(const std::string& name) const;
   bool has(const std::string& name) const;  // a data set or a group
   // Reads every attribute, and the data sets but those in `elsewhere`, which others read. Throws Error where something
   // cannot be read, or is a link or stored outside, so that the file is not all there is.

@@ -120,6 +120,7 @@ end = 2
 directory = "out/there"
 energy_every = 3
 snapshot_every = 0
+join_below = 0.5
 )toml",
                                   "x.toml");
   EXPECT_EQ(spec.parameters.reals("length"), std::vector<double>{2 * std::numbers::pi});
@@ -139,6 +140,7 @@ snapshot_every = 0
   EXPECT_EQ(spec.output_directory, "out/there");
   EXPECT_EQ(spec.energy_every, 3);
   EXPECT_EQ(spec.snapshot_every, 0);
+  EXPECT_EQ(spec.join_below, 0.5);
   EXPECT_EQ(write_case(parse_case(write_case(spec), "again.toml")), write_case(spec));
 }
 
@@ -185,6 +187,7 @@ TEST(CaseFile, WhatIsWrittenIsReadBackAsTheSameCase) {
     EXPECT_EQ(again.output_directory, spec.output_directory);
     EXPECT_EQ(again.energy_every, spec.energy_every);
     EXPECT_EQ(again.snapshot_every, spec.snapshot_every);
+    EXPECT_EQ(again.join_below, spec.join_below);
     EXPECT_EQ(again.notes, spec.notes);
   }
 }
