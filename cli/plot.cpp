@@ -1,4 +1,4 @@
-// seiche plot: the pictures of a finished run, and its report with them.
+// seiche plot: the pictures of a run, and its report with them.
 #include "command_line.hpp"
 
 #include <fmt/ranges.h>
@@ -17,6 +17,7 @@
 #include <seiche/output/xdmf.hpp>
 #include <seiche/record/checkpoint_file.hpp>
 #include <seiche/record/run_folder.hpp>
+#include <seiche/study/run_view.hpp>
 
 #include <unistd.h>
 
@@ -105,9 +106,9 @@ PictureOptions picture_options(const PlotArguments& arguments) {
 }
 
 // Asked where something went wrong, since all of it is read.
-bool is_damaged(const std::filesystem::path& file) {
+bool is_damaged(const RunFiles& run) {
   try {
-    const SolutionReader solution(file);
+    const SolutionReader solution(run.solution, run.segments);
     Vector values;
     for (Index k = 0; k < solution.count(); ++k) solution.state(k, values);
     return false;
@@ -132,8 +133,8 @@ ExitCode plot_ensemble(const PlotArguments& arguments, const PictureOptions& opt
         "{} holds an ensemble, whose pictures are curves: --range, --centre, --palette and --film have nothing to colour",
         arguments.directory);
   const std::filesystem::path directory = arguments.directory;
-  const FolderLock lock{Folder(directory)};
   EnsemblePictures pictures = ensemble_pictures(directory);
+  const FolderLock lock = lock_for_pictures(directory, pictures.has_ended);
   try {
     draw_ensemble(pictures, directory, options);
   } catch (const BadDrawingRequest&) {
@@ -143,6 +144,7 @@ ExitCode plot_ensemble(const PlotArguments& arguments, const PictureOptions& opt
     return computation_failed;
   }
   print_lines(fmt::format("{:<10} {} in {}\n", "pictures", pictures.list.size(), (directory / "figures").string()));
+  if (!pictures.has_ended) print_note(pictures.warning);
   return success;
 }
 
@@ -150,23 +152,21 @@ ExitCode plot(const PlotArguments& arguments) {
   hdf5_without_cleanup_at_exit();  // which of a damaged file says that it does not end
   if (arguments.xdmf) return write_all_times(arguments.directory);
   PictureOptions options = picture_options(arguments);
-  require_ended(arguments.directory);
   if (holds_ensemble(arguments.directory)) return plot_ensemble(arguments, options);
-  const RunFiles run = read_run(arguments.directory);
-  const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
-  if (!std::filesystem::exists(run.directory / "solution.h5") && !checkpoints_in(run.directory).empty())
+  const auto [run, history] = view_of_run(arguments.directory);
+  if (!std::filesystem::exists(run.solution) && !checkpoints_in(run.directory).empty())
     throw Error(
         "{0} has no solution.h5, since there was no room for it: `seiche recover {0}` writes what a checkpoint vouches for, "
         "and `seiche resume {0}` goes on from it",
         run.directory.string());
-  if (!std::filesystem::exists(run.directory / "solution.h5"))
+  if (!std::filesystem::exists(run.solution))
     throw Error(
         "{0} has no solution.h5 and nothing to draw: its run ended before a state was written, or the file was removed; "
         "`seiche run {0}/case.toml --out {0} --restart` computes it again",
         run.directory.string());
   if (!arguments.film_fields.empty())
-    options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.directory / "solution.h5"));
-  const FolderLock lock{Folder(run.directory)};
+    options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.solution, run.segments));
+  const FolderLock lock = lock_for_pictures(run.directory, run.has_ended);
   require_own_report(run.directory);
   require_own_figures(run.directory);
   try {
@@ -182,7 +182,7 @@ ExitCode plot(const PlotArguments& arguments) {
   } catch (const BadDrawingRequest&) {
     throw;
   } catch (const Error& error) {
-    if (is_damaged(run.directory / "solution.h5")) throw;
+    if (is_damaged(run)) throw;
     // The run and its files are what they were, and so are pictures of an earlier call.
     if (!std::filesystem::exists(run.directory / "figures" / "energy.png"))
       write_run_report(run, history, {}, error.what());
@@ -190,6 +190,7 @@ ExitCode plot(const PlotArguments& arguments) {
     return computation_failed;
   }
   print_lines(fmt::format("{:<10} {}\n", "report", (run.directory / "report.html").string()));
+  if (!run.has_ended) print_note(run.status);
   return success;
 }
 
@@ -198,7 +199,8 @@ ExitCode plot(const PlotArguments& arguments) {
 void add_plot(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<PlotArguments>();
   CLI::App* command = app.add_subcommand(
-      "plot", "Draw a finished run: energies, solution, film, and report.html with them; of an ensemble its energies");
+      "plot",
+      "Draw a run, also one that goes on: energies, solution, film, and report.html with them; of an ensemble its energies");
   command->add_option("DIR", arguments->directory, "The directory that a run left")->required()->type_name("");
   command->add_option("--format", arguments->formats, "Kinds of files: png, pdf, svg (all if not given; png always)")
       ->type_name("LIST");

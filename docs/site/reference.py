@@ -174,7 +174,7 @@ PYTHON_PARTS = {"State an equation": ["problem", "load", "Problem", "Case"],
                 "Solve it": ["solve", "Result", "DenseOutput", "Status", "SeicheWarning"],
                 "Step by step": ["Simulation", "StepError"],
                 "Many at once": ["solve_ensemble", "EnsembleResult"],
-                "Runs that leave files": ["run", "resume", "CaseRun"],
+                "Runs that leave files": ["run", "resume", "read", "CaseRun"],
                 "Judge": ["check", "spectrum", "converge"],
                 "Measure": ["fit", "FitResult"],
                 "Pictures": ["plot"]}

@@ -21,7 +21,7 @@ from ._ensemble import EnsembleResult, solve_ensemble
 from ._fit import FitResult, fit
 from ._problem import Case, Problem, load, problem
 from ._result import DenseOutput, Result, SeicheWarning, Status
-from ._run import CaseRun, resume, run
+from ._run import CaseRun, read, resume, run
 from ._simulation import Simulation, StepError
 from ._solve import solve
 from ._studies import check, converge, spectrum
@@ -52,6 +52,7 @@ __all__ = [
     "plot",
     "problem",
     "problems",
+    "read",
     "resume",
     "run",
     "solve",

@@ -144,6 +144,14 @@ class CaseRun:
     notes: list[str]
     remarks: list[str]
 
+class Look:
+    solution: str
+    how_far: str
+    def release(self) -> None: ...
+
+def look(folder: str) -> Look:
+    """The solution of a run, which is there until it is released; how far a run had come that has not ended."""
+
 def run(
     case: Case,
     folder: str,

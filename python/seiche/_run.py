@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import hashlib
+import importlib.util
 import itertools
 import json
 import math
 import os
 import pathlib
 import re
-from typing import Any, Callable
+from typing import TYPE_CHECKING, Any, Callable
 
 import numpy as np
 
@@ -19,6 +21,9 @@ from ._problem import Case, Problem, load, real_array, run_case, thread_count, t
 from ._progress import Report, showing
 from ._result import Answer, Result, quietly, say
 from ._types import File
+
+if TYPE_CHECKING:
+    import xarray
 
 
 class CaseRun(Answer):
@@ -98,6 +103,31 @@ def resume(
     with showing(progress) as tell:
         done = _core.resume(directory, t_end, thread_count(threads), _hours(max_hours), tell)
     return _case_run(done, directory)
+
+
+def read(run: CaseRun | File) -> "xarray.Dataset":
+    """The states that a run has written, as an `xarray.Dataset`, which reads from the disk what is asked of it.
+
+    Of a run that has not ended, also while it goes on in another program, these are the states up to its newest checkpoint:
+    ``attrs["message"]`` says how far it had come. To see more of it, read again.
+
+    Parameters
+    ----------
+    run : CaseRun or path
+        What `run`, `resume` or ``result.save`` returned, or the folder.
+
+    Needs xarray, and h5netcdf or netCDF4.
+    """
+    import xarray
+
+    engines = {"h5netcdf": "h5netcdf", "netCDF4": "netcdf4"}
+    engine = next((engines[name] for name in engines if importlib.util.find_spec(name)), None)
+    if engine is None:
+        raise ImportError("seiche.read needs h5netcdf or netCDF4, by which xarray reads solution.h5")
+    seen = _core.look(os.fspath(run.folder if isinstance(run, CaseRun) else run))
+    if seen.how_far:
+        atexit.register(seen.release)  # until then xarray may open the file again
+    return xarray.open_dataset(seen.solution, engine=engine)
 
 
 def _unsayable(result: Result) -> str:

@@ -10,11 +10,14 @@
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/output/file/folder_lock.hpp>
+#include <seiche/output/solution_reader.hpp>
 #include <seiche/record/run_folder.hpp>
+#include <seiche/study/run_view.hpp>
 
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -122,21 +125,33 @@ CaseRun resume(const std::string& folder, std::optional<double> t_end, int threa
   });
 }
 
+// The solution of a run that has ended, or of one that has not: a file for as long as this lives.
+struct Look {
+  std::string solution, how_far;  // "" of a run that has ended
+  std::shared_ptr<const void> temporary;
+};
+
+Look look(const std::string& folder) {
+  return without_gil([&] {
+    const RunView view = view_of_run(folder);
+    SolutionReader readable(view.run.solution, view.run.segments);  // or h5py would end Python by damage
+    return Look{view.run.solution, view.run.has_ended ? "" : view.run.status, view.run.temporary};
+  });
+}
+
 // What `seiche plot` does, with the programs beside this module.
 void report(const std::string& folder, const std::vector<std::string>& formats, bool film, const std::string& programs,
             const std::string& interpreter) {
   interruptible([&](const std::atomic<bool>*) {
     draw_with(programs, interpreter);
-    require_ended(folder);
     if (holds_ensemble(folder)) {
-      const FolderLock lock{Folder(folder)};
       EnsemblePictures pictures = ensemble_pictures(folder);
+      const FolderLock lock = lock_for_pictures(folder, pictures.has_ended);
       draw_ensemble(pictures, folder, {.formats = formats});
       return 0;
     }
-    const RunFiles run = read_run(folder);
-    const EnergyHistory history = read_energy_history(run.directory / "energy.csv");
-    const FolderLock lock{Folder(run.directory)};
+    const auto [run, history] = view_of_run(folder);
+    const FolderLock lock = lock_for_pictures(run.directory, run.has_ended);
     require_own_report(run.directory);
     require_own_figures(run.directory);
     write_run_report(run, history, draw_run(run, history, {.formats = formats, .film = film}));
@@ -151,6 +166,11 @@ void bind_runs(py::module_& module) {
       .def_readonly("summary", &CaseRun::summary)
       .def_readonly("notes", &CaseRun::notes)
       .def_readonly("remarks", &CaseRun::remarks);
+  py::class_<Look>(module, "Look")
+      .def_readonly("solution", &Look::solution)
+      .def_readonly("how_far", &Look::how_far)
+      .def("release", [](Look& look) { look.temporary.reset(); });
+  module.def("look", &look);
   module.def("run", &run);
   module.def("resume", &resume);
   module.def("report", &report);

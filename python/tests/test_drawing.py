@@ -410,7 +410,7 @@ def test_text_of_others_is_text_and_no_formula():
 def request(run, **more):
     history = {"H": [[0, 1], [1, 0.5]], "modified": None, "causes": []}
     return {
-        "run": str(run),
+        "solution": str(run / "solution.h5"),
         "title": "title",
         "warning": "",
         "history": history,

@@ -5,6 +5,8 @@ import os
 import subprocess
 import sys
 import textwrap
+import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -111,3 +113,32 @@ def test_resume_refuses_a_folder_without_a_checkpoint(case, tmp_path):
         seiche.resume(tmp_path / "out")
     with pytest.raises(ValueError, match="max_hours = 0 must be > 0"):
         seiche.resume(tmp_path / "out", max_hours=0)
+
+
+def test_a_run_is_read_as_far_as_it_has_come(case, tmp_path):
+    pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    program = Path(os.environ.get("SEICHE_BUILD_DIR", "nowhere")) / "seiche"
+    if not program.exists():
+        pytest.skip("SEICHE_BUILD_DIR names no build tree (ctest does)")
+    whole = seiche.read(seiche.run(case, tmp_path / "whole"))
+    assert whole.attrs["status"] == "success" and list(whole.t.values) == [0, 0.5, 1, 1.5, 2]
+
+    folder = tmp_path / "out"
+    more = ["time.end=1e7", "output.energy_every=100", "checkpoint.every_seconds=0.1"]
+    words = ["run", case, "--quiet", "--out", folder, "--set", *more]
+    with subprocess.Popen([program, *words]) as running:
+        try:
+            while not (folder / "checkpoint.seiche").exists():
+                assert running.poll() is None
+                time.sleep(0.01)
+            begun = seiche.read(folder)
+            assert begun.attrs["message"].startswith("still running, up to t = ")
+            assert running.poll() is None
+        finally:
+            running.kill()
+    assert len(begun.t) > 5 and (begun.u[:5].values == whole.u.values).all() and (begun.H[:5].values == whole.H.values).all()
+    farther = seiche.read(folder)
+    assert len(farther.t) >= len(begun.t) and farther.attrs["message"].startswith("not finished, up to t = ")
+    with pytest.raises(ValueError, match="no directory of a finished run"):
+        seiche.read(tmp_path)

@@ -6,6 +6,7 @@
 #include <seiche/output/csv_table.hpp>
 #include <seiche/output/text_table.hpp>
 #include <seiche/study/member_counts.hpp>
+#include <seiche/study/unfinished_run.hpp>
 
 #include <fmt/ranges.h>
 
@@ -110,14 +111,21 @@ bool holds_ensemble(const fs::path& directory) {
 
 EnsemblePictures ensemble_pictures(const fs::path& directory) {
   require_own_figures(directory);
-  const RunSpec spec = read_case(directory / "case.toml");
-  if (!fs::is_regular_file(directory / "energy.csv"))
+  const std::optional<UnfinishedRun> unfinished = unfinished_run(directory);
+  const RunSpec spec = unfinished ? unfinished->spec : read_case(directory / "case.toml");
+  if (!unfinished && !fs::is_regular_file(directory / "energy.csv"))
     throw Error("{} is no directory of a finished ensemble: it has no energy.csv", directory.string());
   const std::string name = run_name(problem_entry(spec).title, spec.problem, directory);
   const std::string titled = run_title(name, spec.method, spec);
   const std::string colour = method_line(spec.method).colour;
-  EnsemblePictures pictures{.list = {energy_picture(CsvTable::read(directory / "energy.csv"), titled, colour)},
-                            .warning = ""};
+  const CsvTable energies = unfinished ? CsvTable::read(unfinished->energies, unfinished->saved.energies.file.length)
+                                       : CsvTable::read(directory / "energy.csv");
+  EnsemblePictures pictures{.list = {energy_picture(energies, titled, colour)}, .warning = ""};
+  if (unfinished) {
+    pictures.warning = unfinished->how_far();
+    pictures.has_ended = false;
+    return pictures;
+  }
   const TextTable members(directory / "members.csv");
   pictures.warning = shortfall(members);
   for (const auto& [parameter, range] : spec.ensemble->parameters)

@@ -1,4 +1,4 @@
-// The pictures of a finished ensemble, drawn into its folder.
+// The pictures of an ensemble, drawn into its folder.
 #pragma once
 
 #include <seiche/figure/curve_picture.hpp>
@@ -15,11 +15,12 @@ bool holds_ensemble(const std::filesystem::path& directory);
 
 struct EnsemblePictures {
   std::vector<CurvePicture> list;
-  std::string warning;  // "2 of 5 members failed", or ""
+  std::string warning;  // "2 of 5 members failed", "still running, up to t = 3", or ""
+  bool has_ended = true;
 };
 
 // energy: the mean of H over time, what 90 % of the members have, and all of them; members_<parameter> for each
-// parameter that varies: what a member keeps of its energy, where members.csv is there. Throws Error where tables are
+// parameter that varies: what a member keeps of its energy, where the ensemble has ended. Throws Error where tables are
 // missing or damaged.
 EnsemblePictures ensemble_pictures(const std::filesystem::path& directory);
 

@@ -4,7 +4,9 @@
 #include <seiche/figure/drawing_folder.hpp>
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/style.hpp>
+#include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/solution_reader.hpp>
+#include <seiche/study/run_view.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -75,7 +77,7 @@ Json request_for(const RunFiles& run, const EnergyHistory& history, const std::v
                  const PictureOptions& options) {
   Json causes = Json::array();
   for (const Curve& cause : history.causes) causes.push_back({cause_label(history, cause.name), points_of(cause)});
-  Json request = {{"run", "../.."},  // from the folder of the drawing
+  Json request = {{"solution", fs::absolute(run.solution).string()},
                   {"title", run_title(run_name(run), run.method, run.spec)},
                   {"warning", shortfall(run)},
                   {"formats", formats},
@@ -128,9 +130,16 @@ std::string run_title(const std::string& name, const std::string& method, const 
   return fmt::format("{}, {}, {}", name, method_label(method), steps);
 }
 
+FolderLock lock_for_pictures(const fs::path& directory, bool has_ended) {
+  if (has_ended) return FolderLock{Folder(directory)};
+  require_own_figures(directory);
+  make_directory(directory / "figures");
+  return FolderLock{Folder(directory / "figures")};
+}
+
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options) {
   require_own_figures(run.directory);
-  const SolutionReader readable(run.directory / "solution.h5");  // or Python would end by damage, or wait for ever
+  const SolutionReader readable(run.solution, run.segments);  // or Python would end by damage, or wait for ever
   RunPictures pictures{.list = {}, .formats = with_png(options.formats), .films = {}};
   DrawingFolder drawing(run.directory / "figures");
   const Json drawn = Json::parse(draw(request_for(run, history, pictures.formats, options).dump(), drawing.path()));
@@ -145,6 +154,7 @@ RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const Pi
                               .remark = one.at("remark"),
                               .note = one.at("note")});
   }
+  require_still_unfinished(run);
   remove_pictures(run.directory);  // of an earlier call, now that the new ones are there
   drawing.commit();
   return pictures;

@@ -1,6 +1,7 @@
-// The pictures of a finished run, drawn into its folder.
+// The pictures of a run, drawn into its folder.
 #pragma once
 
+#include <seiche/output/file/folder_lock.hpp>
 #include <seiche/study/energy_history.hpp>
 #include <seiche/study/run_files.hpp>
 
@@ -55,9 +56,12 @@ std::string run_title(const std::string& name, const std::string& method, const 
 // through which files would get elsewhere or vanish there.
 void require_own_figures(const std::filesystem::path& directory);
 
-// Throws Error where require_own_figures does, where Python or a package that draws is missing or fails, and where
-// solution.h5 cannot be read; then what an earlier call drew stays, and goes only where everything is drawn. Throws
-// BadDrawingRequest for a palette or a field that there is not.
+// For who draws: of a run that has ended the lock of its folder, else of its figures, since the run may hold the other.
+FolderLock lock_for_pictures(const std::filesystem::path& directory, bool has_ended);
+
+// Throws Error where require_own_figures does, where Python or a package that draws is missing or fails, where
+// solution.h5 cannot be read, and where a run that went on has ended meanwhile; then what an earlier call drew stays,
+// and goes only where everything is drawn. Throws BadDrawingRequest for a palette or a field that there is not.
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options = {});
 
 // What draw_run left in the figures of an earlier run, so that nothing old stands beside new data; other files stay.

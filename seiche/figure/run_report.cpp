@@ -10,6 +10,7 @@
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/record/run_folder.hpp>
 #include <seiche/study/run_files.hpp>
+#include <seiche/study/run_view.hpp>
 
 #include <fmt/format.h>
 
@@ -28,11 +29,12 @@ std::string mark(const char* kind, const char* symbol, const std::string& text) 
 
 std::string status_mark(const RunFiles& run) {
   if (run.status == "success") return mark("holds", "✓", "success");
-  const std::string when = fmt::format("{} at t = {:.6g}", run.status, run.t);
+  const std::string when = early_end(run);
   return run.status == "failed" ? mark("fails", "✗", when) : mark("depends", "≈", when);
 }
 
 std::string law_mark(const RunFiles& run) {
+  if (!run.has_ended) return mark("depends", "≈", "the energy law is judged at the end");
   if (run.law == "holds") return mark("holds", "✓", "the energy law holds");
   return run.law == "violated" ? mark("fails", "✗", "the energy law is violated")
                                : mark("depends", "≈", "no energy law is promised");
@@ -90,14 +92,16 @@ std::string energy_row(const char* name, const EnergyNumbers& energy) {
 std::string energies(const RunFiles& run) {
   std::string text =
       "<h2 id=\"energy\">Energy</h2>\n<div class=\"scroll\"><table class=\"numbers narrow\"><thead><tr><th scope=\"col\"></th>"
-      "<th scope=\"col\">at the start</th><th scope=\"col\">at the end</th><th scope=\"col\">largest increase "
-      "between records</th></tr></thead>\n<tbody>\n";
+      "<th scope=\"col\">at the start</th><th scope=\"col\">" +
+      std::string(run.has_ended ? "at the end" : "at last") +
+      "</th><th scope=\"col\">largest increase between records</th></tr></thead>\n<tbody>\n";
   text += energy_row("H", run.energy);
   if (run.modified) text += energy_row("modified energy", *run.modified);
   return text + "</tbody></table></div>\n";
 }
 
 std::string certificate(const RunFiles& run) {
+  if (!run.has_ended) return "";
   std::string text = "<h2 id=\"certificate\">Certificate</h2>\n";
   text += run.promised ? fmt::format("<p>The energy law is promised: {}.</p>\n", html_text(run.law_reason))
                        : fmt::format("<p>No energy law is promised: {}.</p>\n", html_text(run.law_reason));
@@ -201,7 +205,7 @@ std::string origin(const RunFiles& run) {
     std::replace(words.begin(), words.end(), '_', ' ');
     text += table_row(words, fmt::format("{}", count));
   }
-  text += table_row("time of the run", fmt::format("{:.3g} s", run.wall_seconds));
+  if (run.has_ended) text += table_row("time of the run", fmt::format("{:.3g} s", run.wall_seconds));
   text +=
       "</tbody></table></div>\n<details><summary>Versions</summary><div class=\"scroll\"><table class=\"narrow\"><tbody>\n";
   for (const auto& [what, version] : run.versions) text += table_row(what, html_escaped(version));
@@ -212,6 +216,7 @@ std::string origin(const RunFiles& run) {
 
 void write_run_report(const RunFiles& run, const EnergyHistory& history, const RunPictures& pictures,
                       const std::string& no_pictures_because) {
+  require_still_unfinished(run);
   AtomicFile file(run.directory / "report.html");
   file.write(head(run));
   file.write(energies(run));

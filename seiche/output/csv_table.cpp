@@ -21,16 +21,22 @@ std::vector<std::string_view> cells(std::string_view line) {
 
 }  // namespace
 
-CsvReader::CsvReader(const std::filesystem::path& file) : file_(file) {
+CsvReader::CsvReader(const std::filesystem::path& file, std::uintmax_t bytes) : file_(file), bytes_(bytes) {
   if (look_at(file).kind == InputKind::other) throw Error("{} is not a file", file.string());
   input_.open(file);
   if (!input_) throw Error("{} cannot be read", file.string());
-  if (!std::getline(input_, line_)) return;
+  if (!next_line()) return;
   for (const std::string_view name : cells(line_)) names_.emplace_back(name);
 }
 
+bool CsvReader::next_line() {
+  if (bytes_ == 0 || !std::getline(input_, line_)) return false;
+  bytes_ -= std::min<std::uintmax_t>(bytes_, line_.size() + 1);
+  return true;
+}
+
 bool CsvReader::next(std::vector<double>& row) {
-  if (!std::getline(input_, line_)) return false;
+  if (!next_line()) return false;
   ++line_number_;
   row.clear();
   const char* at = line_.data();
@@ -49,8 +55,8 @@ bool CsvReader::next(std::vector<double>& row) {
   return true;
 }
 
-CsvTable CsvTable::read(const std::filesystem::path& file) {
-  CsvReader reader(file);
+CsvTable CsvTable::read(const std::filesystem::path& file, std::uintmax_t bytes) {
+  CsvReader reader(file, bytes);
   CsvTable table{.names = reader.names(), .rows = {}};
   for (std::vector<double> row; reader.next(row);) table.rows.push_back(row);
   if (table.rows.empty()) throw Error("{} holds no row of numbers", file.string());

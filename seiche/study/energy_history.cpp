@@ -76,8 +76,8 @@ class Extremes {
 
 }  // namespace
 
-EnergyHistory read_energy_history(const std::filesystem::path& file) {
-  CsvReader reader(file);
+EnergyHistory read_energy_history(const std::filesystem::path& file, std::uintmax_t bytes) {
+  CsvReader reader(file, bytes);
   const std::vector<std::string>& names = reader.names();
   if (names.size() < 2 || names[0] != "t" || names[1] != "H")
     throw Error("{} is no table of energies: it begins with '{}'", file.string(),

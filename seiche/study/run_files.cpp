@@ -58,6 +58,20 @@ void read_certificate(const Json& certificate, RunFiles& run) {
 
 }  // namespace
 
+RunFiles run_of_case(const std::filesystem::path& directory, const RunSpec& spec, const std::string& case_text) {
+  RunFiles run;
+  run.directory = directory;
+  run.solution = directory / "solution.h5";
+  run.spec = spec;
+  run.case_text = case_text;
+  const ProblemEntry& problem = problem_entry(spec);
+  run.title = problem.title;
+  run.equation = problem.equation;
+  run.reference = problem.reference;
+  run.method_reference = find_method(spec.method).reference;
+  return run;
+}
+
 RunFiles read_run(const std::filesystem::path& directory) {
   namespace fs = std::filesystem;
   if (look_at(directory).kind != InputKind::folder) throw Error("{} is no directory of a run", directory.string());
@@ -67,17 +81,9 @@ RunFiles read_run(const std::filesystem::path& directory) {
   const Json summary = Json::parse(text_of(directory / "summary.json"), nullptr, false);
   if (!summary.is_object() || !summary.contains("energy") || !summary.contains("status"))
     throw Error("{} is no summary of a run", (directory / "summary.json").string());
-  RunFiles run;
-  run.directory = directory;
-  run.spec = read_case(directory / "case.toml");
-  run.case_text = text_of(directory / "case.toml");
+  RunFiles run = run_of_case(directory, read_case(directory / "case.toml"), text_of(directory / "case.toml"));
   if (run.spec.ensemble)
     throw Error("{} holds an ensemble, which leaves statistics and no solution", directory.string());
-  const ProblemEntry& problem = problem_entry(run.spec);
-  run.title = problem.title;
-  run.equation = problem.equation;
-  run.reference = problem.reference;
-  run.method_reference = find_method(run.spec.method).reference;
   run.status = text(summary, "status");
   run.message = text(summary, "message");
   run.problem = text(summary, "problem");
@@ -109,8 +115,13 @@ std::string run_name(const std::string& title, const std::string& problem, const
   return folder.filename().empty() ? problem : folder.filename().string();
 }
 
+std::string early_end(const RunFiles& run) {
+  if (!run.has_ended) return run.status;
+  return run.status == "success" ? "" : fmt::format("{} at t = {:.6g}", run.status, run.t);
+}
+
 std::string shortfall(const RunFiles& run) {
-  std::string text = run.status == "success" ? "" : fmt::format("{} at t = {:.6g}", run.status, run.t);
+  std::string text = early_end(run);
   if (run.law == "violated") text += text.empty() ? "the energy law is violated" : ", the energy law is violated";
   return text;
 }

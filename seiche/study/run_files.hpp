@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +24,10 @@ struct HypothesisFound {
 
 struct RunFiles {
   std::filesystem::path directory;
+  std::filesystem::path solution;              // solution.h5, or of a run that has not ended a file that shows as much
+  std::string segments = "solution";           // where the rows lie that it only shows, as SolutionReader asks
+  std::shared_ptr<const void> temporary = {};  // keeps that file
+  bool has_ended = true;                       // else it has no law, no counts and no certificate yet
   RunSpec spec;
   std::string case_text;
   std::string title, equation, reference, method_reference;  // of the problem and the method
@@ -42,6 +47,9 @@ struct RunFiles {
   std::string law_reason, theorem;  // why (not); "" if none is promised
 };
 
+// What follows from the case alone.
+RunFiles run_of_case(const std::filesystem::path& directory, const RunSpec& spec, const std::string& case_text);
+
 // Throws Error where `directory` is not that of a single finished run, saying what is missing.
 RunFiles read_run(const std::filesystem::path& directory);
 
@@ -49,8 +57,9 @@ RunFiles read_run(const std::filesystem::path& directory);
 std::string run_name(const RunFiles& run);
 std::string run_name(const std::string& title, const std::string& problem, const std::filesystem::path& directory);
 
-// Below every title of a run that is not what was asked for: "failed at t = 3.2", "the energy law is violated"; else
-// "".
+// How a run ended that did not come to its end: "failed at t = 3.2", "still running, up to t = 3.2"; else "".
+std::string early_end(const RunFiles& run);
+// Below every title of a run that is not what was asked for: its early end, "the energy law is violated"; else "".
 std::string shortfall(const RunFiles& run);
 
 }  // namespace seiche

@@ -2,6 +2,7 @@
 // place of files, signals one after the other.
 #include <test/support/background.hpp>
 #include <test/support/program.hpp>
+#include <test/support/run_folder.hpp>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -108,6 +109,35 @@ TEST_F(Survival, WhatIsRecoveredOfAKilledRunPassesTheAudit) {
   fs::create_directory(directory / "empty");
   EXPECT_EQ(seiche("recover empty").exit, 2);
   EXPECT_THAT(text("stderr.txt"), HasSubstr("holds no run"));
+}
+
+TEST_F(Survival, ARunThatGoesOnIsDrawnAndGoesOn) {
+  if (!can_draw()) GTEST_SKIP() << "Matplotlib or h5py is not installed";
+  write_case();
+  for (const bool is_ensemble : {false, true}) {
+    fs::remove_all(directory / "out");
+    Background run(directory,
+                   endless(is_ensemble ? std::vector<std::string>{"ensemble.members=3", "ensemble.perturb_initial=0.01"}
+                                       : std::vector<std::string>()));
+    ASSERT_TRUE(is_under_way()) << text("stderr.txt");
+    const auto plotted = [&] {
+      const int status = std::system(
+          fmt::format("cd '{}' && '{}' plot out --format png >plot.txt 2>&1", directory.string(), program_path())
+              .c_str());
+      EXPECT_EQ(status, 0) << text("plot.txt");
+      EXPECT_TRUE(has("out/figures/energy.png"));
+      return text("plot.txt");
+    };
+    EXPECT_THAT(plotted(), HasSubstr("seiche: still running, up to t = "));
+    if (!is_ensemble) {
+      EXPECT_THAT(text("out/report.html"), HasSubstr("still running, up to t = "));
+    }
+    EXPECT_EQ(run.end(SIGKILL), -SIGKILL) << "it did not mind";
+    EXPECT_THAT(plotted(), HasSubstr("seiche: not finished, up to t = "));
+    EXPECT_EQ(seiche("resume out --quiet --max-hours 1e-9").exit, 130) << text("stderr.txt");
+    EXPECT_THAT(plotted(), Not(HasSubstr("up to t"))) << "it was interrupted, and has its files";
+    EXPECT_EQ(seiche("audit out").exit, 0) << text("stdout.txt");
+  }
 }
 
 TEST_F(Survival, AKilledEnsembleGoesOnOrIsRecovered) {

@@ -10,7 +10,7 @@
 #include <seiche/driver/run_case.hpp>
 #include <seiche/output/csv_table.hpp>
 #include <seiche/study/audit/audit.hpp>
-#include <seiche/study/recorded_energies.hpp>
+#include <seiche/study/audit/recorded_energies.hpp>
 
 #include <nlohmann/json.hpp>
 

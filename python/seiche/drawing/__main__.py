@@ -1,7 +1,7 @@
 """Draws what the request on standard input asks for; `seiche plot` writes it.
 
 {"formats": ["png", …], "grounds": ["light", "dark"], "width": inches, "journal": whether without titles, "progress":
-whether someone looks on}, and of a run {"run": its folder, "title": of all, "warning": below it, "history": its energies,
+whether someone looks on}, and of a run {"solution": its solution.h5, "title": of all, "warning": below it, "history": its energies,
 "films": the fields, or null for the first, "range": [low, high], "ranges": {field: [low, high], …} of single fields,
 "centre": number, "palette": name}, or else {"pictures": what curve_pictures describes}. Pictures appear in the working
 directory, and what was drawn is in reply.json beside them.

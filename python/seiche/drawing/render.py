@@ -91,7 +91,7 @@ class RunStudio:
 
     def __init__(self, request: dict[str, typing.Any]):
         self.title, self.warning = request["title"], request["warning"]
-        self.solution = runs.Solution(os.path.join(request["run"], "solution.h5"))
+        self.solution = runs.Solution(request["solution"])
         look = _look(request, self.solution.fields)
         self.pictures = runs.pictures_of(self.solution, request["history"], look)
         self.films: list[str] = []

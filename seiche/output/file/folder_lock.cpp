@@ -39,6 +39,14 @@ FolderLock::FolderLock(const Folder& folder) : folder_(folder) {
   }
 }
 
+bool is_locked(const Folder& folder) {
+  const int file = ::openat(folder.descriptor(), lock_name, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (file < 0) return false;
+  const bool is_free = ::flock(file, LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+  ::close(file);
+  return !is_free;
+}
+
 FolderLock::~FolderLock() {
   const int file = folder_.open_->lock;
   // While it is locked, so that no other one's file goes.

@@ -18,4 +18,6 @@ class FolderLock {
   Folder folder_;
 };
 
+bool is_locked(const Folder& folder);  // by another program
+
 }  // namespace seiche

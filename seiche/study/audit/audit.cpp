@@ -12,7 +12,7 @@
 #include <seiche/study/audit/audit.hpp>
 #include <seiche/study/audit/audit_book.hpp>
 #include <seiche/study/audit/audit_ensemble.hpp>
-#include <seiche/study/recorded_energies.hpp>
+#include <seiche/study/audit/recorded_energies.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include <seiche/core/error.hpp>
 #include <seiche/core/text/shortened.hpp>
 #include <seiche/output/solution_reader.hpp>
-#include <seiche/study/recorded_energies.hpp>
+#include <seiche/study/audit/recorded_energies.hpp>
 
 #include <fmt/ranges.h>
 
