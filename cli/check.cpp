@@ -50,6 +50,7 @@ ExitCode check_checkpoint(const CheckArguments& arguments) {
   const std::filesystem::path file = std::filesystem::absolute(arguments.case_argument.file);
   const SavedRun saved = read_checkpoint(file).run;
   const std::filesystem::path folder = file.parent_path();
+  require_case(folder, saved);
   const RunSpec spec = parse_case(saved.case_text, file.string(), {}, folder);
   std::string complaint;
   try {

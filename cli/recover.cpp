@@ -18,6 +18,13 @@
 namespace seiche::cli {
 namespace {
 
+// Behind a run that was killed when all its files were there, before it had removed what it needs no longer.
+void tidy_up(const std::filesystem::path& path) {
+  const CaseFolder folder(path);
+  remove_partial_files(folder.folder());
+  if (!needs_segments(path)) remove_segments(folder.folder());
+}
+
 // Its end, without the run.
 ExitCode recover_run(const std::string& directory) {
   const std::filesystem::path path = directory;
@@ -25,8 +32,7 @@ ExitCode recover_run(const std::string& directory) {
     throw Error("{} holds no run: there is no case.toml in it", directory);
   const bool has_checkpoint = !checkpoints_in(path).empty(), complete = is_complete(path);
   if (complete || (!has_checkpoint && look_at(path / "summary.json").kind != InputKind::missing)) {
-    if (complete && !has_checkpoint && !needs_segments(path))
-      remove_segments(CaseFolder(path).folder());  // killed before they were
+    if (complete && !has_checkpoint) tidy_up(path);
     print_note(fmt::format("{} holds no unfinished files: there is nothing to recover", directory));
     return success;
   }

@@ -127,6 +127,7 @@ def solve(
     record_every: int,
     ledger: bool,
     threads: int,
+    checkpoint: str | None,
     progress: Callable[[float, float, int], Any] | None,
 ) -> Solution: ...
 def ensemble_of_case(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numbers
+import os
 from typing import Any, Callable, Sequence
 
 import numpy as np
@@ -11,7 +12,7 @@ from . import _core
 from ._problem import Case, Problem, as_problem, real_array, refuse_other_names, require_start, run_case, thread_count, truth, whole_number
 from ._progress import Report, showing
 from ._result import Asked, Result, result_of, say
-from ._types import Array, ArrayLike, Backend, Method, ProblemName, Size
+from ._types import Array, ArrayLike, Backend, File, Method, ProblemName, Size
 
 Event = Callable[[float, Array], float]
 
@@ -73,13 +74,15 @@ def solve(
     ledger: bool | None = None,
     backend: Backend | None = None,
     threads: int = 1,
+    checkpoint: File | None = None,
     progress: bool | Report = False,
     **options: Any,
 ) -> Result:
     """Integrates a damped Hamiltonian system, in the manner of ``scipy.integrate.solve_ivp``.
 
-    The GIL is released while it steps, and taken for Python functions. Ctrl-C ends the run after the current step, and
-    what was computed is returned with the status "interrupted", its last state whatever ``t_eval`` asked for.
+    The GIL is released while it steps, and taken for Python functions. Ctrl-C ends the run after the current step, a second
+    one inside a Python function at once, and what was computed is returned with the status "interrupted", its last state
+    whatever ``t_eval`` asked for.
 
     Parameters
     ----------
@@ -120,6 +123,11 @@ def solve(
         One of `seiche.backends()`; by default "auto".
     threads : int
         For large grids. Results do not depend on it.
+    checkpoint : path
+        A folder for checkpoints, of long runs: after 5, 10, 20 and 40 seconds and then every minute, and at Ctrl-C. The same call
+        again, whatever ended the one before, goes on from the newest and ends with the same bits; t_span may then end elsewhere.
+        They are gone when the run has come to its end. What a checkpoint has seen is not shown again: observers, actions and
+        events are called for what comes behind it.
     progress : bool or function
         True: a bar on stderr, with the time that is left. Or a function of (t, t_end, steps), called ten times a second at
         most, and at the end.
@@ -186,6 +194,7 @@ def solve(
             whole_number("record_every", record_every),
             truth("ledger", with_ledger),
             thread_count(threads),
+            None if checkpoint is None else os.fspath(checkpoint),
             tell,
         )
         if tell is not None:

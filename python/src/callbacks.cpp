@@ -11,6 +11,7 @@ namespace {
 thread_local bool interrupted = false;
 thread_local int scopes = 0;
 thread_local int interruptions = 0;
+thread_local bool step_may_end = false;
 
 std::atomic<bool> interpreter_ends = false;
 std::atomic<int> runs = 0;
@@ -27,6 +28,9 @@ Interruption::Scope::Scope() {
   if (scopes++ == 0) interrupted = false;
 }
 Interruption::Scope::~Scope() { --scopes; }
+Interruption::LetsStepEnd::LetsStepEnd() : before_(std::exchange(step_may_end, true)) {}
+Interruption::LetsStepEnd::~LetsStepEnd() { step_may_end = before_; }
+bool Interruption::lets_step_end() { return step_may_end; }
 bool Interruption::seen() { return interrupted; }
 void Interruption::note() {
   interrupted = true;

@@ -40,6 +40,19 @@ class Interruption {
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
   };
+  // While one lives, a function that Ctrl-C interrupts is called once more, so that the step ends well, and the run
+  // behind it.
+  class LetsStepEnd {
+   public:
+    LetsStepEnd();
+    ~LetsStepEnd();
+    LetsStepEnd(const LetsStepEnd&) = delete;
+    LetsStepEnd& operator=(const LetsStepEnd&) = delete;
+
+   private:
+    bool before_;
+  };
+  static bool lets_step_end();
   static bool seen();
   static void note();
   static int count();  // of this thread, ever
@@ -61,15 +74,20 @@ class InterpreterEnd {
   static void stop_runs();  // asks them to end, and waits; with the GIL held
 };
 
-// call(): with the GIL held. A KeyboardInterrupt becomes an Error, which ends the run, and is noted.
-template <class Call>
+// call(): with the GIL held. A KeyboardInterrupt is noted, and becomes an Error, which ends the run; the first of a run
+// that lets its step end does not, where the call may be repeated, since it changes nothing.
+template <bool may_be_repeated = true, class Call>
 auto with_gil(const Call& call) {
   const py::gil_scoped_acquire gil;
-  try {
-    return call();
-  } catch (py::error_already_set& error) {
-    if (!error.matches(PyExc_KeyboardInterrupt)) throw;
-    Interruption::note();
+  for (;;) {
+    try {
+      return call();
+    } catch (py::error_already_set& error) {
+      if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+      const bool is_first = !Interruption::seen();
+      Interruption::note();
+      if (!may_be_repeated || !is_first || !Interruption::lets_step_end()) break;
+    }
   }
   throw Error("interrupted inside a Python function");
 }

@@ -2,6 +2,9 @@
 #include "bind.hpp"
 
 #include <pybind11/stl.h>
+#include <seiche/config/case/case_file.hpp>
+#include <seiche/driver/checkpoint_keeper.hpp>
+#include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/summary.hpp>
 #include <seiche/simulation/solve.hpp>
 #include <seiche/study/versions.hpp>
@@ -16,6 +19,7 @@ namespace {
 struct HeldSolution {
   std::shared_ptr<const Solution> solution;
   RunIdentity identity;
+  std::vector<std::string> remarks = {};  // on checkpoints
 };
 
 py::object alive(const std::shared_ptr<const Solution>& solution) {
@@ -45,7 +49,7 @@ SolveEvent event_from(const py::tuple& parts) {
                    .ends_at = parts[2].cast<std::int64_t>()};
   if (!parts[3].is_none())
     event.action = [action = Callable(parts[3].cast<py::object>())](double t, Vector& z) {
-      with_gil([&] {
+      with_gil<false>([&] {
         const py::object changed = action.get()(t, array_of(z));
         if (!changed.is_none())
           copy_from(changed, {z.data(), static_cast<std::size_t>(z.size())}, "the action of an event");
@@ -63,10 +67,80 @@ std::function<bool(const SolveStep&)> observer_from(const py::object& function) 
   };
 }
 
+// The case of a call, whose end may be another when it goes on; "" of a problem that no case states.
+std::string text_of_call(RunSpec spec) {
+  spec.t_end = spec.t_start + 1;
+  try {
+    return write_case(spec);
+  } catch (const Error&) {
+    return "";
+  }
+}
+
+// The checkpoints of a call in a folder: it goes on from the newest, and removes them at its end.
+class KeptCall {
+ public:
+  KeptCall(const std::string& folder, const RunSpec& spec)
+      : folder_(made(folder)), lock_(folder_), text_(text_of_call(spec)) {
+    if (!checkpoints_in(folder).empty()) {
+      newest_ = newest_checkpoint(folder_, remarks_);
+      const SavedRun& saved = newest_->run;
+      if (saved.kind != RunKind::solve) require_no_checkpoint(folder);
+      if (saved.case_text != text_)
+        throw Error("{} holds a checkpoint of another call of seiche.solve, whose problem, method or options differ",
+                    folder);
+      notes_ = notes_on_versions(saved, versions_in_use());
+      notes_.insert(notes_.begin(), fmt::format("went on from {} in {}, t = {:.9g} (step {})", newest_->name, folder,
+                                                saved.t, saved.steps));
+      promote_checkpoint(folder_, newest_->name);
+    }
+    keeper_.emplace(folder_,
+                    CheckpointKeeper::Options{.now = [this](std::int64_t n, double t) { return now(n, t); },
+                                              .warn = [this](const std::string& note) { remarks_.push_back(note); },
+                                              .way = "the same call"},
+                    newest_ ? &newest_->run : nullptr);
+  }
+
+  Resumption resumption() { return {.checkpoints = &*keeper_, .from = newest_ ? &newest_->rest : nullptr}; }
+  const std::vector<std::string>& remarks() const { return remarks_; }
+  // What there is to say of it.
+  void end(Solution& solution) {
+    const RunReport& report = solution.report;
+    if (solution.success() || report.step_failed) {
+      remove_checkpoints(folder_);
+    } else {
+      solution.report.message += keeper_->way_on(report.t);
+    }
+    solution.notes.insert(solution.notes.end(), notes_.begin(), notes_.end());
+  }
+
+ private:
+  static const std::string& made(const std::string& folder) {
+    make_directory(folder);
+    return folder;
+  }
+  SavedRun now(std::int64_t n, double t) const {
+    SavedRun saved;
+    saved.kind = RunKind::solve;
+    saved.versions = lines_of(versions_in_use());
+    saved.case_text = text_;
+    saved.t = t;
+    saved.steps = n;
+    return saved;
+  }
+
+  Folder folder_;
+  FolderLock lock_;
+  std::string text_;
+  std::vector<std::string> notes_, remarks_;
+  std::optional<Checkpoint> newest_;
+  std::optional<CheckpointKeeper> keeper_;
+};
+
 HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_start, double t_end,
                    const std::optional<Array>& z0, const std::optional<Array>& t_eval, const py::list& events,
                    bool dense_output, const py::object& observer, std::int64_t record_every, bool ledger, int threads,
-                   const py::object& progress) {
+                   const std::optional<std::string>& checkpoint, const py::object& progress) {
   SimulationOptions simulation = simulation_options(spec);
   simulation.backend_options.threads = threads;
   SolveOptions options{.method = spec.method,
@@ -91,8 +165,17 @@ HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_sta
   for (const py::handle& event : events) options.events.push_back(event_from(event.cast<py::tuple>()));
   if (!observer.is_none()) options.observer = observer_from(observer);
 
-  auto solution = without_gil([&] { return std::make_shared<Solution>(solve(*problem.problem, options)); });
-  if (Interruption::seen()) solution->report.status = RunReport::Status::interrupted;
+  HeldSolution held;
+  const Interruption::LetsStepEnd lets_step_end;
+  auto solution = without_gil([&] {
+    std::optional<KeptCall> kept;
+    if (checkpoint) options.resumption = kept.emplace(*checkpoint, spec).resumption();
+    auto found = std::make_shared<Solution>(solve(*problem.problem, options));
+    if (Interruption::seen()) found->report.status = RunReport::Status::interrupted;
+    if (kept) kept->end(*found);
+    if (kept) held.remarks = kept->remarks();
+    return found;
+  });
   const double h = spec.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec.h;
   RunIdentity identity{.problem = problem.problem->name,
                        .method = solution->method,
@@ -100,7 +183,9 @@ HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_sta
                        .h = h,
                        .tolerance = spec.tolerance,
                        .threads = threads};
-  return {std::move(solution), std::move(identity)};
+  held.solution = std::move(solution);
+  held.identity = std::move(identity);
+  return held;
 }
 
 py::array_t<double> at(const HeldSolution& held, const Array& times) {  // (times, size)
@@ -171,7 +256,12 @@ void bind_solve(py::module_& module) {
       .def_property_readonly("ledger", &ledger_of)
       .def_property_readonly("status", [](const HeldSolution& s) { return to_string(s.solution->report.status); })
       .def_property_readonly("message", [](const HeldSolution& s) { return s.solution->report.message; })
-      .def_property_readonly("remarks", [](const HeldSolution& s) { return s.solution->report.remarks(); })
+      .def_property_readonly("remarks",
+                             [](const HeldSolution& s) {
+                               std::vector<std::string> all = s.solution->report.remarks();
+                               all.insert(all.end(), s.remarks.begin(), s.remarks.end());
+                               return all;
+                             })
       .def_property_readonly("ended_by_event", [](const HeldSolution& s) { return s.solution->ended_by_event; })
       .def_property_readonly("nfev",
                              [](const HeldSolution& s) { return s.solution->report.potential_counts.gradients; })

@@ -2,6 +2,8 @@
 
 import os
 import subprocess
+import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -267,3 +269,56 @@ def test_a_result_is_a_table_in_notebooks():
     shown = seiche.solve("oscillator", 1.0)._repr_html_()
     assert shown.startswith("<table><tr><th>t</th>") and "array of shape" in shown
     assert shown.count("<tr>") == len(seiche.solve("oscillator", 1.0))
+
+
+CHECKPOINTED = """
+import os, signal, sys, threading
+import numpy as np
+import seiche
+
+def bounce(t, y):
+    return y[0] + 0.25
+
+bounce.direction = -1
+bounce.action = lambda t, y: [y[0], -y[1]]
+problem = seiche.Problem(M=np.eye(2), V=lambda q: float(np.sum(q**4) / 4), gradient=lambda q: q**3, z0=[1, 0])
+
+def solve(end, **more):
+    return seiche.solve(problem, end, h=1e-3, record_every=100, events=bounce, **more)
+"""
+
+
+def test_a_call_goes_on_from_its_checkpoint(tmp_path):
+    stopped = f"""{CHECKPOINTED}
+threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+r = solve(1e6, checkpoint={str(tmp_path / "kept")!r})
+assert r.status == "interrupted", r
+assert "the same call goes on from" in r.message, r.message
+print(r.report["t"])
+"""
+    done = subprocess.run([sys.executable, "-c", stopped], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    end = float(done.stdout) + 0.5
+    for other, said in {"seiche.resume": "a call of seiche.solve", "seiche.read": "a call of seiche.solve"}.items():
+        with pytest.raises(ValueError, match=said):
+            {"seiche.resume": seiche.resume, "seiche.read": seiche.read}[other](tmp_path / "kept")
+    goes_on = f"""{CHECKPOINTED}
+one, other = solve({end!r}), solve({end!r}, checkpoint={str(tmp_path / "kept")!r})
+assert other.success and any("went on from checkpoint.seiche" in note for note in other.notes), other
+for name in ("t", "y", "energy"):
+    assert np.array_equal(getattr(one, name), getattr(other, name)), name
+assert np.array_equal(one.t_events[0], other.t_events[0]) and len(one.t_events[0]) > 1
+assert not os.listdir({str(tmp_path / "kept")!r})
+"""
+    done = subprocess.run([sys.executable, "-c", goes_on], capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_checkpoint_of_another_call_is_refused(tmp_path):
+    seconds = time.monotonic() + 0.3
+    seiche.solve("oscillator", 1e6, h=1e-3, record_every=1000, checkpoint=tmp_path, observer=lambda t, y, energy: time.monotonic() < seconds)
+    assert (tmp_path / "checkpoint.seiche").exists()
+    with pytest.raises(ValueError, match="another call of seiche.solve"):
+        seiche.solve("oscillator", 1e6, h=1e-2, checkpoint=tmp_path)
+    with pytest.raises(ValueError, match="its z0 has other numbers"):
+        seiche.solve("oscillator", 1e6, [2, 0], h=1e-3, record_every=1000, checkpoint=tmp_path)

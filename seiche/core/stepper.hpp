@@ -29,6 +29,7 @@ struct StepLedger {
 
   double sum() const;
   StepLedger& operator+=(const StepLedger& other);
+  void archive(Archive& a) { a.numbers(*this); }
   StepLedger& operator-=(const StepLedger& other);
 };
 

@@ -5,24 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 namespace seiche {
-namespace {
-
-std::vector<std::string> lines_of(const std::map<std::string, std::string>& versions) {
-  std::vector<std::string> lines;
-  for (const auto& [name, version] : versions) lines.push_back(fmt::format("{} {}", name, version));
-  return lines;
-}
-
-}  // namespace
-
 CaseRecord::CaseRecord(const RunSpec& spec, RunKind kind, const std::string& headline, std::vector<std::string> notes,
                        const RunCaseOptions& options)
     : options_(options),
+      kind_(kind),
       versions_(all_versions(options)),
       notes_(std::move(notes)),
       case_text_(write_case(spec)),
@@ -35,6 +25,7 @@ CaseRecord::CaseRecord(const RunSpec& spec, RunKind kind, const std::string& hea
 
 CaseRecord::CaseRecord(GoingOn& from, const std::string& headline, const RunCaseOptions& options)
     : options_(options),
+      kind_(from.from.run.kind),
       versions_(all_versions(options)),
       notes_(from.from.run.notes),
       case_text_(from.new_end ? write_case(from.spec) : from.from.run.case_text),
@@ -45,9 +36,7 @@ CaseRecord::CaseRecord(GoingOn& from, const std::string& headline, const RunCase
   hashes_["case.toml"] = sha256(case_text_);
   std::vector<std::string> said = {
       fmt::format("going on from {}, t = {:.9g} (step {})", from.from.name, saved.t, saved.steps)};
-  for (const std::string& version : lines_of(versions_))
-    if (std::find(saved.versions.begin(), saved.versions.end(), version) == saved.versions.end())
-      said.push_back(fmt::format("the checkpoint was not written by {}: last bits may differ", version));
+  for (std::string& note : notes_on_versions(saved, versions_)) said.push_back(std::move(note));
   notes_.insert(notes_.end(), said.begin() + 1, said.end());
   stop_ = begin_run(options);
   if (options_.introduce) options_.introduce(headline, said);
@@ -87,7 +76,8 @@ bool CaseRecord::is_of_before_new_end(const std::string& case_text) const {
 }
 
 SavedRun CaseRecord::now(std::int64_t n, double t) const {
-  SavedRun saved{.versions = lines_of(versions_),
+  SavedRun saved{.kind = kind_,
+                 .versions = lines_of(versions_),
                  .case_text = case_text_,
                  .hashes = hashes_,
                  .notes = notes_,

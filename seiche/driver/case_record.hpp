@@ -46,6 +46,7 @@ class CaseRecord {
   bool goes_on() const { return from_ != nullptr && !options_.stops_at_once; }
 
   const RunCaseOptions& options_;
+  RunKind kind_;
   std::map<std::string, std::string> versions_;
   std::vector<std::string> notes_;
   std::string case_text_;  // of case.toml

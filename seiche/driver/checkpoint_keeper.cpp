@@ -92,7 +92,9 @@ void CheckpointKeeper::save(std::int64_t n, double t, FunctionRef<void(Archive&)
 
 std::string CheckpointKeeper::way_on(double t) const {
   if (!saved_t_) return "";
-  return fmt::format("; `seiche resume {}` goes on from {}", folder_.path().string(),
+  const std::string way =
+      options_.way.empty() ? fmt::format("`seiche resume {}`", folder_.path().string()) : options_.way;
+  return fmt::format("; {} goes on from {}", way,
                      *saved_t_ == t ? "there" : fmt::format("a checkpoint at t = {:.9g}", *saved_t_));
 }
 

@@ -24,6 +24,7 @@ class CheckpointKeeper : public Checkpoints {
     std::function<SavedRun(std::int64_t n, double t)> now = {};
     std::function<void(Archive&)> beside = {};  // what else the time loop does not know; may be null
     std::function<void(const std::string&)> warn = {};
+    std::string way = {};  // what goes on from a checkpoint; "": `seiche resume` with the folder
   };
   // `from`: of the checkpoint from which the run goes on; null: from the start.
   CheckpointKeeper(Folder folder, Options options, const SavedRun* from);

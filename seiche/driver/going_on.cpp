@@ -32,6 +32,7 @@ GoingOn going_on(const std::filesystem::path& folder, std::optional<double> t_en
   Checkpoint newest = newest_checkpoint(case_folder->folder(), notes);
   GoingOn on{.folder = std::move(case_folder), .from = std::move(newest), .spec = {}};
   SavedRun& saved = on.from.run;
+  require_case(folder, saved);
   on.spec = parse_case(saved.case_text, on.from.name, {}, folder);
   on.spec.output_directory = folder.string();
   if (t_end && *t_end != on.spec.t_end) {

@@ -153,6 +153,11 @@ void remove_own_report(const fs::path& directory) {
   if (!is_foreign(path, is_report)) fs::remove(path, ignored);
 }
 
+void remove_partial_files(const Folder& folder) {
+  for (const RunFile& file : files) remove_file(folder, std::string(file.name) + ".partial");
+  remove_file(folder, "report.html.partial");
+}
+
 void remove_what_tells_of_end(const Folder& folder) {
   for (const RunFile& file : files)
     if (file.tells_of_end) remove_own(folder, file);
@@ -163,10 +168,8 @@ void remove_earlier_results(const Folder& folder) {
   if (!holds_run(folder.path())) return;
   remove_checkpoints(folder);
   remove_segments(folder);
-  for (const RunFile& file : files) {
-    remove_own(folder, file);
-    remove_file(folder, std::string(file.name) + ".partial");  // of a run that was killed
-  }
+  for (const RunFile& file : files) remove_own(folder, file);
+  remove_partial_files(folder);
 }
 
 }  // namespace seiche

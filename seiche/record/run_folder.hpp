@@ -7,7 +7,7 @@
 
 namespace seiche {
 
-enum class RunKind { run, ensemble };
+enum class RunKind { run, ensemble, solve };  // solve: a call from Python, which leaves checkpoints alone
 
 // In the head of every report.html of ours.
 inline constexpr const char* report_mark = "<meta name=\"generator\" content=\"Seiche\">";
@@ -28,6 +28,7 @@ bool is_complete(const std::filesystem::path& directory);
 // Is there a solution.h5 that shows segments beside it, or one that cannot be read and may?
 bool needs_segments(const std::filesystem::path& directory);
 
+void remove_partial_files(const Folder& folder);  // of a run that was killed, and whose rows they do not hold
 // What a run that goes on leaves anew at its end.
 void remove_what_tells_of_end(const Folder& folder);
 // Of an earlier run or ensemble everything but its pictures and fftw_wisdom: a program that is killed must not leave

@@ -3,6 +3,7 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -20,6 +21,8 @@ std::uint64_t archived_size(SavedRun run) {
 }  // namespace
 
 void SavedRun::archive(Archive& a) {
+  a(kind);
+  a.require(kind >= RunKind::run && kind <= RunKind::solve);
   a(versions, case_text, hashes, notes, resumed_with, new_end, t, steps, energies, solution);
 }
 
@@ -55,7 +58,29 @@ std::string case_of_checkpoint(const std::filesystem::path& directory) {
   return "";
 }
 
+std::vector<std::string> lines_of(const std::map<std::string, std::string>& versions) {
+  std::vector<std::string> lines;
+  for (const auto& [name, version] : versions) lines.push_back(fmt::format("{} {}", name, version));
+  return lines;
+}
+
+std::vector<std::string> notes_on_versions(const SavedRun& run, const std::map<std::string, std::string>& versions) {
+  std::vector<std::string> notes;
+  for (const std::string& version : lines_of(versions))
+    if (std::find(run.versions.begin(), run.versions.end(), version) == run.versions.end())
+      notes.push_back(fmt::format("the checkpoint was not written by {}: last bits may differ", version));
+  return notes;
+}
+
+void require_case(const std::filesystem::path& directory, const SavedRun& run) {
+  if (run.kind == RunKind::solve)
+    throw Error(
+        "{0} holds a checkpoint of a call of seiche.solve: the same call with checkpoint = \"{0}\" goes on from it",
+        directory.string());
+}
+
 std::string complaint_about(const Folder& folder, const SavedRun& run) {
+  if (run.kind == RunKind::solve) return "";
   std::string of_energies = EnergyTrace::complaint(folder, run.energies);
   return of_energies.empty() && run.solution ? complaint_about(folder, run.solution->rows) : of_energies;
 }

@@ -6,10 +6,12 @@
 #include <seiche/output/file/sha256.hpp>
 #include <seiche/output/summary.hpp>
 #include <seiche/record/checkpoint_file.hpp>
+#include <seiche/record/run_folder.hpp>
 #include <seiche/record/solution_file.hpp>
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +19,7 @@
 namespace seiche {
 
 struct SavedRun {
+  RunKind kind = RunKind::run;
   std::vector<std::string> versions;      // what computed it, "compiler GNU 12.2.0": others may round another way
   std::string case_text;                  // as case.toml
   FileHashes hashes;                      // of that, and of the files that it names
@@ -26,7 +29,7 @@ struct SavedRun {
   double t = 0.0;
   std::int64_t steps = 0;
   EnergyTrace::Mark energies;
-  std::optional<SolutionFile::Mark> solution;  // none of an ensemble
+  std::optional<SolutionFile::Mark> solution;  // of a run
   void archive(Archive& a);
 };
 
@@ -44,6 +47,13 @@ Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 // The case in the newest checkpoint of a folder that can be read; "" where there is no such checkpoint.
 std::string case_of_checkpoint(const std::filesystem::path& directory);
+
+std::vector<std::string> lines_of(const std::map<std::string, std::string>& versions);  // as SavedRun::versions
+// A sentence for each of these that is not among those that wrote the checkpoint.
+std::vector<std::string> notes_on_versions(const SavedRun& run, const std::map<std::string, std::string>& versions);
+
+// Throws Error where it is not of a case, but of a call of `seiche.solve`.
+void require_case(const std::filesystem::path& directory, const SavedRun& run);
 
 // Why a run cannot go on from it in this folder, whose files no longer begin as they did then; "" where it can.
 std::string complaint_about(const Folder& folder, const SavedRun& run);

@@ -26,7 +26,7 @@ class AdaptiveLoop {
         recording_(recording),
         controller_(stepper.order(), options.tolerance),
         events_(options.events),
-        checkpoints_(options.events.empty() ? options.resumption.checkpoints : nullptr),
+        checkpoints_(options.resumption.checkpoints),
         pace_(state.t, options.t_end, system.space->size()),
         time_(state.t),
         size_(system.space->max_norm(system.space->physical(state.z))) {
@@ -86,7 +86,8 @@ class AdaptiveLoop {
 
   void archive(Archive& a) {
     a.section("steps of variable size");
-    a(controller_, pace_, time_, size_, h_, first_of_all_, rejections_, smallest_, largest_);
+    a(controller_, pace_, time_, size_, h_, first_of_all_, rejections_, smallest_, largest_, events_, last_event_,
+      crowd_);
     recording_.archive(a, options_.objection);
     stepper_.archive_memory(a, state_);
     if (!a.reads()) return;

@@ -28,8 +28,8 @@ class Checkpoints {
   std::int64_t next_look_ = 0;
 };
 
-// Of a run: who keeps checkpoints of it, and where it goes on from. Both may be null. A run with events keeps none,
-// since what an event has done cannot be read anywhere.
+// Of a run: who keeps checkpoints of it, and where it goes on from. Both may be null. With events, what their actions
+// have done beside the state is not saved: those that were met before the checkpoint are not met again.
 struct Resumption {
   Checkpoints* checkpoints = nullptr;
   Archive* from = nullptr;  // read up to where the run begins

@@ -83,6 +83,11 @@ bool EventFinder::any_crossing(const State& state, Inside inside) {
   return any;
 }
 
+void EventFinder::archive(Archive& a) {
+  a(left_);
+  a.require(left_.size() == events_.size());
+}
+
 double EventFinder::locate(std::size_t i, double after, const State& state, Inside inside) {
   if (after == 0) return state.t;
   const auto g = [&](double t) {

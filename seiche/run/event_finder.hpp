@@ -33,6 +33,9 @@ class EventFinder {
   Found find(const State& state, Inside inside);
   bool any_crossing(const State& state, Inside inside);  // true if there is one; does not locate it
 
+  // Between two steps; read by one of as many events.
+  void archive(Archive& a);
+
  private:
   double value(std::size_t i, double t, const Vector& z) const;
   void leave_surfaces(const State& state, Inside inside);
@@ -42,6 +45,7 @@ class EventFinder {
   struct Left {
     double t = 0, g = 0;
     bool on_surface = false;
+    void archive(Archive& a) { a(t, g, on_surface); }
   };
   std::vector<Left> left_;  // of each event, from where its sign may change
   std::vector<const Event*> happened_;

@@ -24,7 +24,7 @@ class FixedLoop {
         grid_(grid),
         recording_(recording),
         events_(options.events),
-        checkpoints_(options.events.empty() ? options.resumption.checkpoints : nullptr) {}
+        checkpoints_(options.resumption.checkpoints) {}
 
   void run() {
     if (options_.resumption.from != nullptr)
@@ -61,7 +61,7 @@ class FixedLoop {
 
   void archive(Archive& a) {
     a.section("steps of one size");
-    a(grid_.start, k_);
+    a(grid_.start, k_, events_, met_event_);
     recording_.archive(a, options_.objection);
     if (!a.reads()) return;
     grid_ = TimeGrid(grid_.start, grid_.h, grid_.end);

@@ -1,5 +1,7 @@
 #include <seiche/simulation/remembering_stepper.hpp>
 
+#include <cstdint>
+
 namespace seiche {
 
 void RememberingStepper::note(double h) {
@@ -25,6 +27,16 @@ StepReport RememberingStepper::attempt(State& state, double h) {
 void RememberingStepper::undo(State& state) {
   adaptive_->undo(state);
   if (!taken_.empty()) taken_.pop_back();
+}
+
+void RememberingStepper::archive(Archive& a, const State& like) {
+  std::uint64_t count = taken_.size();
+  a(count);
+  if (a.reads()) taken_.assign(0, {});
+  for (std::uint64_t k = 0; k < count; ++k) {
+    if (a.reads()) taken_.push_back({like, 0.0});
+    a(taken_[k]);
+  }
 }
 
 std::vector<TakenStep> RememberingStepper::release(double t_end) {

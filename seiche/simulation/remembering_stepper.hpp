@@ -11,6 +11,7 @@ namespace seiche {
 struct TakenStep {
   State left;
   double h = 0.0;
+  void archive(Archive& a) { a(left, h); }
 };
 
 // Passes everything on to `stepper`, and notes the steps that stand. Of what was taken back nothing is left: a step
@@ -24,6 +25,7 @@ class RememberingStepper final : public AdaptiveStepper {
 
   const std::vector<TakenStep>& taken() const { return taken_; }  // in the order of time; at most one for Keeps::last
   std::vector<TakenStep> release(double t_end);                   // those that begin before t_end
+  void archive(Archive& a, const State& like);                    // of states like this one
 
   void begin(State& state) override { stepper_.begin(state); }
   StepReport step(State& state, double h) override;

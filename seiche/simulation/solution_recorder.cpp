@@ -52,6 +52,17 @@ void SolutionRecorder::record_asked(const State& state, const EnergyReading& ene
   }
 }
 
+void SolutionRecorder::archive(Archive& a) {
+  Solution& s = solution_;
+  const std::size_t events = s.events.size();
+  a(s.t, s.z, s.H, s.modified, s.ledger, s.events, s.ended_by_event, asked_);
+  const std::size_t times = s.t.size();
+  a.require(s.events.size() == events && s.z.size() == times * static_cast<std::size_t>(s.size));
+  a.require(s.H.size() == times && s.modified.size() == (has_modified_ ? times : 0));
+  a.require(s.ledger.size() == (options_.ledger ? times : 0));
+  a.require(asked_ <= (options_.t_eval ? options_.t_eval->size() : 0));
+}
+
 void SolutionRecorder::record_end(const State& state, const EnergyReading& energy) {
   if (solution_.t.empty() || solution_.t.back() < state.t) record(state, energy);
 }

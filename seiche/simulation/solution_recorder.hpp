@@ -20,6 +20,7 @@ class SolutionRecorder final : public Observer {
   void finish(const RunReport&) override {}
   // Beside the times asked for, the state where a run ended before its time.
   void record_end(const State& state, const EnergyReading& energy);
+  void archive(Archive& a);  // with what is in the Solution so far
 
  private:
   void record(const State& state, const EnergyReading& energy);

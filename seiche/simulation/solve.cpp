@@ -1,5 +1,7 @@
 #include <seiche/core/error.hpp>
+#include <seiche/core/function_ref.hpp>
 #include <seiche/core/memory_limit.hpp>
+#include <seiche/core/text/shortened.hpp>
 #include <seiche/simulation/prepared_run.hpp>
 #include <seiche/simulation/solution_recorder.hpp>
 #include <seiche/simulation/solve.hpp>
@@ -99,6 +101,24 @@ RememberingStepper::Keeps kept(const SolveOptions& options) {
   return options.dense_output ? Keeps::all : options.t_eval ? Keeps::last : Keeps::none;
 }
 
+// A checkpoint of the time loop, behind what was recorded so far.
+class WithSolution final : public Checkpoints {
+ public:
+  WithSolution(Checkpoints* keeper, FunctionRef<void(Archive&)> recorded) : keeper_(keeper), recorded_(recorded) {}
+  void save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) override {
+    keeper_->save(n, t, [&](Archive& a) {
+      recorded_(a);
+      run(a);
+    });
+  }
+
+ private:
+  Wish look(std::int64_t n) override { return keeper_->wish(n); }
+
+  Checkpoints* keeper_;
+  FunctionRef<void(Archive&)> recorded_;
+};
+
 class Run {
  public:
   Run(const Problem& problem, const SolveOptions& options)
@@ -137,10 +157,49 @@ class Run {
     SolutionRecorder recorder(options_, simulation, steps_, replay_, stop_, solution_);
     const std::vector<Observer*> observers = {&recorder};
     const std::vector<Event> events = physical_events(options_, *simulation.system().space, solution_);
-    solution_.report = run_.integrate(steps_, run_.adaptive() != nullptr ? &steps_ : nullptr, stop_, observers, events);
+    const auto archive = [&](Archive& a) {
+      a.section("solution");
+      require_same_options(a);
+      recorder.archive(a);
+      steps_.archive(a, simulation.state());
+    };
+    WithSolution checkpoints(options_.resumption.checkpoints, archive);
+    if (options_.resumption.from != nullptr) archive(*options_.resumption.from);
+    solution_.report =
+        run_.integrate(steps_, run_.adaptive() != nullptr ? &steps_ : nullptr, stop_, observers, events,
+                       {.checkpoints = options_.resumption.checkpoints != nullptr ? &checkpoints : nullptr,
+                        .from = options_.resumption.from});
     const State& last = simulation.state();
     if (!solution_.success() && last.t == solution_.report.t) recorder.record_end(last, steps_.energy(last));
     solution_.certificate = run_.certificate_after(solution_.report);
+  }
+
+  // But for t_end and functions, which no checkpoint holds.
+  void require_same_options(Archive& a) const {
+    const SolveOptions& o = options_;
+    const std::string size =
+        o.tolerance ? fmt::format("tolerance = {}, h_max = {}", *o.tolerance, o.h_max) : fmt::format("h = {}", o.h);
+    const std::vector<double> initial(problem_.initial.begin(), problem_.initial.end());
+    same(a, fmt::format("{} by {}", problem_.name, solution_.method), "solves");
+    same(a, fmt::format("{}, from t = {}, on the backend {}", size, o.t_start, solution_.backend), "steps with");
+    same(a,
+         fmt::format("every {} steps, {} events, {} dense output, {} ledger", o.record_every, o.events.size(),
+                     o.dense_output ? "with" : "without", o.ledger ? "with" : "without"),
+         "records");
+    same(a, initial, "z0");
+    same(a, o.t_eval.value_or(std::vector<double>()), "t_eval");
+  }
+  static void same(Archive& a, const std::string& here, const char* verb) {
+    std::string there = here;
+    a(there);
+    if (there != here)
+      throw Error("the checkpoint is of another call: that one {0} {1}, and this one {0} {2}", verb, shortened(there),
+                  here);
+  }
+  static void same(Archive& a, const std::vector<double>& here, const char* name) {
+    std::vector<double> there = here;
+    a(there);
+    if (there != here) throw Error("the checkpoint is of another call: its {} has other numbers", name);
   }
 
   const SolveOptions& options_;

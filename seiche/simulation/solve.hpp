@@ -57,6 +57,9 @@ struct SolveOptions {
   const std::atomic<bool>* stop = nullptr;                   // set elsewhere: the run ends after the current step
   // Asked after every step, at least once, with where the run is: true does the same.
   std::function<bool(double t, std::int64_t steps)> is_stopped = {};
+  // What a checkpoint holds is all of the Solution so far. One that goes on from it must have the same options but for
+  // t_end, and ends with the same bits; observers and actions are called for what comes then.
+  Resumption resumption = {};
 };
 
 struct Solution {
@@ -69,6 +72,7 @@ struct Solution {
   std::vector<StepLedger> ledger;  // of all steps up to each time, where asked for
   struct Events {
     std::vector<double> t, z;  // z before the action
+    void archive(Archive& a) { a(t, z); }
   };
   std::vector<Events> events;              // for every event of the options
   bool ended_by_event = false;             // success before t_end

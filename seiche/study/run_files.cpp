@@ -73,7 +73,6 @@ RunFiles run_of_case(const std::filesystem::path& directory, const RunSpec& spec
 }
 
 RunFiles read_run(const std::filesystem::path& directory) {
-  namespace fs = std::filesystem;
   if (look_at(directory).kind != InputKind::folder) throw Error("{} is no directory of a run", directory.string());
   for (const char* name : {"case.toml", "summary.json", "energy.csv"})
     if (look_at(directory / name).kind != InputKind::file)

@@ -38,6 +38,7 @@ std::optional<UnfinishedRun> unfinished_run(const std::filesystem::path& directo
                 directory.string());
   if (!has_checkpoint) return {};
   UnfinishedRun run{.saved = newest_saved(directory), .spec = {}, .energies = {}};
+  require_case(directory, run.saved);
   run.is_running = is_locked(folder);
   run.spec = parse_case(run.saved.case_text, "the checkpoint", {}, directory);
   run.energies = directory / name_left_behind(folder, "energy.csv");

@@ -138,7 +138,7 @@ TEST_P(ResumptionOf, GoesOnToTheSameBitsOnEveryBackend) {
     met.insert(backend);
     const auto n = static_cast<std::int64_t>(turn * 7 % 19);  // after the first steps, in the middle, near the end
     const Kind kind{.method = GetParam(), .backend = backend, .tolerance = {}, .ledger = n % 5 == 0};
-    expect_same_run(problem, kind, n, name + " " + backend + " after step " + std::to_string(n));
+    expect_same_run(problem, kind, n, fmt::format("{} {} after step {}", name, backend, n));
   }
   EXPECT_EQ(met.size(), 3U);
 }

@@ -48,6 +48,13 @@ void Archive::operator()(Vector& vector) {
   if (size > 0) raw(vector.data(), size * sizeof(double));
 }
 
+void Archive::operator()(std::vector<double>& list) {
+  const std::size_t size = count(list.size());
+  if (reads() && size > (bytes_.size() - at_) / sizeof(double)) throw damaged();
+  list.resize(size);
+  if (size > 0) raw(list.data(), size * sizeof(double));
+}
+
 void Archive::operator()(std::string& text) {
   text.resize(count(text.size()));
   if (!text.empty()) raw(text.data(), text.size());

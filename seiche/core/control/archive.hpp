@@ -56,6 +56,7 @@ class Archive {
     raw(&structure, sizeof(T));
   }
   void operator()(Vector& vector);
+  void operator()(std::vector<double>& list);
   void operator()(std::string& text);
   // One of the program's own words, which live as long as it does.
   void literal(std::string_view& text);
