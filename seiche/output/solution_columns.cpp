@@ -104,8 +104,6 @@ std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layo
   if (has_modified_energy)
     columns.push_back(make(file, "H_modified", "modified energy, whose law the method keeps", per_time));
   columns.push_back(std::move(t));
-  write_mesh(file, layout);
-  write_bars(file, layout);
 
   std::vector<Hdf5Axes> all;
   for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
@@ -119,7 +117,9 @@ std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layo
   return columns;
 }
 
-void describe_end(Hdf5File& file, const RunReport& report) {
+void write_end(Hdf5File& file, const SolutionLayout& layout, const RunReport& report) {
+  write_mesh(file, layout);
+  write_bars(file, layout);
   set_attribute(file.id(), "message", report.message);
   set_attribute(file.id(), "energy_law", to_string(report.law));
   set_attribute(file.id(), "status", to_string(report.status));

@@ -25,12 +25,12 @@ struct RowsOfFields {
 };
 inline constexpr const char* rest_group = "rest";
 
-// All but the rows, in a new file. Returns the columns: the fields, H, H_modified if there is one, and t. With `parts`
-// the fields are virtual and have all their rows; those of the group are left to be made.
+// All but the rows and the end, in a new file. Returns the columns: the fields, H, H_modified if there is one, and t.
+// With `parts` the fields are virtual and have all their rows; those of the group are left to be made.
 std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layout,
                                       const SolutionDescription& description, bool has_modified_energy,
                                       const std::vector<RowsOfFields>& parts = {});
-// How the run ended.
-void describe_end(Hdf5File& file, const RunReport& report);
+// What a solution has once, and its segments need not have: where its points and bars are, and how the run ended.
+void write_end(Hdf5File& file, const SolutionLayout& layout, const RunReport& report);
 
 }  // namespace seiche

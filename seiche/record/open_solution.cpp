@@ -13,8 +13,8 @@ void OpenSolution::close() {
   file.close();
 }
 
-void OpenSolution::commit(const RunReport& end) {
-  describe_end(file, end);
+void OpenSolution::commit(const SolutionLayout& layout, const RunReport& end) {
+  write_end(file, layout, end);
   close();
   path.commit();
 }

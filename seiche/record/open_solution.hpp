@@ -23,8 +23,8 @@ struct OpenSolution {
   // `parts`: as of make_columns.
   OpenSolution(const Folder& folder, const SolutionLayout& layout, const SolutionDescription& description,
                bool has_modified_energy, const std::vector<RowsOfFields>& parts = {});
-  void close();                       // the file, which can be read then
-  void commit(const RunReport& end);  // it is solution.h5
+  void close();                                                     // the file, which can be read then
+  void commit(const SolutionLayout& layout, const RunReport& end);  // it is solution.h5
 };
 
 }  // namespace seiche

@@ -150,7 +150,7 @@ void Segments::finish(const RunReport& report) {
   attempt([&] {
     if (mark_.sealed.empty()) {
       write_rows(open());
-      open().commit(report);
+      open().commit(layout_, report);
       open_.reset();
       return;
     }

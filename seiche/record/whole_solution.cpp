@@ -42,7 +42,7 @@ void join_segments(const Folder& folder, const SolutionLayout& layout, const Sol
     }
   }
   for (std::size_t i = 0; i < to.columns.size(); ++i) to.columns[i].append(mark.unfinished[i]);
-  to.commit(end);
+  to.commit(layout, end);
 }
 
 void show_segments(const Folder& folder, const std::string& segments, const SolutionLayout& layout,
@@ -68,7 +68,7 @@ void show_segments(const Folder& folder, const std::string& segments, const Solu
       to.file.make_dataset(name, {.row = layout.shape(), .chunk = layout.chunk()}).append(mark.unfinished[i]);
     }
   }
-  to.commit(end);
+  to.commit(layout, end);
 }
 
 }  // namespace seiche

@@ -156,21 +156,28 @@ TEST_F(DiskFaults, WhatGetsItsNameIsOnTheDisk) {
 #endif
   write_case();
   const std::string preload = fmt::format("LD_PRELOAD='{}' ", failing_writes_path());
-  const Result ran =
-      seiche("run case.toml --out out --quiet --set checkpoint.every_steps=32", preload + "SEICHE_SYNC_LOG=log.txt");
+  const Result ran = seiche(
+      "run case.toml --out out --quiet --set checkpoint.every_steps=16 problem.points=1024 output.snapshot_every=1",
+      preload + "SEICHE_SYNC_LOG=log.txt");
   ASSERT_EQ(ran.exit, 0) << ran.err;
   const std::vector<std::string> log = lines("log.txt");
   std::set<std::string> named;
-  for (std::size_t i = 0; i < log.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < log.size(); ++i) {
     if (!log[i].starts_with("name ")) continue;
     const std::string name = log[i].substr(5);
     named.insert(name);
-    const bool is_moved = name == "checkpoint_prev.seiche";  // on the disk before it had another name
-    const auto before =
-        std::find(log.begin(), log.begin() + static_cast<std::ptrdiff_t>(i), "sync " + name + ".partial");
-    EXPECT_TRUE(is_moved || before != log.begin() + static_cast<std::ptrdiff_t>(i)) << name;
-    EXPECT_TRUE(std::find(log.begin() + static_cast<std::ptrdiff_t>(i), log.end(), "sync out") != log.end()) << name;
+    if (name == "checkpoint_prev.seiche") continue;  // on the disk before it had another name
+    const bool is_segment = name.ends_with(".h5") && name != "solution.h5";
+    EXPECT_EQ(log[i - 1], is_segment ? "sync solution.h5.partial" : "sync " + name + ".partial");
+    EXPECT_EQ(log[i + 1], is_segment ? "sync solution" : "sync out") << name;
+    if (is_segment && !named.contains("energy.csv")) {
+      EXPECT_EQ(log[i + 2], "sync energy.csv.partial") << "and the checkpoint behind it";
+    }
   }
+  EXPECT_TRUE(named.contains("000003.h5"));
+  EXPECT_LT(std::find(log.begin(), log.end(), "name 000001.h5"),
+            std::find(log.begin(), log.end(), "name checkpoint.seiche"))
+      << "already the first one vouches for a segment";
   for (const char* name : {"case.toml", "energy.csv", "solution.h5", "final.txt", "summary.json", "checkpoint.seiche"})
     EXPECT_TRUE(named.contains(name)) << name;
 
