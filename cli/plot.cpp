@@ -108,7 +108,7 @@ PictureOptions picture_options(const PlotArguments& arguments) {
 // Asked where something went wrong, since all of it is read.
 bool is_damaged(const RunFiles& run) {
   try {
-    const SolutionReader solution(run.solution, run.segments);
+    const SolutionReader solution(run.solution);
     Vector values;
     for (Index k = 0; k < solution.count(); ++k) solution.state(k, values);
     return false;
@@ -134,7 +134,7 @@ ExitCode plot_ensemble(const PlotArguments& arguments, const PictureOptions& opt
         arguments.directory);
   const std::filesystem::path directory = arguments.directory;
   EnsemblePictures pictures = ensemble_pictures(directory);
-  const FolderLock lock = lock_for_pictures(directory, pictures.has_ended);
+  const FolderLock lock = lock_for_pictures(directory, pictures.is_running);
   try {
     draw_ensemble(pictures, directory, options);
   } catch (const BadDrawingRequest&) {
@@ -165,8 +165,8 @@ ExitCode plot(const PlotArguments& arguments) {
         "`seiche run {0}/case.toml --out {0} --restart` computes it again",
         run.directory.string());
   if (!arguments.film_fields.empty())
-    options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.solution, run.segments));
-  const FolderLock lock = lock_for_pictures(run.directory, run.has_ended);
+    options.film_fields = parsed_fields(arguments.film_fields, SolutionReader(run.solution));
+  const FolderLock lock = lock_for_pictures(run.directory, run.is_running);
   require_own_report(run.directory);
   require_own_figures(run.directory);
   try {

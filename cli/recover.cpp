@@ -22,7 +22,7 @@ namespace {
 void tidy_up(const std::filesystem::path& path) {
   const CaseFolder folder(path);
   remove_partial_files(folder.folder());
-  if (!needs_segments(path)) remove_segments(folder.folder());
+  if (holds_joined_solution(path)) remove_segments(folder.folder());
 }
 
 // Its end, without the run.

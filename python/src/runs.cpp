@@ -134,7 +134,7 @@ struct Look {
 Look look(const std::string& folder) {
   return without_gil([&] {
     const RunView view = view_of_run(folder);
-    SolutionReader readable(view.run.solution, view.run.segments);  // or h5py would end Python by damage
+    SolutionReader readable(view.run.solution);  // or h5py would end Python by damage
     return Look{view.run.solution, view.run.has_ended ? "" : view.run.status, view.run.temporary};
   });
 }
@@ -146,12 +146,12 @@ void report(const std::string& folder, const std::vector<std::string>& formats, 
     draw_with(programs, interpreter);
     if (holds_ensemble(folder)) {
       EnsemblePictures pictures = ensemble_pictures(folder);
-      const FolderLock lock = lock_for_pictures(folder, pictures.has_ended);
+      const FolderLock lock = lock_for_pictures(folder, pictures.is_running);
       draw_ensemble(pictures, folder, {.formats = formats});
       return 0;
     }
     const auto [run, history] = view_of_run(folder);
-    const FolderLock lock = lock_for_pictures(run.directory, run.has_ended);
+    const FolderLock lock = lock_for_pictures(run.directory, run.is_running);
     require_own_report(run.directory);
     require_own_figures(run.directory);
     write_run_report(run, history, draw_run(run, history, {.formats = formats, .film = film}));

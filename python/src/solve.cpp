@@ -1,17 +1,23 @@
 // One run, with the GIL released while it steps.
 #include "bind.hpp"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/driver/checkpoint_keeper.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/summary.hpp>
+#include <seiche/record/checkpoint_file.hpp>
+#include <seiche/record/run_folder.hpp>
 #include <seiche/simulation/solve.hpp>
 #include <seiche/study/versions.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace seiche::python {
 namespace {
@@ -80,12 +86,14 @@ std::string text_of_call(RunSpec spec) {
 // The checkpoints of a call in a folder: it goes on from the newest, and removes them at its end.
 class KeptCall {
  public:
-  KeptCall(const std::string& folder, const RunSpec& spec)
+  KeptCall(const std::string& folder, const RunSpec& spec, double t_end)
       : folder_(made(folder)), lock_(folder_), text_(text_of_call(spec)) {
     if (!checkpoints_in(folder).empty()) {
       newest_ = newest_checkpoint(folder_, remarks_);
       const SavedRun& saved = newest_->run;
       if (saved.kind != RunKind::solve) require_no_checkpoint(folder);
+      if (saved.t > t_end)
+        throw Error("t_span ends at {:.9g}, and the checkpoint in {} is at t = {:.9g}", t_end, folder, saved.t);
       if (saved.case_text != text_)
         throw Error("{} holds a checkpoint of another call of seiche.solve, whose problem, method or options differ",
                     folder);
@@ -169,7 +177,7 @@ HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_sta
   const Interruption::LetsStepEnd lets_step_end;
   auto solution = without_gil([&] {
     std::optional<KeptCall> kept;
-    if (checkpoint) options.resumption = kept.emplace(*checkpoint, spec).resumption();
+    if (checkpoint) options.resumption = kept.emplace(*checkpoint, spec, t_end).resumption();
     auto found = std::make_shared<Solution>(solve(*problem.problem, options));
     if (Interruption::seen()) found->report.status = RunReport::Status::interrupted;
     if (kept) kept->end(*found);

@@ -320,5 +320,20 @@ def test_the_checkpoint_of_another_call_is_refused(tmp_path):
     assert (tmp_path / "checkpoint.seiche").exists()
     with pytest.raises(ValueError, match="another call of seiche.solve"):
         seiche.solve("oscillator", 1e6, h=1e-2, checkpoint=tmp_path)
+    with pytest.raises(ValueError, match="t_span ends at 0.002"):
+        seiche.solve("oscillator", 0.002, h=1e-3, record_every=1000, checkpoint=tmp_path)
     with pytest.raises(ValueError, match="its z0 has other numbers"):
         seiche.solve("oscillator", 1e6, [2, 0], h=1e-3, record_every=1000, checkpoint=tmp_path)
+
+
+def test_by_parts_it_is_the_numbers_that_tell_calls_apart(tmp_path):
+    def stopped(M, D, **more):
+        seconds = time.monotonic() + 0.2
+        problem = seiche.Problem(M=M, D=D, V="0.25*u^4", z0=[1, 0])
+        return seiche.solve(problem, 1e6, h=1e-3, record_every=1000, checkpoint=tmp_path, **more)
+
+    seconds = time.monotonic() + 0.3
+    watch = lambda t, y, energy: time.monotonic() < seconds
+    assert stopped(np.eye(2), np.diag([0, 0.1]), observer=watch).status == "interrupted"
+    with pytest.raises(ValueError, match="its equation .* has other numbers"):
+        stopped(np.diag([9.0, 1.0]), np.zeros((2, 2)))

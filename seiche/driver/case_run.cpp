@@ -4,10 +4,12 @@
 #include <seiche/driver/case_run.hpp>
 #include <seiche/driver/headline.hpp>
 #include <seiche/driver/last_words.hpp>
+#include <seiche/figure/run_pictures.hpp>
 #include <seiche/figure/run_report.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/output/summary.hpp>
 #include <seiche/record/checkpoint_file.hpp>
+#include <seiche/record/run_folder.hpp>
 #include <seiche/version.hpp>
 
 #include <fmt/format.h>
@@ -77,6 +79,11 @@ std::string write_for_readers(const Folder& folder, const RunSpec& spec, const S
                               const std::atomic<bool>* leave, const std::function<void(const std::string&)>& warn,
                               std::uint64_t& xdmf_every) {
   if (!folder.has_lock()) return "";  // the run has said so
+  // What was drawn while the run went on says so.
+  if (folder.is_at_its_path()) {
+    remove_pictures(folder.path());
+    if (!spec.report) remove_own_report(folder.path());
+  }
   try {
     xdmf_every = solution.describe(leave);
   } catch (const Error& error) {

@@ -6,6 +6,7 @@
 #include <seiche/driver/ensemble_files.hpp>
 #include <seiche/driver/headline.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
+#include <seiche/figure/run_pictures.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/simulation/certificate.hpp>
 #include <seiche/simulation/kick_stability.hpp>
@@ -177,6 +178,7 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
   attempt([&] { energies->commit(); });
   attempt([&] { write_members(folder, members, result, has_modified); });
   attempt([&] { write_finals(folder, problem, result); });
+  if (folder.has_lock() && folder.is_at_its_path()) remove_pictures(folder.path());  // drawn while it went on
   const std::string way_on = keeper.way_on(energies->last().t);
   const bool is_said = outcome.interrupted > 0 || !outcome.is_written;
   if (is_said) outcome.message += way_on;

@@ -124,6 +124,7 @@ EnsemblePictures ensemble_pictures(const fs::path& directory) {
   if (unfinished) {
     pictures.warning = unfinished->how_far();
     pictures.has_ended = false;
+    pictures.is_running = unfinished->is_running;
     return pictures;
   }
   const TextTable members(directory / "members.csv");

@@ -16,7 +16,7 @@ bool holds_ensemble(const std::filesystem::path& directory);
 struct EnsemblePictures {
   std::vector<CurvePicture> list;
   std::string warning;  // "2 of 5 members failed", "still running, up to t = 3", or ""
-  bool has_ended = true;
+  bool is_running = false, has_ended = true;
 };
 
 // energy: the mean of H over time, what 90 % of the members have, and all of them; members_<parameter> for each

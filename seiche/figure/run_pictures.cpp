@@ -130,8 +130,8 @@ std::string run_title(const std::string& name, const std::string& method, const 
   return fmt::format("{}, {}, {}", name, method_label(method), steps);
 }
 
-FolderLock lock_for_pictures(const fs::path& directory, bool has_ended) {
-  if (has_ended) return FolderLock{Folder(directory)};
+FolderLock lock_for_pictures(const fs::path& directory, bool is_running) {
+  if (!is_running) return FolderLock{Folder(directory)};
   require_own_figures(directory);
   make_directory(directory / "figures");
   return FolderLock{Folder(directory / "figures")};
@@ -139,7 +139,7 @@ FolderLock lock_for_pictures(const fs::path& directory, bool has_ended) {
 
 RunPictures draw_run(const RunFiles& run, const EnergyHistory& history, const PictureOptions& options) {
   require_own_figures(run.directory);
-  const SolutionReader readable(run.solution, run.segments);  // or Python would end by damage, or wait for ever
+  const SolutionReader readable(run.solution);  // or Python would end by damage, or wait for ever
   RunPictures pictures{.list = {}, .formats = with_png(options.formats), .films = {}};
   DrawingFolder drawing(run.directory / "figures");
   const Json drawn = Json::parse(draw(request_for(run, history, pictures.formats, options).dump(), drawing.path()));

@@ -56,8 +56,8 @@ std::string run_title(const std::string& name, const std::string& method, const 
 // through which files would get elsewhere or vanish there.
 void require_own_figures(const std::filesystem::path& directory);
 
-// For who draws: of a run that has ended the lock of its folder, else of its figures, since the run may hold the other.
-FolderLock lock_for_pictures(const std::filesystem::path& directory, bool has_ended);
+// For who draws: the lock of the folder, or of its figures where the run itself holds the other.
+FolderLock lock_for_pictures(const std::filesystem::path& directory, bool is_running);
 
 // Throws Error where require_own_figures does, where Python or a package that draws is missing or fails, where
 // solution.h5 cannot be read, and where a run that went on has ended meanwhile; then what an earlier call drew stays,

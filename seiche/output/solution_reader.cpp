@@ -13,12 +13,15 @@
 #include <cerrno>
 #include <climits>
 #include <csignal>
+#include <cstdlib>
 #include <iterator>
 #include <sstream>
 #include <string_view>
 
 namespace seiche {
 namespace {
+
+constexpr const char* parts_folder = "solution";
 
 template <class Call>
 auto unless_interrupted(Call call) {
@@ -39,13 +42,13 @@ std::vector<double> all_of(const Hdf5Dataset& data) {
 }
 
 // So long may a processor take: damage can have HDF5 go round in circles.
-::rlim_t longest_reading(const std::filesystem::path& solution, const std::filesystem::path& segments) {
+::rlim_t longest_reading(const std::filesystem::path& solution) {
   namespace fs = std::filesystem;
   constexpr std::uintmax_t seconds = 2, bytes_per_second = 20'000'000, parts_per_second = 20;
   std::error_code unknown;
   const std::uintmax_t bytes = fs::file_size(solution, unknown);
   std::error_code no_folder;
-  const auto parts = std::distance(fs::directory_iterator(solution.parent_path() / segments, no_folder), {});
+  const auto parts = std::distance(fs::directory_iterator(solution.parent_path() / parts_folder, no_folder), {});
   return seconds + (unknown ? 0 : bytes / bytes_per_second) + static_cast<std::uintmax_t>(parts) / parts_per_second;
 }
 
@@ -69,6 +72,7 @@ void end_at_first_fault(::rlim_t seconds) {
 void allow_open(std::size_t count) {
   constexpr std::size_t others = 256;
   if (count == 0) return;
+  ::unsetenv("HDF5_VDS_PREFIX");  // by which HDF5 would look elsewhere
   ::rlimit files{};
   ::getrlimit(RLIMIT_NOFILE, &files);
   set_limit(RLIMIT_NOFILE, std::max<::rlim_t>(files.rlim_cur, count + others));
@@ -76,15 +80,15 @@ void allow_open(std::size_t count) {
 
 }  // namespace
 
-SolutionReader::SolutionReader(const std::filesystem::path& path, const std::filesystem::path& segments)
-    : SolutionReader(path, segments, (what_another_process_finds(path, segments), Unguarded())) {}
+SolutionReader::SolutionReader(const std::filesystem::path& path)
+    : SolutionReader(path, (what_another_process_finds(path), Unguarded())) {}
 
-SolutionReader::SolutionReader(const std::filesystem::path& path, const std::filesystem::path& segments, Unguarded)
+SolutionReader::SolutionReader(const std::filesystem::path& path, Unguarded)
     : file_(Hdf5File::open(path)),
       t_(file_.dataset("t")),
       H_(file_.dataset("H")),
       fields_(words(text_attribute(file_.id(), "fields"))) {
-  for (const std::string& name : fields_) add_field(name, path, segments);
+  for (const std::string& name : fields_) add_field(name, path);
   if (data_.empty()) throw Error("{} holds no field", path.string());
   if (file_.has("H_modified")) modified_ = file_.dataset("H_modified");
   require_own_parts();
@@ -101,32 +105,38 @@ SolutionReader::SolutionReader(const std::filesystem::path& path, const std::fil
   points_ = static_cast<Index>(data_.front().row_size());
 }
 
-// Files that others have put in the place of segments are not read: they may be links to anything.
-void SolutionReader::add_field(const std::string& name, const std::filesystem::path& path,
-                               const std::filesystem::path& segments) {
+// Others are not read: they may be links to anything, and what HDF5 does not find it shows as NaN.
+void SolutionReader::add_field(const std::string& name, const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
   data_.push_back(file_.dataset_or_virtual(name));
   meanings_.push_back(text_attribute(data_.back().id(), "long_name"));
   Hdf5Shape shape = data_.back().shape();
   shape.front() = data_.front().rows();
   if (shape != data_.front().shape())
     throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
-  std::vector<std::filesystem::path> parts;
   const std::vector<Hdf5Source> sources = data_.back().sources();
-  for (const Hdf5Source& source : sources) {
-    const std::filesystem::path file = source.file;
-    const bool is_here = source.file.empty() && source.dataset == fmt::format("{}/{}", rest_group, name);
-    const bool is_segment = !source.file.empty() && file.parent_path() == segments && source.dataset == name;
-    if (!is_here && !is_segment)
+  std::size_t parts = 0;
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const Hdf5Source& source = sources[k];
+    const bool is_last = k + 1 == sources.size();
+    const bool is_here = source.file.empty() && source.dataset == fmt::format("{}/{}", rest_group, name) && is_last;
+    const bool is_part = source.file == fmt::format("{}/{:06}.h5", parts_folder, k + 1) && source.dataset == name;
+    if (!is_here && !is_part)
       throw Error("{} is damaged: it shows {} in {}, where no solution has it", path.string(), source.dataset,
                   shortened(source.file));
-    if (is_segment) parts.push_back(path.parent_path() / file);
+    if (is_part) ++parts;
+    if (is_part && data_.size() == 1) parts_.push_back(path.parent_path() / source.file);
   }
+  if (parts != parts_.size()) throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
   std::error_code none;
-  for (const std::filesystem::path& part : parts)
-    if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(part, none)))
+  const auto kind = [&](const fs::path& of) { return fs::symlink_status(of, none).type(); };
+  if (parts > 0 && data_.size() == 1 && kind(path.parent_path() / parts_folder) != fs::file_type::directory)
+    throw Error("{} is not there, or is no folder, and {} shows what lies in it",
+                (path.parent_path() / parts_folder).string(), path.string());
+  for (const fs::path& part : parts_)
+    if (kind(part) != fs::file_type::regular)
       throw Error("{} shows what lies in {}, which is not there, or is not a file", path.string(), part.string());
-  if (data_.size() == 1) allow_open((parts_ = parts).size());
-  if (parts != parts_) throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
+  if (data_.size() == 1) allow_open(parts);
 }
 
 void SolutionReader::require_own_parts() const {
@@ -209,17 +219,16 @@ void SolutionReader::field(Index field, Index k, Vector& values) const {
                                               {values.data(), static_cast<std::size_t>(points_)});
 }
 
-std::string SolutionReader::what_another_process_finds(const std::filesystem::path& solution,
-                                                       const std::filesystem::path& segments) {
+std::string SolutionReader::what_another_process_finds(const std::filesystem::path& solution) {
   if (look_at(solution).kind == InputKind::other) throw Error("{} is not a file", solution.string());
   constexpr int whole = 0, damaged = 3;
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return "";  // then without
   const ::pid_t child = ::fork();
   if (child == 0) {
-    end_at_first_fault(longest_reading(solution, segments));
+    end_at_first_fault(longest_reading(solution));
     try {
-      SolutionReader(solution, segments, Unguarded()).require_whole();
+      SolutionReader(solution, Unguarded()).require_whole();
     } catch (const std::exception& error) {
       const std::string_view said = error.what();
       ::_exit(::write(pipe[1], said.data(), std::min<std::size_t>(said.size(), PIPE_BUF)) < 0 ? whole : damaged);
@@ -241,7 +250,7 @@ std::string SolutionReader::what_another_process_finds(const std::filesystem::pa
 }
 
 void require_readable(const std::filesystem::path& solution) {
-  if (const std::string damage = SolutionReader::what_another_process_finds(solution, "solution"); !damage.empty())
+  if (const std::string damage = SolutionReader::what_another_process_finds(solution); !damage.empty())
     throw Error(damage);
 }
 

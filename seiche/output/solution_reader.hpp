@@ -19,11 +19,11 @@ struct CoordinateAxis {
 
 class SolutionReader {
  public:
-  // Another process reads first: damage of a kind that HDF5 does not expect, such as a text of endless length or a heap
-  // that leads into itself, ends the program that reads it, or never ends. Throws Error where that happened, where the
-  // file cannot be read, or is no solution. What it shows of other files lies in the folder `segments`:
-  // beside it, or a whole path.
-  explicit SolutionReader(const std::filesystem::path& path, const std::filesystem::path& segments = "solution");
+  // Another process reads first: damage of a kind that HDF5 does not expect, such as a text of endless length or a
+  // heap that leads into itself, ends the program that reads it, or never ends. Throws Error where that happened,
+  // where the file cannot be read, or is no solution; and where it shows other files than solution/000001.h5,
+  // 000002.h5, …, beside it, or one that is not there, or has other rows.
+  explicit SolutionReader(const std::filesystem::path& path);
 
   Index count() const { return count_; }  // of times
   std::vector<double> times() const { return first_of(t_); }
@@ -51,12 +51,11 @@ class SolutionReader {
 
  private:
   struct Unguarded {};
-  SolutionReader(const std::filesystem::path& path, const std::filesystem::path& segments, Unguarded);
-  static std::string what_another_process_finds(const std::filesystem::path& solution,
-                                                const std::filesystem::path& segments);
+  SolutionReader(const std::filesystem::path& path, Unguarded);
+  static std::string what_another_process_finds(const std::filesystem::path& solution);
   friend void require_readable(const std::filesystem::path& solution);
 
-  void add_field(const std::string& name, const std::filesystem::path& path, const std::filesystem::path& segments);
+  void add_field(const std::string& name, const std::filesystem::path& path);
   void require_own_parts() const;
   void count_times(const std::filesystem::path& path);
   std::vector<double> first_of(const Hdf5Dataset& data) const;  // as many as there are times

@@ -108,8 +108,8 @@ void require_own_segments(const fs::path& directory) {
 void require_no_checkpoint(const fs::path& directory) {
   if (!checkpoints_in(directory).empty())
     throw Error(
-        "{0} holds a checkpoint of a run that did not reach its end: `seiche resume {0}` goes on from it, `seiche run` "
-        "with --restart removes it and begins anew, and another folder keeps both",
+        "{0} holds a checkpoint of a run that did not reach its end: `seiche resume {0}` goes on from it (of a call of "
+        "seiche.solve the same call), --restart removes it and begins anew, and another folder keeps both",
         directory.string());
 }
 
@@ -126,7 +126,7 @@ void require_own_report(const fs::path& directory) { require_own(directory / "re
 void require_own_files(const fs::path& directory, RunKind kind, bool report) {
   for (const RunFile& file : files)
     if (kind == RunKind::run ? file.of_run : file.of_ensemble) require_own(directory / file.name, file.is_ours);
-  if (kind == RunKind::run) require_own_segments(directory);
+  require_own_segments(directory);
   if (report) require_own_report(directory);
 }
 
@@ -139,11 +139,11 @@ bool is_complete(const fs::path& directory) {
   return has_all(&RunFile::of_run) || has_all(&RunFile::of_ensemble);
 }
 
-bool needs_segments(const fs::path& directory) {
+bool holds_joined_solution(const fs::path& directory) {
   try {
-    return fs::exists(directory / solution_name) && !SolutionReader(directory / solution_name).parts().empty();
+    return fs::exists(directory / solution_name) && SolutionReader(directory / solution_name).parts().empty();
   } catch (const Error&) {
-    return true;
+    return false;
   }
 }
 

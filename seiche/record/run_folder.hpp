@@ -25,8 +25,8 @@ void require_ended(const std::filesystem::path& directory);
 // Is everything there that is to be read when a run or an ensemble has ended, or was interrupted?
 bool is_complete(const std::filesystem::path& directory);
 
-// Is there a solution.h5 that shows segments beside it, or one that cannot be read and may?
-bool needs_segments(const std::filesystem::path& directory);
+// Is there a solution.h5 that needs no segments beside it? Not where it cannot be read.
+bool holds_joined_solution(const std::filesystem::path& directory);
 
 void remove_partial_files(const Folder& folder);  // of a run that was killed, and whose rows they do not hold
 // What a run that goes on leaves anew at its end.

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -15,6 +17,18 @@ namespace seiche {
 namespace {
 
 std::filesystem::path path_of(const Folder& folder) { return folder.path() / segments_folder; }
+
+// By how it begins; of what is empty nothing is lost.
+bool is_hdf5(const Folder& folder, const std::string& name) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  std::array<char, 8> begin{};
+  static_assert(begin.size() == signature.size());
+  const int file = ::openat(folder.descriptor(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return false;
+  const ::ssize_t size = ::read(file, begin.data(), begin.size());
+  ::close(file);
+  return size == 0 || (size > 0 && std::string_view(begin.data(), static_cast<std::size_t>(size)) == signature);
+}
 
 }  // namespace
 
@@ -44,6 +58,17 @@ std::string complaint_about(const Folder& folder, const SegmentsMark& mark) {
   return "";
 }
 
+void require_layout(const SegmentsMark& mark, const SolutionLayout& layout, bool has_modified_energy) {
+  const std::uint64_t chunk = layout.chunk().front();
+  bool is_same = mark.has_modified == has_modified_energy &&
+                 mark.unfinished.size() == layout.fields.size() + mark.numbers() &&
+                 mark.unfinished.back().size() < chunk &&
+                 mark.unfinished.front().size() == mark.unfinished.back().size() * layout.points();
+  for (const SegmentsMark::Segment& segment : mark.sealed)
+    is_same = is_same && segment.rows > 0 && segment.rows % chunk == 0;
+  if (!is_same) throw Error("the checkpoint is of a solution with other fields, or another grid");
+}
+
 void remove_segments(const Folder& folder, std::size_t kept) {
   std::error_code none;
   if (!folder.has_lock()) return;
@@ -52,7 +77,8 @@ void remove_segments(const Folder& folder, std::size_t kept) {
   std::size_t last = kept;
   while (FileIdentity(inside.descriptor(), segment_name(last + 1)) != FileIdentity()) ++last;
   // From the end, so that those of a removal that was interrupted are found again.
-  for (; last > kept; --last) remove_file(inside, segment_name(last));
+  for (; last > kept; --last)
+    if (is_hdf5(inside, segment_name(last))) remove_file(inside, segment_name(last));
   ::unlinkat(folder.descriptor(), segments_folder, AT_REMOVEDIR);  // fails where something is in it
 }
 
@@ -68,18 +94,10 @@ Segments::Segments(Folder folder, SolutionLayout layout, SolutionDescription des
     mark_.has_modified = has_modified_energy;
     mark_.unfinished.resize(layout_.fields.size() + mark_.numbers());
   }
-  require_same_layout(has_modified_energy);
+  require_layout(mark_, layout_, has_modified_energy);
 }
 
 Segments::~Segments() = default;
-
-void Segments::require_same_layout(bool has_modified_energy) const {
-  const std::size_t times = mark_.unfinished.back().size();
-  bool is_same = mark_.has_modified == has_modified_energy && mark_.fields() == layout_.fields.size() &&
-                 times < chunk_ && mark_.unfinished.front().size() == times * layout_.points();
-  for (const SegmentsMark::Segment& segment : mark_.sealed) is_same = is_same && segment.rows % chunk_ == 0;
-  if (!is_same) throw Error("the checkpoint is of a solution with other fields, or another grid");
-}
 
 void Segments::require_writable() const {
   if (is_finished_) throw Error("{} is finished, and takes no more rows", (folder_.path() / solution_name).string());
@@ -158,7 +176,8 @@ void Segments::finish(const RunReport& report) {
     for (const SegmentsMark::Segment& segment : mark_.sealed) bytes += static_cast<double>(segment.file.length);
     shows_segments_ = bytes > join_below_;
     if (shows_segments_) {
-      show_segments(folder_, segments_folder, layout_, description_, mark_, report);
+      remove_segments(folder_, mark_.sealed.size());
+      show_segments(folder_, layout_, description_, mark_, report);
     } else {
       join_segments(folder_, layout_, description_, mark_, report);
     }

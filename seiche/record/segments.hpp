@@ -39,10 +39,13 @@ struct SegmentsMark {
   void archive(Archive& a);
 };
 
+// Throws Error where it is of a solution with other fields, or another grid.
+void require_layout(const SegmentsMark& mark, const SolutionLayout& layout, bool has_modified_energy);
 // Why the segments of a folder are not those of the mark; "" where they are. Throws Error where one is missing, or
 // cannot be read.
 std::string complaint_about(const Folder& folder, const SegmentsMark& mark);
-// All of them but the first `kept`; and their folder, where it is empty then. Nothing where the lock is no longer ours.
+// All of them but the first `kept`; and their folder, where it is empty then. What is no HDF5 file stays. Nothing where
+// the lock is no longer ours.
 void remove_segments(const Folder& folder, std::size_t kept = 0);
 
 class Segments {
@@ -71,7 +74,6 @@ class Segments {
 
  private:
   OpenSolution& open();  // the segment that is being written
-  void require_same_layout(bool has_modified_energy) const;
   void write_rows(OpenSolution& to);
   void require_writable() const;
   template <class Action>

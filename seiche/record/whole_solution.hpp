@@ -7,18 +7,16 @@
 #include <seiche/output/solution_layout.hpp>
 #include <seiche/record/segments.hpp>
 
-#include <string>
-
 namespace seiche {
 
 // Into the folder of the segments, by copying chunks as they are: the bytes that it has where nothing was ever sealed.
-// Throws Error where a segment cannot be read, or the file not written.
+// Throws Error where the mark is of another layout, a segment cannot be read, or the file not written.
 void join_segments(const Folder& folder, const SolutionLayout& layout, const SolutionDescription& description,
                    const SegmentsMark& mark, const RunReport& end);
 
-// Into any folder, by virtual data sets over the segments, which stay in `segments`: "solution", beside it, or a whole
-// path. Times, energies and the rows of the last chunk, which is not full, are in the file. Throws Error likewise.
-void show_segments(const Folder& folder, const std::string& segments, const SolutionLayout& layout,
-                   const SolutionDescription& description, const SegmentsMark& mark, const RunReport& end);
+// The same by virtual data sets over the segments, which stay where they are. Times, energies and the rows of the last
+// chunk, which is not full, are in the file. Throws Error likewise.
+void show_segments(const Folder& folder, const SolutionLayout& layout, const SolutionDescription& description,
+                   const SegmentsMark& mark, const RunReport& end);
 
 }  // namespace seiche

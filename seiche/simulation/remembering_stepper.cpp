@@ -32,7 +32,7 @@ void RememberingStepper::undo(State& state) {
 void RememberingStepper::archive(Archive& a, const State& like) {
   std::uint64_t count = taken_.size();
   a(count);
-  if (a.reads()) taken_.assign(0, {});
+  if (a.reads()) taken_.clear();
   for (std::uint64_t k = 0; k < count; ++k) {
     if (a.reads()) taken_.push_back({like, 0.0});
     a(taken_[k]);

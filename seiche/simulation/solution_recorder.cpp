@@ -60,6 +60,8 @@ void SolutionRecorder::archive(Archive& a) {
   a.require(s.events.size() == events && s.z.size() == times * static_cast<std::size_t>(s.size));
   a.require(s.H.size() == times && s.modified.size() == (has_modified_ ? times : 0));
   a.require(s.ledger.size() == (options_.ledger ? times : 0));
+  for (const Solution::Events& one : s.events)
+    a.require(one.z.size() == one.t.size() * static_cast<std::size_t>(s.size));
   a.require(asked_ <= (options_.t_eval ? options_.t_eval->size() : 0));
 }
 

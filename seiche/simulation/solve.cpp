@@ -7,7 +7,10 @@
 #include <seiche/simulation/solve.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <span>
 
 namespace seiche {
 namespace {
@@ -163,6 +166,8 @@ class Run {
       recorder.archive(a);
       steps_.archive(a, simulation.state());
     };
+    if (options_.resumption.checkpoints != nullptr || options_.resumption.from != nullptr)
+      equation_ = fingerprint_of_equation();
     WithSolution checkpoints(options_.resumption.checkpoints, archive);
     if (options_.resumption.from != nullptr) archive(*options_.resumption.from);
     solution_.report =
@@ -174,20 +179,24 @@ class Run {
     solution_.certificate = run_.certificate_after(solution_.report);
   }
 
-  // But for t_end and functions, which no checkpoint holds.
+  // But for t_end and what observers and actions do.
   void require_same_options(Archive& a) const {
     const SolveOptions& o = options_;
     const std::string size =
         o.tolerance ? fmt::format("tolerance = {}, h_max = {}", *o.tolerance, o.h_max) : fmt::format("h = {}", o.h);
-    const std::vector<double> initial(problem_.initial.begin(), problem_.initial.end());
+    std::string events;
+    for (const SolveEvent& event : o.events)
+      events += fmt::format(", an event {} {}", static_cast<int>(event.direction), event.ends_at);
     same(a, fmt::format("{} by {}", problem_.name, solution_.method), "solves");
     same(a, fmt::format("{}, from t = {}, on the backend {}", size, o.t_start, solution_.backend), "steps with");
     same(a,
-         fmt::format("every {} steps, {} events, {} dense output, {} ledger", o.record_every, o.events.size(),
+         fmt::format("every {} steps{}, {} dense output, {} ledger", o.record_every, events,
                      o.dense_output ? "with" : "without", o.ledger ? "with" : "without"),
          "records");
-    same(a, initial, "z0");
-    same(a, o.t_eval.value_or(std::vector<double>()), "t_eval");
+    same_numbers(a, fingerprint(problem_.initial), "z0");
+    const std::vector<double> times = o.t_eval.value_or(std::vector<double>{std::nan("")});
+    same_numbers(a, fingerprint(times), "t_eval");
+    same_numbers(a, equation_, "equation (M, S, D, V or a parameter)");
   }
   static void same(Archive& a, const std::string& here, const char* verb) {
     std::string there = here;
@@ -196,10 +205,33 @@ class Run {
       throw Error("the checkpoint is of another call: that one {0} {1}, and this one {0} {2}", verb, shortened(there),
                   here);
   }
-  static void same(Archive& a, const std::vector<double>& here, const char* name) {
-    std::vector<double> there = here;
+  static void same_numbers(Archive& a, std::uint64_t here, const char* name) {
+    std::uint64_t there = here;
     a(there);
     if (there != here) throw Error("the checkpoint is of another call: its {} has other numbers", name);
+  }
+
+  // Of the bits of numbers, by FNV-1a over eight bytes at a time.
+  static std::uint64_t fingerprint(std::span<const double> numbers, std::uint64_t before = 0xcbf29ce484222325U) {
+    for (const double number : numbers) before = (before ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3U;
+    return before;
+  }
+  static std::uint64_t fingerprint(const Vector& z, std::uint64_t before = 0xcbf29ce484222325U) {
+    return fingerprint(std::span(z.data(), static_cast<std::size_t>(z.size())), before);
+  }
+  // ż and H at two places and times: what is solved, whether by formulas, matrices or functions.
+  std::uint64_t fingerprint_of_equation() {
+    const System& system = run_.simulation().system();
+    Vector z = run_.simulation().state().z, rate(z.size());
+    std::uint64_t print = fingerprint(Vector());
+    for (const double t : {options_.t_start, options_.t_start + 0.375}) {
+      system.right_hand_side(t, z, rate);
+      print = fingerprint(rate, print);
+      const double H = run_.simulation().stepper().energy(run_.simulation().state()).H;
+      print = fingerprint(std::span(&H, 1), print);
+      for (Index i = 0; i < z.size(); ++i) z[i] += 1e-3 * static_cast<double>(1 + i % 5);
+    }
+    return print;
   }
 
   const SolveOptions& options_;
@@ -208,6 +240,7 @@ class Run {
   RememberingStepper steps_;
   StepReplay replay_;
   std::atomic<bool> stop_ = false;
+  std::uint64_t equation_ = 0;  // its fingerprint
   Solution solution_;
 };
 

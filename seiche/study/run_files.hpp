@@ -25,8 +25,8 @@ struct HypothesisFound {
 struct RunFiles {
   std::filesystem::path directory;
   std::filesystem::path solution;              // solution.h5, or of a run that has not ended a file that shows as much
-  std::string segments = "solution";           // where the rows lie that it only shows, as SolutionReader asks
   std::shared_ptr<const void> temporary = {};  // keeps that file
+  bool is_running = false;                     // in a program that holds its folder
   bool has_ended = true;                       // else it has no law, no counts and no certificate yet
   RunSpec spec;
   std::string case_text;

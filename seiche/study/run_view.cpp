@@ -8,23 +8,37 @@
 
 #include <cmath>
 #include <memory>
+#include <system_error>
 
 namespace seiche {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Shows the segments where they lie, from a folder that goes with the run.
+// Links keep the segments where the run ends meanwhile; where none can be made, copies do.
+void keep_segments(const SegmentsMark& mark, const fs::path& from, const fs::path& to) {
+  if (mark.sealed.empty()) return;
+  fs::create_directory(to);
+  for (std::size_t k = 1; k <= mark.sealed.size(); ++k) {
+    std::error_code failure;
+    fs::create_hard_link(from / segment_name(k), to / segment_name(k), failure);
+    if (failure) fs::copy_file(from / segment_name(k), to / segment_name(k), failure);
+    if (failure) throw Error("{} cannot be read: {}", (from / segment_name(k)).string(), failure.message());
+  }
+}
+
+// In a folder that goes with the run.
 void show_solution(const UnfinishedRun& unfinished, const Problem& problem, RunFiles& run) {
-  const auto folder = std::make_shared<TemporaryFolder>();
+  const auto folder = std::make_shared<TemporaryFolder>(run.directory);
   const ProblemEntry& entry = problem_entry(unfinished.spec);
   RunReport report;
   report.status = RunReport::Status::interrupted;
   report.message = run.message;
-  run.segments = fs::canonical(run.directory) / segments_folder;
-  show_segments(Folder(folder->path()), run.segments, solution_layout(problem),
-                {.meanings = entry.meanings, .texts = {{"title", run_name(run)}, {"equation", entry.equation}}},
-                unfinished.saved.solution->rows, report);
+  const SegmentsMark& rows = unfinished.saved.solution->rows;
+  keep_segments(rows, run.directory / segments_folder, folder->path() / segments_folder);
+  show_segments(Folder(folder->path()), solution_layout(problem),
+                {.meanings = entry.meanings, .texts = {{"title", run_name(run)}, {"equation", entry.equation}}}, rows,
+                report);
   run.solution = folder->path() / solution_name;
   run.temporary = folder;
 }
@@ -37,6 +51,7 @@ RunView view_of(const UnfinishedRun& unfinished, const fs::path& directory) {
   if (!saved.solution) throw Error("{} holds an ensemble, which leaves statistics and no solution", directory.string());
   run.status = run.message = unfinished.how_far();
   run.has_ended = false;
+  run.is_running = unfinished.is_running;
   run.problem = unfinished.spec.problem;
   run.method = unfinished.spec.method;
   run.steps = saved.steps;

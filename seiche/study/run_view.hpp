@@ -16,7 +16,7 @@ struct RunView {
 // Throws Error where the folder holds neither, saying what is missing.
 RunView view_of_run(const std::filesystem::path& directory);
 
-// Throws Error where a run that had not ended has ended since: what was made of it may show rows of NaN.
+// Throws Error where a run that had not ended has ended since, so that what was made of it is not kept.
 void require_still_unfinished(const RunFiles& run);
 
 }  // namespace seiche

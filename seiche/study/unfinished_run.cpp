@@ -20,6 +20,7 @@ SavedRun newest_saved(const std::filesystem::path& directory) {
       if (!first) first = error;
     }
   }
+  if (!first) throw Error("the run in {} ended while it was looked at: look at it again", directory.string());
   throw Error(*first);
 }
 

@@ -135,6 +135,7 @@ TEST_F(Survival, ARunThatGoesOnIsDrawnAndGoesOn) {
     EXPECT_EQ(run.end(SIGKILL), -SIGKILL) << "it did not mind";
     EXPECT_THAT(plotted(), HasSubstr("seiche: not finished, up to t = "));
     EXPECT_EQ(seiche("resume out --quiet --max-hours 1e-9").exit, 130) << text("stderr.txt");
+    EXPECT_FALSE(has("out/figures/energy.png")) << "it says that the run goes on";
     EXPECT_THAT(plotted(), Not(HasSubstr("up to t"))) << "it was interrupted, and has its files";
     EXPECT_EQ(seiche("audit out").exit, 0) << text("stdout.txt");
   }
@@ -167,6 +168,13 @@ TEST_F(Survival, OfARunThatHasEndedNothingIsRecovered) {
     EXPECT_EQ(recovered.exit, 0);
     EXPECT_THAT(recovered.err, HasSubstr("nothing to recover"));
     EXPECT_EQ(text("out/summary.json"), summary);
+    fs::create_directory(directory / "out/solution");
+    write("out/solution/000001.h5", "mine");
+    EXPECT_EQ(seiche("recover out").exit, 0);
+    EXPECT_EQ(text("out/solution/000001.h5"), "mine");
+    EXPECT_EQ(seiche("run case.toml --out out" + settings).exit, 2);
+    EXPECT_EQ(text("out/solution/000001.h5"), "mine");
+    fs::remove_all(directory / "out/solution");
   }
 }
 

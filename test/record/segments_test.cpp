@@ -21,6 +21,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -94,6 +95,18 @@ const RunReport& success() {
   return report;
 }
 
+// 8 chunks in 4 segments.
+SegmentsMark sealed_four_times(const Solution& solution, const fs::path& directory) {
+  Segments segments = solution.segments(directory);
+  const std::uint64_t chunk = solution.layout.chunk().front();
+  SegmentsMark mark;
+  for (std::uint64_t row = 0; row < 8 * chunk; ++row) {
+    solution.append(segments, row);
+    if ((row + 1) % (2 * chunk) == 0) mark = segments.seal();
+  }
+  return mark;
+}
+
 class SegmentFiles : public InTemporaryDirectory {
  protected:
   fs::path fresh() {
@@ -129,13 +142,14 @@ void expect_rows(const SolutionReader& record, const Solution& solution, std::ui
   }
 }
 
-// What a run that goes on shows of itself: from another folder.
+// What a run that goes on shows of itself: links to its segments in another folder.
 void expect_shown(const fs::path& directory, const SegmentsMark& mark, const Solution& solution) {
   const fs::path elsewhere = directory / "shown";
-  const std::string segments = directory / segments_folder;
-  fs::create_directory(elsewhere);
-  show_segments(Folder(elsewhere), segments, solution.layout, {}, mark, success());
-  expect_rows(SolutionReader(elsewhere / solution_name, segments), solution, mark.rows());
+  fs::create_directories(elsewhere / segments_folder);
+  for (std::size_t k = 1; k <= mark.sealed.size(); ++k)
+    fs::create_hard_link(directory / segments_folder / segment_name(k), elsewhere / segments_folder / segment_name(k));
+  show_segments(Folder(elsewhere), solution.layout, {}, mark, success());
+  expect_rows(SolutionReader(elsewhere / solution_name), solution, mark.rows());
   fs::remove_all(elsewhere);
 }
 
@@ -227,8 +241,44 @@ TEST_F(SegmentFiles, AreShownOnlyWhereTheyAreThoseThatWereWritten) {
   EXPECT_EQ(error_of([&] { SolutionReader reads(file); }), "");
 
   fs::rename(folder / segments_folder, folder / "elsewhere");
-  EXPECT_THAT(error_of([&] { SolutionReader reads(file); }), HasSubstr("which is not there"));
-  EXPECT_THAT(error_of([&] { SolutionReader reads(file, "elsewhere"); }), HasSubstr("where no solution has it"));
+  EXPECT_THAT(error_of([&] { SolutionReader reads(file); }), HasSubstr("solution is not there, or is no folder"));
+  fs::create_directory_symlink(folder / "elsewhere", folder / segments_folder);
+  EXPECT_THAT(error_of([&] { SolutionReader reads(file); }), HasSubstr("solution is not there, or is no folder"));
+  for (const std::string other :
+       {"elsewhere/000001.h5", "solution/000002.h5", "solution/other.h5", "/solution/000001.h5"}) {
+    OpenSolution shows(Folder(folder), few.layout, {}, few.has_modified, {{.file = other, .rows = 2 * chunk}});
+    shows.commit(few.layout, success());
+    EXPECT_THAT(error_of([&] { SolutionReader reads(file); }), HasSubstr("where no solution has it")) << other;
+  }
+}
+
+// As only a checkpoint that was made by hand has them, since its checksum fits.
+TEST_F(SegmentFiles, AreNotShownByTheMarkOfAnotherSolution) {
+  const Solution few = solutions()[1];
+  const fs::path folder = fresh();
+  const SegmentsMark whole = sealed_four_times(few, folder);
+  const auto refusal = [&](const std::function<void(SegmentsMark&)>& change) {
+    SegmentsMark mark = whole;
+    change(mark);
+    const std::string shown = error_of([&] { show_segments(Folder(folder), few.layout, {}, mark, success()); });
+    EXPECT_EQ(error_of([&] { join_segments(Folder(folder), few.layout, {}, mark, success()); }), shown);
+    return shown;
+  };
+  EXPECT_EQ(refusal([](SegmentsMark&) {}), "");
+  EXPECT_THAT(refusal([](SegmentsMark& m) { m.unfinished.pop_back(); }), HasSubstr("other fields"));
+  EXPECT_THAT(refusal([](SegmentsMark& m) { m.has_modified = !m.has_modified; }), HasSubstr("other fields"));
+  EXPECT_THAT(refusal([](SegmentsMark& m) { m.sealed[1].rows += 1; }), HasSubstr("other fields"));
+  EXPECT_THAT(refusal([](SegmentsMark& m) { m.unfinished.front().resize(7); }), HasSubstr("other fields"));
+}
+
+TEST_F(SegmentFiles, ThatAreNoHdf5FilesAreNotRemoved) {
+  const fs::path folder = fresh(), inside = folder / segments_folder;
+  sealed_four_times(solutions()[1], folder);
+  std::ofstream(inside / "000002.h5") << "mine";
+  remove_segments(Folder(folder));
+  EXPECT_FALSE(fs::exists(inside / "000001.h5"));
+  EXPECT_EQ(text_of(inside / "000002.h5"), "mine");
+  EXPECT_FALSE(fs::exists(inside / "000004.h5"));
 }
 
 TEST_F(SegmentFiles, AreNotMadeWhereNoChunkWasFull) {
@@ -242,18 +292,6 @@ TEST_F(SegmentFiles, AreNotMadeWhereNoChunkWasFull) {
   EXPECT_TRUE(fs::is_empty(folder));
   segments.finish(success());
   EXPECT_EQ(text_of(folder / "solution.h5"), in_one_go(line, 10));
-}
-
-// 8 chunks in 4 segments.
-SegmentsMark sealed_four_times(const Solution& solution, const fs::path& directory) {
-  Segments segments = solution.segments(directory);
-  const std::uint64_t chunk = solution.layout.chunk().front();
-  SegmentsMark mark;
-  for (std::uint64_t row = 0; row < 8 * chunk; ++row) {
-    solution.append(segments, row);
-    if ((row + 1) % (2 * chunk) == 0) mark = segments.seal();
-  }
-  return mark;
 }
 
 TEST_F(SegmentFiles, ThatNoMarkNamesAreRemovedAndNothingElse) {

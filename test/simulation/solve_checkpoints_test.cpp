@@ -97,7 +97,9 @@ void expect_same(const Solution& one, const Solution& other, const std::string& 
   EXPECT_EQ(one.H, other.H) << where;
   EXPECT_EQ(one.modified, other.modified) << where;
   ASSERT_EQ(one.ledger.size(), other.ledger.size()) << where;
-  for (std::size_t i = 0; i < one.ledger.size(); ++i) EXPECT_EQ(one.ledger[i].sum(), other.ledger[i].sum()) << where;
+  for (std::size_t i = 0; i < one.ledger.size(); ++i)
+    for (const LedgerPart& part : ledger_parts())
+      EXPECT_EQ(one.ledger[i].*part.value, other.ledger[i].*part.value) << where << " " << part.name;
   ASSERT_EQ(one.events.size(), other.events.size()) << where;
   for (std::size_t i = 0; i < one.events.size(); ++i) {
     EXPECT_EQ(one.events[i].t, other.events[i].t) << where;
@@ -186,7 +188,13 @@ TEST(SolveCheckpoints, OfAnotherCallAreRefused) {
   EXPECT_THAT(refusal([](SolveOptions& o) { o.h = 1.0 / 8; }, call.problem),
               HasSubstr("that one steps with h = 0.0625, from t = 0"));
   EXPECT_THAT(refusal([](SolveOptions& o) { o.method = "seilm"; }, call.problem), HasSubstr("by seilm"));
-  EXPECT_THAT(refusal([](SolveOptions& o) { o.events.pop_back(); }, call.problem), HasSubstr("2 events"));
+  EXPECT_THAT(refusal([](SolveOptions& o) { o.events.pop_back(); }, call.problem), HasSubstr("another call"));
+  EXPECT_THAT(refusal([](SolveOptions& o) { o.events.front().ends_at = 2; }, call.problem), HasSubstr("an event"));
+  EXPECT_THAT(refusal([](SolveOptions& o) { o.t_eval.emplace(); }, call.problem), HasSubstr("its t_eval has other"));
+  const Problem damped = oscillator({.omega_squared = 1.0, .alpha = 0.5, .gamma = constant_rate(0.06)});
+  EXPECT_THAT(refusal([](SolveOptions&) {}, damped), HasSubstr("its equation (M, S, D, V or a parameter) has other"));
+  const Problem harder = oscillator({.omega_squared = 1.0, .alpha = 0.51, .gamma = constant_rate(0.05)});
+  EXPECT_THAT(refusal([](SolveOptions&) {}, harder), HasSubstr("its equation"));
   EXPECT_THAT(refusal([](SolveOptions& o) { o.t_eval = std::vector<double>{1}; }, call.problem),
               HasSubstr("its t_eval has other numbers"));
   EXPECT_THAT(refusal([&](SolveOptions& o) { o.z0 = Vector(2 * call.problem.initial); }, call.problem),

@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 namespace seiche {
 namespace {
@@ -20,7 +22,8 @@ bool is_still_there(int file, const Folder& folder) {
 }  // namespace
 
 FolderLock::FolderLock(const Folder& folder) : folder_(folder) {
-  for (;;) {
+  constexpr int most_looks = 10;  // others that only ask whether it is locked hold it for a moment
+  for (int looks = 1;; ++looks) {
     // Not for the programs that draw: they would hold the lock as long as they live.
     const int file = ::openat(folder.descriptor(), lock_name, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (file < 0) throw Error("cannot write {}: {}", (folder.path() / lock_name).string(), std::strerror(errno));
@@ -30,6 +33,8 @@ FolderLock::FolderLock(const Folder& folder) : folder_(folder) {
     } else if (errno == EWOULDBLOCK) {
       folder_.open_->lock = -1;
       ::close(file);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      if (looks < most_looks) continue;
       throw Error("another run is writing into {}: wait until it has ended, or give another folder",
                   folder.path().string());
     } else if (errno != EINTR) {

@@ -1,4 +1,4 @@
-// A folder for what is read once, where the system keeps such: TMPDIR, or /tmp.
+// A folder for what is read as long as a program runs.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,10 @@ namespace seiche {
 
 class TemporaryFolder {
  public:
-  TemporaryFolder();   // empty, and for this user alone; throws Error where it cannot be made
+  // Empty, and for this user alone: in `near`, to whose files links can be made there, or else where the system
+  // keeps such, TMPDIR or /tmp. What programs that were killed have left in `near` is removed. Throws Error where
+  // it cannot be made.
+  explicit TemporaryFolder(const std::filesystem::path& near);
   ~TemporaryFolder();  // with all that is in it
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

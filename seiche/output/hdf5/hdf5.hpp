@@ -90,7 +90,8 @@ class Hdf5File {
   static Hdf5File open(const Folder& folder, const std::string& name);
 
   void make_group(const std::string& name);
-  Hdf5Dataset make_dataset(const std::string& name, const Hdf5Layout& layout);  // with no row yet; "group/name" works
+  Hdf5Dataset make_dataset(const std::string& name,
+                           const Hdf5Layout& layout);  // with no row of its own; "group/name" too
   // Throws Error where it is not there, or its rows are not in this file.
   Hdf5Dataset dataset(const std::string& name) const;
   Hdf5Dataset dataset_or_virtual(const std::string& name) const;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -24,11 +25,29 @@ Hdf5Handle space_of(const std::vector<hsize_t>& size) {
 template <class Call>
 std::string told_by(const Call& call) {
   const ssize_t length = call(nullptr, 0);
-  if (length < 0) throw Error("HDF5 does not tell where rows lie");
-  std::string text(static_cast<std::size_t>(length) + 1, '\0');
-  call(text.data(), text.size());
+  std::string text(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1, '\0');
+  if (length < 0 || call(text.data(), text.size()) != length) throw Error("HDF5 does not tell where rows lie");
   text.pop_back();
   return text;
+}
+
+struct Rows {
+  std::uint64_t first, count;
+};
+
+// Throws Error where something else than whole rows is selected. Of all of a data set that was not opened yet HDF5 does
+// not know the shape: `shape` is to be it then, as readers see to.
+Rows rows_of(Hdf5Handle::Id space, const Hdf5Shape& shape) {
+  if (H5Sget_select_type(space) == H5S_SEL_ALL) return {0, shape[0]};
+  std::vector<hsize_t> first(shape.size()), last(shape.size());
+  const bool has_axes = H5Sget_simple_extent_ndims(space) == static_cast<int>(shape.size());
+  if (!has_axes || H5Sget_select_bounds(space, first.data(), last.data()) < 0)
+    throw Error("a virtual HDF5 data set has other axes than its rows");
+  std::uint64_t numbers = last[0] - first[0] + 1;
+  for (std::size_t a = 1; a < shape.size(); ++a) numbers *= shape[a];
+  if (H5Sget_select_npoints(space) != static_cast<hssize_t>(numbers))
+    throw Error("a virtual HDF5 data set shows parts of rows");
+  return {first[0], last[0] - first[0] + 1};
 }
 
 }  // namespace
@@ -58,16 +77,20 @@ std::vector<Hdf5Source> sources_of(Hdf5Handle::Id dataset, const Hdf5Shape& shap
   std::uint64_t rows = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Hdf5Handle space = hdf5_handle(H5Pget_virtual_vspace(options.id(), i), H5Sclose, what);
-    std::vector<hsize_t> first(shape.size()), last(shape.size());
-    hdf5_check(H5Sget_select_bounds(space.id(), first.data(), last.data()), what);
-    if (first[0] != rows || last[0] < first[0]) throw Error("rows of a virtual HDF5 data set are not in their order");
+    const Hdf5Handle from = hdf5_handle(H5Pget_virtual_srcspace(options.id(), i), H5Sclose, what);
+    const Rows here = rows_of(space.id(), shape);
+    Hdf5Shape part = shape;
+    part[0] = here.count;
+    const Rows there = rows_of(from.id(), part);
+    if (here.first != rows || there.first != 0 || here.count != there.count)
+      throw Error("rows of a virtual HDF5 data set are not those of another in their order");
     const std::string file =
         told_by([&](char* to, std::size_t n) { return H5Pget_virtual_filename(options.id(), i, to, n); });
     sources.push_back(
         {.file = file == this_file ? "" : file,
          .dataset = told_by([&](char* to, std::size_t n) { return H5Pget_virtual_dsetname(options.id(), i, to, n); }),
-         .rows = last[0] - first[0] + 1});
-    rows += sources.back().rows;
+         .rows = here.count});
+    rows += here.count;
   }
   if (rows != shape[0])
     throw Error("a virtual HDF5 data set has {} rows, and {} of them lie somewhere", shape[0], rows);
