@@ -260,7 +260,7 @@ TEST_F(SegmentFiles, AreNotShownByTheMarkOfAnotherSolution) {
   const auto refusal = [&](const std::function<void(SegmentsMark&)>& change) {
     SegmentsMark mark = whole;
     change(mark);
-    const std::string shown = error_of([&] { show_segments(Folder(folder), few.layout, {}, mark, success()); });
+    std::string shown = error_of([&] { show_segments(Folder(folder), few.layout, {}, mark, success()); });
     EXPECT_EQ(error_of([&] { join_segments(Folder(folder), few.layout, {}, mark, success()); }), shown);
     return shown;
   };
