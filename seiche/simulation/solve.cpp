@@ -212,23 +212,23 @@ class Run {
   }
 
   // Of the bits of numbers, by FNV-1a over eight bytes at a time.
-  static std::uint64_t fingerprint(std::span<const double> numbers, std::uint64_t before = 0xcbf29ce484222325U) {
+  static constexpr std::uint64_t of_nothing = 0xcbf29ce484222325U;
+  static std::uint64_t fingerprint(std::span<const double> numbers, std::uint64_t before = of_nothing) {
     for (const double number : numbers) before = (before ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3U;
     return before;
   }
-  static std::uint64_t fingerprint(const Vector& z, std::uint64_t before = 0xcbf29ce484222325U) {
+  static std::uint64_t fingerprint(const Vector& z, std::uint64_t before = of_nothing) {
     return fingerprint(std::span(z.data(), static_cast<std::size_t>(z.size())), before);
   }
-  // ż and H at two places and times: what is solved, whether by formulas, matrices or functions.
+  // H, and ż at two places and times: what is solved, whether by formulas, matrices or functions.
   std::uint64_t fingerprint_of_equation() {
-    const System& system = run_.simulation().system();
-    Vector z = run_.simulation().state().z, rate(z.size());
-    std::uint64_t print = fingerprint(Vector());
+    const Simulation& simulation = run_.simulation();
+    const double H = steps_.energy(simulation.state()).H;
+    std::uint64_t print = fingerprint(std::span(&H, 1));
+    Vector z = simulation.state().z, rate(z.size());
     for (const double t : {options_.t_start, options_.t_start + 0.375}) {
-      system.right_hand_side(t, z, rate);
+      simulation.system().right_hand_side(t, z, rate);
       print = fingerprint(rate, print);
-      const double H = run_.simulation().stepper().energy(run_.simulation().state()).H;
-      print = fingerprint(std::span(&H, 1), print);
       for (Index i = 0; i < z.size(); ++i) z[i] += 1e-3 * static_cast<double>(1 + i % 5);
     }
     return print;
