@@ -108,8 +108,8 @@ def resume(
 def read(run: CaseRun | File) -> "xarray.Dataset":
     """The states that a run has written, as an `xarray.Dataset`, which reads from the disk what is asked of it.
 
-    Of a run that has not ended, also while it goes on in another program, these are the states up to its newest checkpoint:
-    ``attrs["message"]`` says how far it had come. To see more of it, read again.
+    Of a run that has not ended, also while it goes on in another program, these are the states up to its newest
+    checkpoint: ``attrs["message"]`` says how far it had come. To see more of it, read again.
 
     Parameters
     ----------

@@ -80,9 +80,9 @@ def solve(
 ) -> Result:
     """Integrates a damped Hamiltonian system, in the manner of ``scipy.integrate.solve_ivp``.
 
-    The GIL is released while it steps, and taken for Python functions. Ctrl-C ends the run after the current step, a second
-    one inside a Python function at once, and what was computed is returned with the status "interrupted", its last state
-    whatever ``t_eval`` asked for.
+    The GIL is released while it steps, and taken for Python functions. Ctrl-C ends the run after the current step, a
+    second one inside a Python function at once, and what was computed is returned with the status "interrupted", its
+    last state whatever ``t_eval`` asked for.
 
     Parameters
     ----------
@@ -124,10 +124,10 @@ def solve(
     threads : int
         For large grids. Results do not depend on it.
     checkpoint : path
-        A folder for checkpoints, of long runs: after 5, 10, 20 and 40 seconds and then every minute, and at Ctrl-C. The same call
-        again, whatever ended the one before, goes on from the newest and ends with the same bits; t_span may then end elsewhere.
-        They are gone when the run has come to its end. What a checkpoint has seen is not shown again: observers, actions and
-        events are called for what comes behind it.
+        A folder for checkpoints, of long runs: after 5, 10, 20 and 40 seconds and then every minute, and at Ctrl-C. The
+        same call again, whatever ended the one before, goes on from the newest and ends with the same bits; t_span may
+        then end later. They are gone when the run has come to its end. What a checkpoint has seen is not shown again:
+        observers, actions and events are called for what comes behind it.
     progress : bool or function
         True: a bar on stderr, with the time that is left. Or a function of (t, t_end, steps), called ten times a second at
         most, and at the end.

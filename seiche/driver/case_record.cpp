@@ -9,6 +9,7 @@
 #include <utility>
 
 namespace seiche {
+
 CaseRecord::CaseRecord(const RunSpec& spec, RunKind kind, const std::string& headline, std::vector<std::string> notes,
                        const RunCaseOptions& options)
     : options_(options),

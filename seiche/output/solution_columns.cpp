@@ -117,6 +117,8 @@ std::vector<Hdf5Dataset> make_columns(Hdf5File& file, const SolutionLayout& layo
   return columns;
 }
 
+std::string segment_name(std::size_t number) { return fmt::format("{:06}.h5", number); }
+
 void write_end(Hdf5File& file, const SolutionLayout& layout, const RunReport& report) {
   write_mesh(file, layout);
   write_bars(file, layout);

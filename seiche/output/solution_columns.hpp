@@ -5,6 +5,7 @@
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/solution_layout.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -17,6 +18,10 @@ struct SolutionDescription {
   std::vector<std::string> meanings = {};         // of the fields, in their order: "displacement"
   std::map<std::string, std::string> texts = {};  // "equation", "method", "case", …
 };
+
+// Where rows lie that solution.h5 only shows: solution/000001.h5, 000002.h5, …, beside it.
+inline constexpr const char* segments_folder = "solution";
+std::string segment_name(std::size_t number);  // "000001.h5" of 1
 
 // The rows of all fields lie in this file, under the names of the fields; "": in this one, in a group of its own.
 struct RowsOfFields {

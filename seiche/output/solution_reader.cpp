@@ -21,8 +21,6 @@
 namespace seiche {
 namespace {
 
-constexpr const char* parts_folder = "solution";
-
 template <class Call>
 auto unless_interrupted(Call call) {
   auto result = call();
@@ -48,7 +46,7 @@ std::vector<double> all_of(const Hdf5Dataset& data) {
   std::error_code unknown;
   const std::uintmax_t bytes = fs::file_size(solution, unknown);
   std::error_code no_folder;
-  const auto parts = std::distance(fs::directory_iterator(solution.parent_path() / parts_folder, no_folder), {});
+  const auto parts = std::distance(fs::directory_iterator(solution.parent_path() / segments_folder, no_folder), {});
   return seconds + (unknown ? 0 : bytes / bytes_per_second) + static_cast<std::uintmax_t>(parts) / parts_per_second;
 }
 
@@ -71,7 +69,6 @@ void end_at_first_fault(::rlim_t seconds) {
 // HDF5 keeps all of them open as long as the fields are; programs that draw inherit the limit.
 void allow_open(std::size_t count) {
   constexpr std::size_t others = 256;
-  if (count == 0) return;
   ::unsetenv("HDF5_VDS_PREFIX");  // by which HDF5 would look elsewhere
   ::rlimit files{};
   ::getrlimit(RLIMIT_NOFILE, &files);
@@ -91,7 +88,7 @@ SolutionReader::SolutionReader(const std::filesystem::path& path, Unguarded)
   for (const std::string& name : fields_) add_field(name, path);
   if (data_.empty()) throw Error("{} holds no field", path.string());
   if (file_.has("H_modified")) modified_ = file_.dataset("H_modified");
-  require_own_parts();
+  require_own_parts(path);
   count_times(path);
   const Hdf5Shape& shape = data_.front().shape();
   const bool numbered = file_.has("point");
@@ -105,9 +102,7 @@ SolutionReader::SolutionReader(const std::filesystem::path& path, Unguarded)
   points_ = static_cast<Index>(data_.front().row_size());
 }
 
-// Others are not read: they may be links to anything, and what HDF5 does not find it shows as NaN.
 void SolutionReader::add_field(const std::string& name, const std::filesystem::path& path) {
-  namespace fs = std::filesystem;
   data_.push_back(file_.dataset_or_virtual(name));
   meanings_.push_back(text_attribute(data_.back().id(), "long_name"));
   Hdf5Shape shape = data_.back().shape();
@@ -115,33 +110,35 @@ void SolutionReader::add_field(const std::string& name, const std::filesystem::p
   if (shape != data_.front().shape())
     throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
   const std::vector<Hdf5Source> sources = data_.back().sources();
-  std::size_t parts = 0;
+  std::vector<std::filesystem::path> parts;
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const Hdf5Source& source = sources[k];
     const bool is_last = k + 1 == sources.size();
     const bool is_here = source.file.empty() && source.dataset == fmt::format("{}/{}", rest_group, name) && is_last;
-    const bool is_part = source.file == fmt::format("{}/{:06}.h5", parts_folder, k + 1) && source.dataset == name;
+    const bool is_part =
+        source.file == fmt::format("{}/{}", segments_folder, segment_name(k + 1)) && source.dataset == name;
     if (!is_here && !is_part)
       throw Error("{} is damaged: it shows {} in {}, where no solution has it", path.string(), source.dataset,
                   shortened(source.file));
-    if (is_part) ++parts;
-    if (is_part && data_.size() == 1) parts_.push_back(path.parent_path() / source.file);
+    if (is_part) parts.push_back(path.parent_path() / source.file);
   }
-  if (parts != parts_.size()) throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
-  std::error_code none;
-  const auto kind = [&](const fs::path& of) { return fs::symlink_status(of, none).type(); };
-  if (parts > 0 && data_.size() == 1 && kind(path.parent_path() / parts_folder) != fs::file_type::directory)
-    throw Error("{} is not there, or is no folder, and {} shows what lies in it",
-                (path.parent_path() / parts_folder).string(), path.string());
-  for (const fs::path& part : parts_)
-    if (kind(part) != fs::file_type::regular)
-      throw Error("{} shows what lies in {}, which is not there, or is not a file", path.string(), part.string());
-  if (data_.size() == 1) allow_open(parts);
+  if (data_.size() == 1) parts_ = parts;
+  if (parts != parts_) throw Error("{} is damaged: {} does not fit to {}", path.string(), name, fields_.front());
 }
 
-void SolutionReader::require_own_parts() const {
+// Others are not read: they may be links to anything, and what HDF5 does not find it shows as NaN.
+void SolutionReader::require_own_parts(const std::filesystem::path& path) const {
+  namespace fs = std::filesystem;
+  if (parts_.empty()) return;
+  allow_open(parts_.size());
+  std::error_code none;
+  const auto kind = [&](const fs::path& of) { return fs::symlink_status(of, none).type(); };
+  if (const fs::path folder = parts_.front().parent_path(); kind(folder) != fs::file_type::directory)
+    throw Error("{} is not there, or is no folder, and {} shows what lies in it", folder.string(), path.string());
   const std::vector<Hdf5Source> sources = data_.front().sources();
   for (std::size_t k = 0; k < parts_.size(); ++k) {
+    if (kind(parts_[k]) != fs::file_type::regular)
+      throw Error("{} shows what lies in {}, which is not there, or is not a file", path.string(), parts_[k].string());
     const Hdf5File part = Hdf5File::open(parts_[k]);
     for (std::size_t f = 0; f < data_.size(); ++f) {
       Hdf5Shape shape = data_[f].shape();

@@ -56,7 +56,7 @@ class SolutionReader {
   friend void require_readable(const std::filesystem::path& solution);
 
   void add_field(const std::string& name, const std::filesystem::path& path);
-  void require_own_parts() const;
+  void require_own_parts(const std::filesystem::path& path) const;
   void count_times(const std::filesystem::path& path);
   std::vector<double> first_of(const Hdf5Dataset& data) const;  // as many as there are times
   std::vector<Place> places(const std::string& name) const;

@@ -34,7 +34,7 @@ bool begins_with(const std::string& text, const std::array<std::string_view, N>&
 bool is_energies(const std::string& text) { return begins_with<2>(text, {"t,H", "t,members"}); }
 bool is_members(const std::string& text) { return begins_with<2>(text, {"member,", "member\n"}); }
 bool is_summary(const std::string& text) { return begins_with<1>(text, {"{\n  \"status\":"}); }
-bool is_hdf5(const std::string& text) { return begins_with<1>(text, {"\x89HDF\r\n\x1a\n"}); }
+bool is_hdf5(const std::string& text) { return begins_with<1>(text, {hdf5_signature}); }
 bool is_xdmf(const std::string& text) { return begins_with<1>(text, {"<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf"}); }
 bool is_report(const std::string& text) { return text.find(report_mark) != std::string::npos; }
 

@@ -20,19 +20,15 @@ std::filesystem::path path_of(const Folder& folder) { return folder.path() / seg
 
 // By how it begins; of what is empty nothing is lost.
 bool is_hdf5(const Folder& folder, const std::string& name) {
-  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  std::array<char, 8> begin{};
-  static_assert(begin.size() == signature.size());
+  std::array<char, hdf5_signature.size()> begin{};
   const int file = ::openat(folder.descriptor(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return false;
   const ::ssize_t size = ::read(file, begin.data(), begin.size());
   ::close(file);
-  return size == 0 || (size > 0 && std::string_view(begin.data(), static_cast<std::size_t>(size)) == signature);
+  return size == 0 || (size > 0 && std::string_view(begin.data(), static_cast<std::size_t>(size)) == hdf5_signature);
 }
 
 }  // namespace
-
-std::string segment_name(std::size_t number) { return fmt::format("{:06}.h5", number); }
 
 std::uint64_t SegmentsMark::rows() const {
   std::uint64_t all = unfinished.empty() ? 0 : unfinished.back().size();  // of t

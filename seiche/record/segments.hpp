@@ -12,15 +12,13 @@
 #include <seiche/record/open_solution.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace seiche {
-
-inline constexpr const char* segments_folder = "solution";
-std::string segment_name(std::size_t number);  // "000001.h5" of 1
 
 // What a checkpoint vouches for: all rows of a solution so far.
 struct SegmentsMark {
@@ -54,7 +52,7 @@ class Segments {
   // removed when the next one begins, and those that it names are only read. At the end segments of so many bytes
   // together stay where they are. Throws Error where the mark is of another layout.
   Segments(Folder folder, SolutionLayout layout, SolutionDescription description, bool has_modified_energy,
-           SegmentsMark mark = {}, double join_below = 8e9);
+           SegmentsMark mark = {}, double join_below = std::numeric_limits<double>::infinity());
   ~Segments();  // a segment that is not sealed is removed
   Segments(const Segments&) = delete;
   Segments& operator=(const Segments&) = delete;

@@ -36,7 +36,7 @@ class SolutionFile : public Observer {
   // of more bytes than `join_below` are not joined.
   SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
                bool has_modified_energy, const SolutionDescription& description = {}, const Mark* from = nullptr,
-               double join_below = 8e9);
+               double join_below = std::numeric_limits<double>::infinity());
 
   bool is_due(const State& state, bool last) const override;
   double next_time() const override;

@@ -209,8 +209,7 @@ void Recording::archive(Archive& a, const std::function<std::string()>& objectio
   Potential::Counts counts_so_far = counts();
   double seconds_so_far = seconds();
   std::string met = met_by(objection);
-  a(state_, first_n_, book_);
-  a.numbers(ledger_);
+  a(state_, first_n_, book_, ledger_);
   a(report_.scalar_iterations, report_.fallbacks, report_.unresolved, report_.replaced, report_.widened, report_.halved,
     report_.rejected, report_.events, met, seconds_so_far);
   a.numbers(counts_so_far);

@@ -33,7 +33,6 @@ class DiskFaults : public Cli {
       "run case.toml --out out --quiet --set problem.points=128 method.h=1/128 time.end=6 output.snapshot_every=1 "
       "output.energy_every=8 checkpoint.every_steps=151";
 
-  bool has(const fs::path& name) const { return fs::exists(directory / name); }
   void copy(const fs::path& from, const fs::path& to) const {
     fs::remove_all(directory / to);
     fs::copy(directory / from, directory / to, fs::copy_options::recursive);

@@ -40,7 +40,6 @@ class Survival : public Cli {
     words.insert(words.end(), settings.begin(), settings.end());
     return words;
   }
-  bool has(const fs::path& name) const { return fs::exists(directory / name); }
   // A run that has a checkpoint.
   bool is_under_way() const {
     return Background::wait_until([&] { return has("out/checkpoint.seiche"); });

@@ -1,4 +1,5 @@
 // What a run leaves that was stopped and went on is what it would have left at once.
+#include <test/support/after_each_step.hpp>
 #include <test/support/error_of.hpp>
 #include <test/support/temporary_directory.hpp>
 #include <test/support/text_of.hpp>
@@ -35,21 +36,6 @@ using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
-
-// Does something after every step.
-class AfterEachStep : public Observer {
- public:
-  explicit AfterEachStep(std::function<void(const State&)> action) : action_(std::move(action)) {}
-  bool is_due(const State& state, bool) const override {
-    action_(state);
-    return false;
-  }
-  void observe(const State&, const EnergyReading&) override {}
-  void finish(const RunReport&) override {}
-
- private:
-  std::function<void(const State&)> action_;
-};
 
 // Stops the run after some step, as a signal would.
 class StopsAfter : public Observer {

@@ -1,4 +1,5 @@
 // A run that has not ended, as those see it who look at it: what its checkpoint vouches for, and nothing behind that.
+#include <test/support/after_each_step.hpp>
 #include <test/support/error_of.hpp>
 #include <test/support/temporary_directory.hpp>
 
@@ -25,21 +26,6 @@ using testing::HasSubstr;
 class RunViews : public InTemporaryDirectory {
  protected:
   struct Killed {};
-  // As a kill ends it: no error, and nothing behind the loop is done.
-  class KilledAfter : public Observer {
-   public:
-    explicit KilledAfter(std::int64_t n) : n_(n) {}
-    bool is_due(const State& state, bool) const override {
-      if (state.n >= n_) throw Killed();
-      return false;
-    }
-    void observe(const State&, const EnergyReading&) override {}
-    void finish(const RunReport&) override {}
-
-   private:
-    std::int64_t n_;
-  };
-
   RunSpec spec(const std::string& points, const std::string& more = "") const {
     return parse_case("[problem]\nname = \"klein_gordon\"\n" + points +
                           "[method]\nh = \"1/64\"\n[time]\nend = 0.5\n[output]\nsnapshot_every = 2\nledger = \"on\"\n"
@@ -47,9 +33,12 @@ class RunViews : public InTemporaryDirectory {
                           more,
                       "case.toml", {}, directory);
   }
-  void kill(const RunSpec& spec, std::int64_t n) const {
-    KilledAfter kills(n);
-    EXPECT_THROW(run_case(spec, directory / "out", {.observers = {&kills}}), Killed);
+  // As a kill ends it: no error, and nothing behind the loop is done.
+  void kill(const RunSpec& spec, const std::string& folder = "out") const {
+    AfterEachStep kills([](const State& state) {
+      if (state.n >= 25) throw Killed();
+    });
+    EXPECT_THROW(run_case(spec, directory / folder, {.observers = {&kills}}), Killed);
   }
 };
 
@@ -58,7 +47,7 @@ TEST_F(RunViews, HoldTheRowsThatTheCheckpointVouchesFor) {
   for (const std::string points : {"points = 16\n", "points = [128, 130]\nlength = [1.0, 1.0]\n"}) {
     fs::remove_all(directory / "out");
     run_case(spec(points), directory / "whole", {});
-    kill(spec(points), 25);
+    kill(spec(points));
     std::ofstream(directory / "out/energy.csv.partial", std::ios::app)
         << "0.39,0.1\n0.4,0.0";  // torn, and not vouched for
     const RunView view = view_of_run(directory / "out"), whole = view_of_run(directory / "whole");
@@ -90,8 +79,7 @@ TEST_F(RunViews, HoldTheRowsThatTheCheckpointVouchesFor) {
 // HDF5 takes % in the name of another file for the begin of a format.
 TEST_F(RunViews, ShowEveryRowWhateverTheFolderIsCalledAndWhateverTheRunDoesMeanwhile) {
   const RunSpec plane = spec("points = [128, 130]\nlength = [1.0, 1.0]\n");
-  KilledAfter kills(25);
-  EXPECT_THROW(run_case(plane, directory / "50%d %%", {.observers = {&kills}}), Killed);
+  kill(plane, "50%d %%");
   const RunView view = view_of_run(directory / "50%d %%");
   fs::remove_all(directory / "50%d %%" / "solution");
   const SolutionReader shown(view.run.solution);
@@ -104,7 +92,7 @@ TEST_F(RunViews, ShowEveryRowWhateverTheFolderIsCalledAndWhateverTheRunDoesMeanw
 }
 
 TEST_F(RunViews, LeaveNothingBehindAndChangeNothing) {
-  kill(spec("points = 16\n"), 25);
+  kill(spec("points = 16\n"));
   const auto listed = [&] {
     std::vector<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(directory / "out"))
@@ -124,7 +112,7 @@ TEST_F(RunViews, LeaveNothingBehindAndChangeNothing) {
 }
 
 TEST_F(RunViews, SayWhetherTheRunGoesOn) {
-  kill(spec("points = 16\n"), 25);
+  kill(spec("points = 16\n"));
   EXPECT_EQ(unfinished_run(directory / "out")->how_far(), "not finished, up to t = 0.328125");
   {
     const FolderLock held{Folder(directory / "out")};
@@ -144,7 +132,7 @@ TEST_F(RunViews, SayWhetherTheRunGoesOn) {
 }
 
 TEST_F(RunViews, TakeTheEarlierCheckpointWhereTheNewestIsDamaged) {
-  kill(spec("points = 16\n"), 25);
+  kill(spec("points = 16\n"));
   fs::resize_file(directory / "out/checkpoint.seiche", 100);
   EXPECT_EQ(view_of_run(directory / "out").run.t, 14.0 / 64);
   fs::resize_file(directory / "out/checkpoint_prev.seiche", 100);

@@ -33,6 +33,7 @@ class Cli : public InTemporaryDirectory {
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("stdout.txt"), text("stderr.txt")};
   }
+  bool has(const std::filesystem::path& name) const { return std::filesystem::exists(directory / name); }
   std::string text(const std::filesystem::path& name) const {
     std::ifstream in(directory / name);
     std::ostringstream all;

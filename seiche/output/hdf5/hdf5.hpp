@@ -37,9 +37,11 @@ class Hdf5Handle {
 
 using Hdf5Shape = std::vector<std::uint64_t>;
 
+inline constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";  // with which every file begins
+
 // Rows of a virtual data set, which lie in another data set.
 struct Hdf5Source {
-  std::string file;  // beside the one that names it, unless it is a whole path; "": the same one
+  std::string file;  // from the folder of the one that names it; "": the same one
   std::string dataset;
   std::uint64_t rows = 0;  // all that it has
 };
@@ -90,8 +92,7 @@ class Hdf5File {
   static Hdf5File open(const Folder& folder, const std::string& name);
 
   void make_group(const std::string& name);
-  Hdf5Dataset make_dataset(const std::string& name,
-                           const Hdf5Layout& layout);  // with no row of its own; "group/name" too
+  Hdf5Dataset make_dataset(const std::string& name, const Hdf5Layout& layout);  // has no row; "group/name" works
   // Throws Error where it is not there, or its rows are not in this file.
   Hdf5Dataset dataset(const std::string& name) const;
   Hdf5Dataset dataset_or_virtual(const std::string& name) const;
