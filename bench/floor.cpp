@@ -2,7 +2,7 @@
 
 #include <fftw3.h>
 #include <seiche/backend/fft/transform.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <algorithm>

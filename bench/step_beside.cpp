@@ -1,7 +1,7 @@
 #include "step_beside.hpp"
 
 #include <seiche/backend/fft/transform.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include "transform_count.hpp"

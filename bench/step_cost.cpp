@@ -1,5 +1,5 @@
 // Nanoseconds per grid point and step of every method on every backend, beside the step's own transforms and a triad.
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>

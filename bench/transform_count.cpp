@@ -1,6 +1,6 @@
 #include "transform_count.hpp"
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 namespace seiche::bench {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/record/saved_run.hpp>
 #include <seiche/simulation/certificate.hpp>
 #include <seiche/simulation/kick_stability.hpp>

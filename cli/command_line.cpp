@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/shortened.hpp>
 
 #include <algorithm>
 #include <cctype>

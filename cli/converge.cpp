@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <seiche/config/case/case_value.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/config/data/case_value.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/study/converge.hpp>

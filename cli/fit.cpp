@@ -5,7 +5,7 @@
 
 #include <fmt/ranges.h>
 #include <unistd.h>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/figure/drawing.hpp>
 
 #include <cerrno>

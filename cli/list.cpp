@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 #include <seiche/backend/backends.hpp>
 #include <seiche/config/case/key_rows.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/study/lists.hpp>
 

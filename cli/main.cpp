@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <seiche/config/case/case_keys.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 
 #include <algorithm>
 #include <exception>

@@ -8,7 +8,7 @@
 #include <paper/paper.hpp>
 #include <paper/pictures.hpp>
 #include <paper/report.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/file/folder_lock.hpp>

@@ -3,9 +3,9 @@
 
 #include <fmt/ranges.h>
 #include <seiche/config/case/run_spec.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/axis_names.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/figure/drawing.hpp>
 #include <seiche/figure/ensemble_pictures.hpp>
 #include <seiche/figure/run_pictures.hpp>

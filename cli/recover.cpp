@@ -4,7 +4,7 @@
 #include "versions.hpp"
 
 #include <fmt/format.h>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/driver/going_on.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>

@@ -1,7 +1,7 @@
 // --reference, as `converge` and `paper` take it.
 #pragma once
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/study/reference.hpp>
 
 #include <string>

@@ -5,9 +5,9 @@
 #include "versions.hpp"
 
 #include <fmt/format.h>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/simd/thread_count.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/driver/going_on.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>

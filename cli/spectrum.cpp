@@ -2,7 +2,7 @@
 #include "command_line.hpp"
 #include "load_case.hpp"
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/figure/spectrum_pictures.hpp>
 #include <seiche/output/file/atomic_file.hpp>

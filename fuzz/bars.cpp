@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 
 #include <algorithm>
 #include <cstdio>

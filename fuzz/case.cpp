@@ -1,7 +1,7 @@
 // Whatever stands in a case file, it is read or refused with a sentence; and what is read is written so that it reads
 // the same.
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <cstdint>
 #include <cstdio>

@@ -1,8 +1,8 @@
 // Whatever formula stands at any place of a custom problem that takes one, the problem is made or refused with a
 // sentence.
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/config/case/case_value.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/config/data/case_value.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/law/law.hpp>
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Whatever stands in a formula, it is read or refused with a sentence: no crash, no hang, no leak.
 #include <seiche/config/custom/energy_split.hpp>
 #include <seiche/config/custom/operator_formula.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/potential/formula_potential.hpp>
 

@@ -1,6 +1,6 @@
 #include <paper/examples.hpp>
 #include <paper/scheme.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>

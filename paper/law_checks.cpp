@@ -1,11 +1,11 @@
 #include <paper/law_checks.hpp>
 #include <paper/scheme.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
-#include <seiche/run/integrate.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <paper/paper.hpp>
 #include <paper/side_studies.hpp>
 #include <paper/verdicts.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/csv_text.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/study/converge.hpp>

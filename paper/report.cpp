@@ -1,7 +1,7 @@
 #include <paper/pictures.hpp>
 #include <paper/report.hpp>
 #include <paper/report_tables.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/text/characters.hpp>
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/mathml.hpp>

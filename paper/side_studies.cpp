@@ -3,8 +3,8 @@
 #include <paper/scheme.hpp>
 #include <paper/side_studies.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/problem/gkdv.hpp>
-#include <seiche/run/integrate.hpp>
 
 #include <fmt/format.h>
 

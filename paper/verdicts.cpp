@@ -1,6 +1,6 @@
 #include <paper/verdicts.hpp>
 #include <paper/verdicts_overall.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/config/custom/custom_problem.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/observer.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
@@ -17,6 +17,8 @@
 #include <seiche/driver/run_case.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/law/law.hpp>
+#include <seiche/loop/adaptive.hpp>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/output/final_state.hpp>
 #include <seiche/output/solution_reader.hpp>
@@ -40,8 +42,6 @@
 #include <seiche/problem/truss.hpp>
 #include <seiche/problem/variable_wave.hpp>
 #include <seiche/record/solution_file.hpp>
-#include <seiche/run/adaptive.hpp>
-#include <seiche/run/integrate.hpp>
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/simulation/solve.hpp>
 #include <seiche/version.hpp>

@@ -3,7 +3,7 @@
 #include <bench/scaling/memory.hpp>
 #include <bench/scaling/problem.hpp>
 #include <bench/scaling/sizes.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <bench/scaling/memory.hpp>
 #include <bench/scaling/problem.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <sys/resource.h>

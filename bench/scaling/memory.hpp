@@ -1,7 +1,7 @@
 // What a run takes of the machine's memory, measured in a process of its own.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 namespace seiche::bench {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <bench/floor.hpp>
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <cmath>
 #include <vector>

@@ -1,7 +1,7 @@
 // The work–precision bench: Seiche beside other integrators.
 #include <bench/peers/groups.hpp>
 #include <bench/work_precision/page.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 #include <bench/work_precision/measure.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <fmt/format.h>
 
@@ -47,7 +47,7 @@ double timed_advance(Run& run, double t, std::string& failure) {
   return std::max(process_cpu_seconds() - begin - clock_seconds(), 1e-9);
 }
 
-// Rises of one energy, as run/energy_book judges them: against the round-off of all steps since the last reading.
+// Rises of one energy, as loop/energy_book judges them: against the round-off of all steps since the last reading.
 class Rises {
  public:
   void add(double value, double round_off, std::int64_t steps) {

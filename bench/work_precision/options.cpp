@@ -1,7 +1,7 @@
 #include <bench/work_precision/options.hpp>
 #include <bench/work_precision/seiche_peers.hpp>
 #include <bench/work_precision/test_problems.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 #include <bench/work_precision/page.hpp>
 #include <bench/work_precision/page_tables.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/report_style.hpp>
 #include <seiche/output/file/atomic_file.hpp>

@@ -1,7 +1,7 @@
 #include <bench/peers/groups.hpp>
 #include <bench/peers/hand_written.hpp>
 #include <bench/work_precision/reference.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/csv_row.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 

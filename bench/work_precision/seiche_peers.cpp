@@ -1,6 +1,6 @@
 #include <bench/work_precision/seiche_peers.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/run/adaptive.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/loop/adaptive.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
-#include <seiche/core/error.hpp>
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <chrono>
 #include <cstdint>

@@ -3,8 +3,8 @@
 #include "bind.hpp"
 
 #include <pybind11/stl.h>
-#include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/version.hpp>
 
 namespace seiche::python {

@@ -3,8 +3,8 @@
 #include <seiche/backend/modal/modal.hpp>
 #include <seiche/backend/reference/reference.hpp>
 #include <seiche/backend/sparse/sparse.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/core/listed.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/listed.hpp>
 
 #include <fftw3.h>
 

@@ -1,7 +1,7 @@
 // A force f(x, t) from outside, in the coordinates of State::z.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 namespace seiche {
 

@@ -1,7 +1,7 @@
 // A splitting without exponentials.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <span>
 

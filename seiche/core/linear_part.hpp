@@ -1,9 +1,9 @@
 // S and M in the coordinates of State::z.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/propagator.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <memory>
 

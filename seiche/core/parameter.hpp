@@ -2,8 +2,8 @@
 // messages and `seiche new` all read one list.
 #pragma once
 
+#include <seiche/core/base/sparse_matrix.hpp>
 #include <seiche/core/damping_rate.hpp>
-#include <seiche/core/grid/sparse_operators.hpp>
 
 #include <limits>
 #include <map>

@@ -2,7 +2,7 @@
 //   φ₀(A) = e^A,   φ_k(A) = ∫₀¹ e^{(1−s)A} s^{k−1}/(k−1)! ds
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <memory>
 #include <span>

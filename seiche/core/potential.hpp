@@ -1,7 +1,7 @@
 // The nonlinear part V of H(z) = ½zᵀMz + V(z).
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <algorithm>
 #include <cmath>

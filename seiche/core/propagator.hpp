@@ -1,8 +1,8 @@
 // The linear substep z⁺ = Ez + Ff for one step size h.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/step_cache.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <memory>
 #include <span>

@@ -1,7 +1,7 @@
 // ℝⁿ with its coordinates: the only place that knows what the numbers in State::z are, and who else holds some.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <cmath>
 #include <span>

@@ -1,8 +1,8 @@
 // Everything that evolves; nothing that evolves hides elsewhere, so a copy of a State is a checkpoint.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/control/archive.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <cmath>
 #include <cstddef>

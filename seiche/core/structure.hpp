@@ -1,8 +1,8 @@
 // Poisson systems: a structure matrix that changes with the state, S(z) = S + S'(z).
 #pragma once
 
-#include <seiche/core/function_ref.hpp>
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/function_ref.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <memory>
 #include <span>

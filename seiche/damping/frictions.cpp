@@ -1,5 +1,5 @@
-#include <seiche/core/error.hpp>
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/vector.hpp>
 #include <seiche/damping/frictions.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/damping/adaptive_integral.hpp>
 #include <seiche/damping/rates.hpp>
 

@@ -1,5 +1,5 @@
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/driver/case_folder.hpp>
 #include <seiche/figure/run_pictures.hpp>
 #include <seiche/study/versions.hpp>

@@ -1,5 +1,5 @@
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/driver/case_record.hpp>
 

@@ -1,6 +1,6 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/config/data/initial_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/driver/case_run.hpp>
 #include <seiche/driver/headline.hpp>
 #include <seiche/driver/last_words.hpp>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <seiche/config/case/run_spec.hpp>
+#include <seiche/loop/checkpoints.hpp>
 #include <seiche/record/saved_run.hpp>
-#include <seiche/run/checkpoints.hpp>
 
 #include <atomic>
 #include <chrono>

@@ -1,7 +1,7 @@
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/driver/going_on.hpp>
-#include <seiche/run/time_grid.hpp>
+#include <seiche/loop/time_grid.hpp>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include <seiche/driver/last_words.hpp>
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/final_state.hpp>
 

@@ -1,8 +1,8 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/driver/case_run.hpp>
 #include <seiche/driver/run_case.hpp>
-#include <seiche/run/time_grid.hpp>
+#include <seiche/loop/time_grid.hpp>
 
 #include <utility>
 

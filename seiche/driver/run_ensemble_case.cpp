@@ -1,5 +1,5 @@
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/driver/case_record.hpp>
 #include <seiche/driver/checkpoint_keeper.hpp>

@@ -1,11 +1,11 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/ensemble/panel_block.hpp>
 #include <seiche/ensemble/parallel_for.hpp>
-#include <seiche/run/energy_book.hpp>
-#include <seiche/run/settle_report.hpp>
-#include <seiche/run/time_grid.hpp>
+#include <seiche/loop/energy_book.hpp>
+#include <seiche/loop/settle_report.hpp>
+#include <seiche/loop/time_grid.hpp>
 
 #include <algorithm>
 #include <chrono>

@@ -4,7 +4,7 @@
 #include <seiche/core/run_report.hpp>
 #include <seiche/ensemble/member_block.hpp>
 #include <seiche/ensemble/statistics.hpp>
-#include <seiche/run/checkpoints.hpp>
+#include <seiche/loop/checkpoints.hpp>
 
 #include <atomic>
 #include <cstdint>

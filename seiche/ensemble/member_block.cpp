@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/ensemble/member_block.hpp>
 #include <seiche/simulation/end_of_potential.hpp>
 

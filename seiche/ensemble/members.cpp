@@ -1,7 +1,7 @@
 #include <seiche/config/case/case_parameters.hpp>
 #include <seiche/config/data/initial_file.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/core/memory_limit.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/memory_limit.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/problem/problems.hpp>
 #include <seiche/simulation/run_memory.hpp>

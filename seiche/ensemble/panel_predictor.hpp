@@ -1,7 +1,7 @@
 // ẑ of all members of a panel: method/closure/midpoint_predictor.hpp side by side.
 #pragma once
 
-#include <seiche/core/function_ref.hpp>
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/state.hpp>
 #include <seiche/ensemble/panel_system.hpp>
 #include <seiche/method/methods.hpp>

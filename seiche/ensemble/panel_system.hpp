@@ -1,7 +1,7 @@
 // The equation of up to sixteen members as maps on panels.
 #pragma once
 
-#include <seiche/core/simd/panel_potential.hpp>
+#include <seiche/core/panel_potential.hpp>
 #include <seiche/ensemble/block_map.hpp>
 #include <seiche/ensemble/folded_transform.hpp>
 #include <seiche/simulation/simulation.hpp>

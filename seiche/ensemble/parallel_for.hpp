@@ -1,7 +1,7 @@
 // A loop whose turns are independent of each other, on several threads.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <algorithm>
 #include <atomic>

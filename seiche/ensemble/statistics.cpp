@@ -1,4 +1,4 @@
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 #include <seiche/ensemble/statistics.hpp>
 
 #include <algorithm>

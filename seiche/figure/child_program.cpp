@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/figure/child_program.hpp>
 
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 // Pictures are drawn by Matplotlib: a request in JSON goes to the programs of python/seiche/drawing, run by Python.
 #pragma once
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <filesystem>
 #include <string>

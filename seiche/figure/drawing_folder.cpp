@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/figure/drawing_folder.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 

@@ -1,6 +1,6 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/config/case/run_spec.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/figure/curves.hpp>
 #include <seiche/figure/ensemble_pictures.hpp>
 #include <seiche/output/csv_table.hpp>

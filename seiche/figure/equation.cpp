@@ -1,5 +1,5 @@
-#include <seiche/config/case/case_value.hpp>
 #include <seiche/config/custom/custom_names.hpp>
+#include <seiche/config/data/case_value.hpp>
 #include <seiche/figure/equation.hpp>
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/mathml.hpp>

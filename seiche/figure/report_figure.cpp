@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/figure/html.hpp>
 #include <seiche/figure/report_figure.hpp>
 

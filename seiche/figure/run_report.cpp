@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/figure/curves.hpp>
 #include <seiche/figure/equation.hpp>
 #include <seiche/figure/html.hpp>

@@ -1,4 +1,4 @@
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 #include <seiche/formula/expression_slopes.hpp>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/formula/formula_expression.hpp>
 

@@ -1,4 +1,4 @@
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/formula/formula_parser.hpp>
 #include <seiche/formula/formula_text.hpp>
 #include <seiche/formula/other_languages.hpp>

@@ -1,5 +1,5 @@
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/characters.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_text.hpp>
 #include <seiche/formula/other_languages.hpp>
 

@@ -2,7 +2,7 @@
 // report no position, guess at products, and do not end on input of a hostile size.
 #pragma once
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <cstddef>
 #include <string>

@@ -9,7 +9,7 @@
 // Elsewhere sym(MD) ⪰ 0 alone proves nothing, and a certificate samples ∇HᵀDz along a solution.
 #pragma once
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/law/law.hpp>
 

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/law/ecld.hpp>
 #include <seiche/law/law.hpp>

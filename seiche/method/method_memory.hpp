@@ -1,7 +1,7 @@
 // What methods with tables of φ-functions keep, in doubles per unknown.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 namespace seiche {
 

@@ -1,5 +1,5 @@
-#include <seiche/core/error.hpp>
-#include <seiche/core/listed.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/listed.hpp>
 #include <seiche/method/adaptive/error_estimate.hpp>
 #include <seiche/method/closure/avf.hpp>
 #include <seiche/method/closure/directed_multiplier.hpp>

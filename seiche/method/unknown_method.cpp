@@ -1,4 +1,4 @@
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/method/unknown_method.hpp>
 
 #include <fmt/ranges.h>

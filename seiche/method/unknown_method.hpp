@@ -1,6 +1,6 @@
 #pragma once
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/method/methods.hpp>
 
 #include <string>

@@ -2,7 +2,7 @@
 // recording allocates nothing once the first row was written.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/output/csv_table.hpp>
 

@@ -2,7 +2,7 @@
 // initial = { file = … } reads, so one run can start where another ended.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 #include <seiche/output/file/folder.hpp>
 
 namespace seiche {

@@ -1,6 +1,6 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/input_file.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/output/solution_columns.hpp>
 #include <seiche/output/solution_reader.hpp>
 

@@ -1,11 +1,11 @@
 // Loops over the points of a grid: eight points at a time, for several instruction sets, sums in one fixed order.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/simd/lanes.hpp>
 #include <seiche/core/simd/long_sum.hpp>
 #include <seiche/core/simd/multiversion.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/numerics/gauss_rule.hpp>
 #include <seiche/potential/own_potential.hpp>
 

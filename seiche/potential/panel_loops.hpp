@@ -1,8 +1,8 @@
 // Loops over the rows of panels for potentials per point or bond, with a W for each member.
 #pragma once
 
+#include <seiche/core/panel_potential.hpp>
 #include <seiche/core/simd/pack.hpp>
-#include <seiche/core/simd/panel_potential.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <array>

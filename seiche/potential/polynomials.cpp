@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/potential/bond.hpp>
 #include <seiche/potential/modulus.hpp>
 #include <seiche/potential/nodal.hpp>

@@ -1,5 +1,5 @@
-#include <seiche/core/error.hpp>
-#include <seiche/core/listed.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/listed.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/beta_fpu.hpp>
 #include <seiche/problem/burgers.hpp>

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/potential/cosine_panel.hpp>
 #include <seiche/potential/nodal.hpp>
 #include <seiche/problem/common/problem_rows.hpp>

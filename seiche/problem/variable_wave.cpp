@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/second_order.hpp>

@@ -1,8 +1,8 @@
 // A checkpoint as a file: a line that says what it is, the bytes of an archive, and their number and CRC-32.
 #pragma once
 
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/control/archive.hpp>
-#include <seiche/core/function_ref.hpp>
 #include <seiche/output/file/folder.hpp>
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/record/saved_run.hpp>
 
 #include <fmt/ranges.h>

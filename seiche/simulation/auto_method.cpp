@@ -1,6 +1,6 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/momenta.hpp>
-#include <seiche/core/numerics/spectral_radius.hpp>
+#include <seiche/core/spectral_radius.hpp>
 #include <seiche/method/splitting/momentum_form.hpp>
 #include <seiche/simulation/auto_method.hpp>
 

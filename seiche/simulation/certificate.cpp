@@ -1,8 +1,8 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/generic_state.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/law/operator_hypotheses.hpp>
-#include <seiche/run/adaptive.hpp>
+#include <seiche/loop/adaptive.hpp>
 #include <seiche/simulation/certificate.hpp>
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/law/law.hpp>
-#include <seiche/run/adaptive.hpp>
+#include <seiche/loop/adaptive.hpp>
 #include <seiche/simulation/end_of_potential.hpp>
 #include <seiche/simulation/kick_stability.hpp>
 #include <seiche/simulation/prepared_run.hpp>

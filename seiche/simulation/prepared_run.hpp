@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/core/observer.hpp>
-#include <seiche/run/integrate.hpp>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/simulation/certificate.hpp>
 #include <seiche/simulation/simulation.hpp>
 

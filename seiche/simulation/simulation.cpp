@@ -1,5 +1,5 @@
-#include <seiche/core/error.hpp>
-#include <seiche/core/memory_limit.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/memory_limit.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/simulation/auto_method.hpp>

@@ -1,7 +1,7 @@
-#include <seiche/core/error.hpp>
-#include <seiche/core/function_ref.hpp>
-#include <seiche/core/memory_limit.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/function_ref.hpp>
+#include <seiche/core/base/memory_limit.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/simulation/prepared_run.hpp>
 #include <seiche/simulation/solution_recorder.hpp>
 #include <seiche/simulation/solve.hpp>

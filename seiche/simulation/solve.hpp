@@ -2,7 +2,7 @@
 #pragma once
 
 #include <seiche/core/run_report.hpp>
-#include <seiche/run/adaptive.hpp>
+#include <seiche/loop/adaptive.hpp>
 #include <seiche/simulation/certificate.hpp>
 #include <seiche/simulation/dense_output.hpp>
 #include <seiche/simulation/simulation.hpp>

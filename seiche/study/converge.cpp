@@ -1,5 +1,5 @@
-#include <seiche/core/error.hpp>
-#include <seiche/run/integrate.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/study/converge.hpp>
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
-#include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/output/csv_table.hpp>
 #include <seiche/study/energy_history.hpp>
 

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/study/one_step.hpp>

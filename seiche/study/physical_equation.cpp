@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/study/physical_equation.hpp>
 

@@ -1,5 +1,5 @@
 #include <seiche/backend/backends.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/file/temporary_folder.hpp>
 #include <seiche/problem/problems.hpp>
 #include <seiche/record/whole_solution.hpp>

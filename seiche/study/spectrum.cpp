@@ -1,7 +1,7 @@
 #include <seiche/backend/grid/grid_space.hpp>
 #include <seiche/backend/krylov/balance.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/commuting_damping.hpp>
-#include <seiche/core/error.hpp>
 #include <seiche/core/grid/modes.hpp>
 #include <seiche/core/numerics/eigenpairs.hpp>
 #include <seiche/study/one_step.hpp>

@@ -1,4 +1,4 @@
-#include <seiche/run/integrate.hpp>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/study/timing.hpp>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/study/unfinished_run.hpp>
 

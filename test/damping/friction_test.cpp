@@ -2,7 +2,7 @@
 #include <test/support/cases.hpp>
 #include <test/support/convergence.hpp>
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
@@ -10,9 +10,9 @@
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/law/law.hpp>
+#include <seiche/loop/adaptive.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
-#include <seiche/run/adaptive.hpp>
 #include <seiche/simulation/certificate.hpp>
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/simulation/solve.hpp>

@@ -1,5 +1,5 @@
 // Damping coefficients γ(t) and their integrals.
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 

@@ -5,7 +5,7 @@
 #include <test/support/text_of.hpp>
 
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/driver/going_on.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/solution_reader.hpp>

@@ -2,7 +2,7 @@
 #include <test/support/cases.hpp>
 
 #include <seiche/core/control/stop_request.hpp>
-#include <seiche/run/integrate.hpp>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>

@@ -5,14 +5,14 @@
 #include <test/support/worst.hpp>
 #include <test/support/written_problem.hpp>
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/ensemble/panel_block.hpp>
 #include <seiche/formula/formula_compiler.hpp>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/variable_wave.hpp>
-#include <seiche/run/integrate.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

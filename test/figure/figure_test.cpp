@@ -6,7 +6,7 @@
 
 #include <paper/pictures.hpp>
 #include <paper/report.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/figure/drawing.hpp>
 #include <seiche/figure/html.hpp>
 

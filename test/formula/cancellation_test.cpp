@@ -1,5 +1,5 @@
 // Formulas that vanish at rest lose no digits there, and what round-off makes of a formula is bounded.
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 #include <seiche/formula/cancellation.hpp>
 #include <seiche/formula/expression_slopes.hpp>
 #include <seiche/formula/formula_compiler.hpp>

@@ -2,7 +2,7 @@
 #include <test/support/error_of.hpp>
 #include <test/support/worst.hpp>
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/formula/formula_parser.hpp>
 

@@ -3,7 +3,7 @@
 #include <test/support/repetitions.hpp>
 
 #include <seiche/law/law.hpp>
-#include <seiche/run/adaptive.hpp>
+#include <seiche/loop/adaptive.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>

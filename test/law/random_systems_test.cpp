@@ -3,7 +3,7 @@
 #include <test/support/random_systems.hpp>
 #include <test/support/worst.hpp>
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/simulation/simulation.hpp>
 

@@ -4,7 +4,7 @@
 #include <test/support/repetitions.hpp>
 #include <test/support/worst.hpp>
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/simulation/simulation.hpp>
 

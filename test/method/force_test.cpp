@@ -1,9 +1,9 @@
 // External forces: the driven oscillator, the work they do, and what is refused.
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
+#include <seiche/loop/adaptive.hpp>
 #include <seiche/problem/oscillator.hpp>
-#include <seiche/run/adaptive.hpp>
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/study/reference.hpp>
 

@@ -1,5 +1,5 @@
 // A potential by two functions is one like any other.
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/potential/own_potential.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/klein_gordon.hpp>

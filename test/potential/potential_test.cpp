@@ -4,7 +4,7 @@
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/grid/grid_potential.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/numerics/gauss_rule.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/potential/bond.hpp>

@@ -1,5 +1,5 @@
 // Systems whose structure matrix changes with the state: Burgers, KdV in its quadratic energy, the rigid body.
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/burgers.hpp>
 #include <seiche/problem/rigid_body.hpp>

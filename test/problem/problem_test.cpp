@@ -4,7 +4,7 @@
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/problem/beta_fpu.hpp>

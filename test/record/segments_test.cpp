@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/record/checkpoint_file.hpp>
 #include <seiche/record/segments.hpp>

@@ -4,10 +4,10 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/loop/adaptive.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/truss.hpp>
 #include <seiche/problem/variable_wave.hpp>
-#include <seiche/run/adaptive.hpp>
 #include <seiche/simulation/auto_method.hpp>
 #include <seiche/simulation/simulation.hpp>
 #include <seiche/study/reference.hpp>

@@ -1,7 +1,7 @@
 // One call for one run: asked times, events, and the solution at every time are those of the method, whichever it is.
 #include <test/support/cases.hpp>
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/method/methods.hpp>
 #include <seiche/problem/klein_gordon.hpp>

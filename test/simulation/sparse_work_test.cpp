@@ -1,6 +1,6 @@
 // What exponentials of the sparse backend cost where a step is long beside the fastest rate.
 #include <seiche/backend/backends.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/problem/sparse.hpp>
 #include <seiche/simulation/kick_stability.hpp>
 

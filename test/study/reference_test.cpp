@@ -1,5 +1,5 @@
 // References, and the orders that are found with them.
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/study/converge.hpp>

@@ -3,7 +3,7 @@
 #include <test/support/error_of.hpp>
 #include <test/support/matrices.hpp>
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/numerics/eigenpairs.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>

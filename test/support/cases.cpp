@@ -1,7 +1,7 @@
 #include <test/support/cases.hpp>
 
 #include <seiche/config/custom/custom_problem.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
 #include <seiche/damping/rates.hpp>

@@ -1,7 +1,7 @@
 // The sentence with which something is refused.
 #pragma once
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <string>
 

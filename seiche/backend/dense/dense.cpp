@@ -7,7 +7,7 @@
 #include <seiche/backend/grid/grid_potential.hpp>
 #include <seiche/backend/grid/grid_space.hpp>
 #include <seiche/backend/phi/force_map.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <algorithm>
 #include <cmath>

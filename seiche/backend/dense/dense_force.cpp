@@ -2,7 +2,7 @@
 #include <seiche/backend/phi/dense_kernel.hpp>
 #include <seiche/backend/phi/energy_coordinates.hpp>
 #include <seiche/backend/phi/force_map.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,8 +1,8 @@
 // A small full matrix times a vector with the sums in registers: for systems of up to some hundred unknowns.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/simd/lanes.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <Eigen/Dense>
 

@@ -1,7 +1,7 @@
 // FFTW's plans as values, and its memory. Installed headers do without FFTW's own.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <cstddef>
 #include <memory>

@@ -1,8 +1,8 @@
 #include <seiche/backend/grid/beyond_linear.hpp>
 #include <seiche/backend/grid/grid_space.hpp>
 #include <seiche/backend/grid/segment.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/damping.hpp>
-#include <seiche/core/error.hpp>
 #include <seiche/core/external_force.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/core/numerics/gauss_rule.hpp>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <seiche/backend/fft/transform.hpp>
-#include <seiche/core/function_ref.hpp>
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/numerics/linear_map.hpp>
 #include <seiche/core/system.hpp>
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <seiche/backend/fft/transform.hpp>
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/rate.hpp>
 #include <seiche/core/step_cache.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <memory>
 #include <span>

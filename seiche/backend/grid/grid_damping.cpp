@@ -2,7 +2,7 @@
 #include <seiche/backend/grid/segment.hpp>
 #include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/numerics/end_extrapolation.hpp>
-#include <seiche/core/numerics/spectral_radius.hpp>
+#include <seiche/core/spectral_radius.hpp>
 
 #include <algorithm>
 #include <cmath>

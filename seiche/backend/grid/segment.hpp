@@ -1,7 +1,7 @@
 // Parts of vectors as spans.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <span>
 

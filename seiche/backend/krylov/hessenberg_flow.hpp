@@ -1,7 +1,7 @@
 // The exponential of a small Hessenberg matrix times e₁, walked along.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <Eigen/Dense>
 

@@ -1,7 +1,7 @@
 #include <seiche/backend/krylov/krylov_space.hpp>
 #include <seiche/backend/phi/force_map.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/control/stop_request.hpp>
-#include <seiche/core/error.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <seiche/backend/krylov/krylov_space.hpp>
 #include <seiche/backend/krylov/lanczos.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 
 #include <cmath>

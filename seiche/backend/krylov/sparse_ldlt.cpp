@@ -1,5 +1,5 @@
 #include <seiche/backend/krylov/sparse_ldlt.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <Eigen/OrderingMethods>
 

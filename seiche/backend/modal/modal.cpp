@@ -8,8 +8,8 @@
 #include <seiche/backend/modal/modal_phi.hpp>
 #include <seiche/backend/modal/mode_map.hpp>
 #include <seiche/backend/phi/force_map.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/core/grid/truncated_potential.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/truncated_potential.hpp>
 
 namespace seiche {
 namespace {

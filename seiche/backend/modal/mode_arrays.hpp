@@ -1,8 +1,8 @@
 // One small block per mode, entry by entry: what the fused passes of the modal propagator read.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/grid/modes.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <Eigen/Dense>
 

@@ -1,6 +1,6 @@
 #include <seiche/backend/modal/mode_kernels.hpp>
 #include <seiche/backend/modal/mode_table.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/simd/parallel.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The kernel of a full matrix.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 // Coordinates in which ½zᴴMz is half a sum of squares, and fast and slow motion have entries of one size.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <Eigen/Core>
 

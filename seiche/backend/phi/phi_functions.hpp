@@ -1,9 +1,9 @@
 // φ-functions of a matrix, real or complex: the whole system (dense) or one small block per mode.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/numerics/congruence.hpp>
 #include <seiche/core/phi.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <Eigen/Core>
 

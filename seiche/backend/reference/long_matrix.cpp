@@ -1,5 +1,5 @@
 #include <seiche/backend/reference/long_matrix.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <Eigen/SparseCore>
 

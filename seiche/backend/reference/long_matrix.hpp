@@ -1,7 +1,7 @@
 // Full matrices in extended precision, and their φ-functions by the definition.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <Eigen/Core>
 

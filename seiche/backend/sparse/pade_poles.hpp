@@ -1,7 +1,7 @@
 // Diagonal Padé approximation of the exponential: r(x) = N(x)/D(x) with D(x) = N(−x), both of degree q.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <complex>
 #include <vector>

@@ -8,7 +8,7 @@
 #include <seiche/backend/sparse/sparse_damping.hpp>
 #include <seiche/backend/sparse/sparse_linear.hpp>
 #include <seiche/backend/sparse/sparse_phi.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/momenta.hpp>
 
 #include <cmath>

@@ -2,8 +2,8 @@
 #include <seiche/backend/sparse/equal_rows.hpp>
 #include <seiche/backend/sparse/pade.hpp>
 #include <seiche/backend/sparse/sparse_linear.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/core/memory_limit.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/memory_limit.hpp>
 
 #include <cmath>
 

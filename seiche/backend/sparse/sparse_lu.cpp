@@ -1,5 +1,5 @@
 #include <seiche/backend/sparse/sparse_lu.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseLU>

@@ -3,7 +3,7 @@
 #include <seiche/backend/sparse/pade.hpp>
 #include <seiche/backend/sparse/sparse_kernel.hpp>
 #include <seiche/backend/sparse/sparse_phi.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 
 #include <algorithm>

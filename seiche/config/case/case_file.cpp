@@ -4,9 +4,9 @@
 #include <seiche/config/case/ensemble_case.hpp>
 #include <seiche/config/case/key_rows.hpp>
 #include <seiche/config/case/problem_section.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/input_file.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/core/text/toml_depth.hpp>
 
 #include <fmt/format.h>

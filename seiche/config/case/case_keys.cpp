@@ -2,7 +2,7 @@
 #include <seiche/config/case/ensemble_case.hpp>
 #include <seiche/config/case/key_rows.hpp>
 #include <seiche/config/custom/custom_case.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/shortened.hpp>
 
 #include <fmt/ranges.h>
 

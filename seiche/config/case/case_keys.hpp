@@ -1,7 +1,7 @@
 // Which keys a case file may have, and what is said of others.
 #pragma once
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <string>

@@ -3,9 +3,10 @@
 #include <seiche/config/custom/custom_case.hpp>
 #include <seiche/config/data/initial_formulas.hpp>
 #include <seiche/config/data/matrix_market.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/config/data/rate_formulas.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/input_file.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
@@ -19,16 +20,6 @@ namespace {
 
 void require(const std::string& complaint) {
   if (!complaint.empty()) throw Error("problem.{}", complaint);
-}
-
-// Null where the text is no formula in these variables.
-FormulaPointer compiled(const std::string& text, const std::vector<std::string>& variables,
-                        const FormulaConstants& constants = {}) {
-  try {
-    return compile_formula(text, variables, constants);
-  } catch (const Error&) {
-    return nullptr;
-  }
 }
 
 RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, TimeSpan sampled) {
@@ -45,7 +36,7 @@ RatePointer checked_rate(const Parameter& parameter, FormulaPointer formula, Tim
 ParameterValue read_formula_rate(const std::string& key, const Parameter& parameter, const std::string& text,
                                  const RunSpec& spec) {
   const FormulaConstants constants = formula_constants(spec);
-  if (FormulaPointer formula = compiled(text, {"t"}, constants))
+  if (FormulaPointer formula = compiled_or_null(text, {"t"}, constants))
     return checked_rate(parameter, std::move(formula), {spec.t_start, spec.duration()});
   return compile_space_rate(key, text, constants, advice_in(formula_context(spec, FormulaContext::Kind::rate)));
 }
@@ -166,28 +157,6 @@ void renew_rates(RunSpec& spec) {
     const std::string text = spec.parameter_texts.at(parameter.name);
     if (!is_toml_number(text)) set_parameter(spec, parameter, default_value(text));
   }
-}
-
-SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text, const FormulaConstants& constants,
-                                    const NameAdvice& advice) {
-  const std::vector<std::string> names = {"t", "x", "y", "z"};
-  const auto end = [&](Index axes) { return names.begin() + axes + 1; };
-  if (FormulaPointer formula = compiled(text, {"t"}, constants))
-    return uniform_space_rate(formula_rate(std::move(formula)));
-  Index axes = 1;
-  while (axes < 3 && !compiled(text, {names.begin(), end(axes)}, constants)) ++axes;
-  try {
-    FormulaPointer formula = compile_formula(text, {names.begin(), end(axes)}, constants, advice);
-    const bool constant_in_time = compiled(text, {names.begin() + 1, end(axes)}, constants) != nullptr;
-    return formula_space_rate(std::move(formula), axes, constant_in_time);
-  } catch (const Error& error) {
-    throw Error("{}: {}", key, error.what());
-  }
-}
-
-DampingRate compile_damping_rate(const std::string& key, const std::string& text, const FormulaConstants& constants) {
-  if (FormulaPointer formula = compiled(text, {"t"}, constants)) return formula_rate(std::move(formula));
-  return compile_space_rate(key, text, constants);
 }
 
 std::optional<MatrixSizes> matrix_sizes(const std::string& key, const CaseValue& value,

@@ -1,8 +1,8 @@
 // What [problem] says: parameters against the problem's own list, and initial data.
 #pragma once
 
-#include <seiche/config/case/case_value.hpp>
 #include <seiche/config/case/run_spec.hpp>
+#include <seiche/config/data/case_value.hpp>
 #include <seiche/config/data/matrix_market.hpp>
 #include <seiche/formula/formula_parser.hpp>
 #include <seiche/problem/problems.hpp>
@@ -21,14 +21,6 @@ void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& v
 // Of a parameter that is a matrix, before its entries are read; nothing where it names no file.
 std::optional<MatrixSizes> matrix_sizes(const std::string& key, const CaseValue& value,
                                         const std::filesystem::path& folder);
-
-// A formula in t and as many of x, y, z as it names, which asks the grid for so many axes. Throws Error that names the
-// key.
-SpaceRatePointer compile_space_rate(const std::string& key, const std::string& text,
-                                    const FormulaConstants& constants = {}, const NameAdvice& advice = {});
-// The same, and where it names t alone a rate for all points.
-DampingRate compile_damping_rate(const std::string& key, const std::string& text,
-                                 const FormulaConstants& constants = {});
 
 // Once more all rates that are formulas: after other parameters have changed, which these may name.
 void renew_rates(RunSpec& spec);

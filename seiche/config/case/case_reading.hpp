@@ -4,7 +4,7 @@
 
 #include <seiche/config/case/case_table.hpp>
 #include <seiche/config/case/run_spec.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <filesystem>

@@ -1,9 +1,9 @@
 #include <seiche/config/case/case_table.hpp>
 #include <seiche/config/data/syntax_complaint.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/characters.hpp>
 #include <seiche/core/text/number_text.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/core/text/toml_depth.hpp>
 
 #include <toml++/toml.h>

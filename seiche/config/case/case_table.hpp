@@ -2,7 +2,7 @@
 // mean is not known here.
 #pragma once
 
-#include <seiche/config/case/case_value.hpp>
+#include <seiche/config/data/case_value.hpp>
 
 #include <string>
 #include <string_view>

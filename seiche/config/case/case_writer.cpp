@@ -1,9 +1,9 @@
 // write_case and example_case: the same layout, the second with every meaning and bound beside its key.
-#include <seiche/config/case/case_value.hpp>
 #include <seiche/config/case/case_writer.hpp>
 #include <seiche/config/case/key_rows.hpp>
 #include <seiche/config/custom/custom_case.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/config/data/case_value.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <fmt/ranges.h>

@@ -2,7 +2,7 @@
 #include <seiche/config/case/drive_case.hpp>
 #include <seiche/config/case/friction_kinds.hpp>
 #include <seiche/config/case/friction_names.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/damping/formula_frictions.hpp>

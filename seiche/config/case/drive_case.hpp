@@ -1,7 +1,7 @@
 // What [problem] says beside the parameters of the equation: friction beyond linear, and external forces.
 #pragma once
 
-#include <seiche/config/case/case_value.hpp>
+#include <seiche/config/data/case_value.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/text/name_advice.hpp>
 #include <seiche/formula/formula_parser.hpp>

@@ -1,6 +1,6 @@
 #include <seiche/config/case/case_parameters.hpp>
 #include <seiche/config/case/ensemble_case.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <fmt/ranges.h>
 

@@ -1,7 +1,7 @@
 // What [ensemble] says: how many members, and in what they differ.
 #pragma once
 
-#include <seiche/config/case/case_value.hpp>
+#include <seiche/config/data/case_value.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <array>

@@ -1,6 +1,6 @@
 #include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/case/key_readers.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/method/unknown_method.hpp>
 
 #include <fmt/format.h>

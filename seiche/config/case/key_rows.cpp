@@ -1,7 +1,7 @@
 #include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/case/key_readers.hpp>
 #include <seiche/config/case/key_rows.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <fmt/ranges.h>
 

@@ -1,8 +1,8 @@
 // The keys of a case file beside those of the problem, one row each: how a key is read, written, listed and explained.
 #pragma once
 
-#include <seiche/config/case/case_value.hpp>
 #include <seiche/config/case/run_spec.hpp>
+#include <seiche/config/data/case_value.hpp>
 
 #include <functional>
 #include <limits>

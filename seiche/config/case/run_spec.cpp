@@ -1,10 +1,10 @@
 #include <seiche/config/case/run_spec.hpp>
 #include <seiche/config/data/initial_file.hpp>
 #include <seiche/config/data/initial_formulas.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 

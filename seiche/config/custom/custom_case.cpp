@@ -1,7 +1,7 @@
 #include <seiche/config/custom/custom_case.hpp>
 #include <seiche/config/custom/custom_names.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/formula/formula_text.hpp>
 
 #include <fmt/ranges.h>

@@ -1,8 +1,8 @@
 // What [problem] says where its name is "custom".
 #pragma once
 
-#include <seiche/config/case/case_value.hpp>
 #include <seiche/config/custom/custom_problem.hpp>
+#include <seiche/config/data/case_value.hpp>
 #include <seiche/problem/problems.hpp>
 
 #include <map>

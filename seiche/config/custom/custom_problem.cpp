@@ -4,10 +4,10 @@
 #include <seiche/config/custom/field_potential.hpp>
 #include <seiche/config/custom/metric_terms.hpp>
 #include <seiche/config/data/initial_formulas.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 #include <seiche/core/text/axis_names.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/law/operator_findings.hpp>
 #include <seiche/potential/sum.hpp>
 #include <seiche/problem/common/second_order.hpp>

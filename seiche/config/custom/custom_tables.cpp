@@ -1,11 +1,11 @@
-#include <seiche/config/case/case_parameters.hpp>
 #include <seiche/config/custom/custom_tables.hpp>
 #include <seiche/config/custom/operator_formula.hpp>
 #include <seiche/config/data/initial_formulas.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/config/data/rate_formulas.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/name_advice.hpp>
 #include <seiche/core/text/number_text.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/damping/rates.hpp>
 
 #include <fmt/ranges.h>

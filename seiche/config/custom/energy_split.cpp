@@ -1,9 +1,9 @@
 #include <seiche/config/custom/energy_split.hpp>
 #include <seiche/config/custom/outward_growth.hpp>
 #include <seiche/config/custom/written_summands.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/axis_names.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/expansion.hpp>
 #include <seiche/formula/expression_text.hpp>
 #include <seiche/formula/formula_compiler.hpp>

@@ -1,6 +1,6 @@
 #include <seiche/config/custom/field_potential.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/potential/on_bonds.hpp>
 #include <seiche/potential/polynomials.hpp>
 

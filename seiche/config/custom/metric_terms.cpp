@@ -1,5 +1,5 @@
 #include <seiche/config/custom/metric_terms.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 namespace seiche {
 namespace {

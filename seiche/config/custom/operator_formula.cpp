@@ -1,6 +1,6 @@
 #include <seiche/config/custom/operator_formula.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/formula/expansion.hpp>
 #include <seiche/formula/expression_text.hpp>
 #include <seiche/formula/formula_expression.hpp>

@@ -1,8 +1,8 @@
 #include <seiche/config/data/initial_file.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/commuting_damping.hpp>
-#include <seiche/core/error.hpp>
 #include <seiche/core/text/input_file.hpp>
-#include <seiche/core/text/shortened.hpp>
 
 #include <fmt/ranges.h>
 

@@ -1,8 +1,8 @@
 #include <seiche/config/data/initial_formulas.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
 #include <fmt/format.h>

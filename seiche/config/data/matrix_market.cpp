@@ -1,8 +1,8 @@
 #include <seiche/config/data/matrix_market.hpp>
-#include <seiche/core/error.hpp>
-#include <seiche/core/memory_limit.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/memory_limit.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/input_file.hpp>
-#include <seiche/core/text/shortened.hpp>
 
 #include <fmt/ranges.h>
 

@@ -1,6 +1,6 @@
 #include <seiche/config/data/syntax_complaint.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/characters.hpp>
-#include <seiche/core/text/shortened.hpp>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

@@ -1,8 +1,8 @@
 // The bytes of a checkpoint. Whatever evolves lists its members once, and the same list writes and reads them.
 #pragma once
 
-#include <seiche/core/error.hpp>
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <concepts>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // A run that is asked to stop ends between two steps. Where one step takes long, the loops inside it ask too.
 #pragma once
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <atomic>
 

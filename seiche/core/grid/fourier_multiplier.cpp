@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/grid/fourier_multiplier.hpp>
 #include <seiche/core/grid/line_modes.hpp>
 #include <seiche/core/text/number_text.hpp>

@@ -1,7 +1,7 @@
 // A uniform grid in one, two or three dimensions.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <array>
 #include <vector>

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/grid/sparse_operators.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 #include <seiche/core/text/number_text.hpp>
@@ -27,12 +27,6 @@ void require_symmetric(const SparseMatrix& M) {
 }
 
 }  // namespace
-
-SparseMatrix identity_matrix(Index size) {
-  SparseMatrix i(size, size);
-  i.setIdentity();
-  return i;
-}
 
 bool SparseOperators::damping_moves(Index begin, Index size) const {
   bool moves = false;

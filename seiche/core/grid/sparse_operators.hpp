@@ -1,22 +1,9 @@
 // S, M and D of a problem whose coefficients change from point to point, or that lives on no grid at all.
 #pragma once
 
-#include <seiche/core/vector.hpp>
-
-#include <Eigen/SparseCore>
+#include <seiche/core/base/sparse_matrix.hpp>
 
 namespace seiche {
-
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
-SparseMatrix identity_matrix(Index size);
-
-// visit(row, column, value) for every stored entry, column after column.
-template <class Visit>
-void for_entries(const SparseMatrix& a, const Visit& visit) {
-  for (Index column = 0; column < a.outerSize(); ++column)
-    for (SparseMatrix::InnerIterator entry(a, column); entry; ++entry) visit(entry.row(), column, entry.value());
-}
 
 // Square, of the size of z in physical coordinates, field after field. Contract: M symmetric.
 struct SparseOperators {

@@ -1,7 +1,7 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/memory_limit.hpp>
 #include <seiche/core/grid/line_modes.hpp>
 #include <seiche/core/grid/stencil.hpp>
-#include <seiche/core/memory_limit.hpp>
 #include <seiche/core/text/axis_names.hpp>
 
 #include <algorithm>

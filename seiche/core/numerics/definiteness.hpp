@@ -1,7 +1,7 @@
 // Tests a sparse symmetric matrix for positive semidefiniteness; returns a direction of negative curvature if it fails.
 #pragma once
 
-#include <seiche/core/grid/sparse_operators.hpp>
+#include <seiche/core/base/sparse_matrix.hpp>
 
 #include <optional>
 

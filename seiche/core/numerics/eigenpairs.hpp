@@ -1,7 +1,7 @@
 // Eigenvalues of a general matrix, how far round-off may have moved each, and which of two matrices belong together.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <Eigen/Dense>
 

@@ -1,7 +1,7 @@
 // A linear map on states.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 // Many states of one small problem side by side: row j of a panel holds component j of sixteen of them.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/simd/multiversion.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <array>
 #include <cstddef>

@@ -1,8 +1,8 @@
 // Loops over blocks of work, shared among threads.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/simd/thread_team.hpp>
-#include <seiche/core/vector.hpp>
 
 namespace seiche {
 

@@ -1,7 +1,7 @@
 // Lengths of vectors.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 namespace seiche {
 

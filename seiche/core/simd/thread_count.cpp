@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 
 #include <thread>

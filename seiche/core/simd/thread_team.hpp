@@ -1,8 +1,8 @@
 // Threads that share the blocks of loops by work stealing, and sleep where there is nothing to do.
 #pragma once
 
-#include <seiche/core/function_ref.hpp>
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/function_ref.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <atomic>
 #include <cstdint>

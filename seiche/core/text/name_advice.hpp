@@ -2,7 +2,7 @@
 // is no help for names of one letter.
 #pragma once
 
-#include <seiche/core/vector.hpp>
+#include <seiche/core/base/vector.hpp>
 
 #include <functional>
 #include <string>

@@ -1,5 +1,5 @@
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/control/archive.hpp>
-#include <seiche/core/error.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/adaptive/error_estimate.hpp>
 #include <seiche/method/common/nonlinear_force.hpp>

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/method/closure/directed_multiplier.hpp>
 

@@ -1,7 +1,7 @@
 // Newton's method for G(y) = 0 with GMRES on difference quotients of G: the fallback of implicit closures.
 #pragma once
 
-#include <seiche/core/function_ref.hpp>
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/space.hpp>
 
 #include <functional>

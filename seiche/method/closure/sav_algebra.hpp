@@ -2,8 +2,8 @@
 // functions serve single runs and ensembles; they have no branches, so that a loop over members becomes vector code.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/propagator.hpp>
-#include <seiche/core/vector.hpp>
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // What drives z beside Lz, for methods that take L = SM − D₀ into exponentials.
 #pragma once
 
-#include <seiche/core/function_ref.hpp>
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/system.hpp>
 
 namespace seiche {

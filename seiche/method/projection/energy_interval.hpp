@@ -1,7 +1,7 @@
 // Which H a step is to end with: what the method computed, held inside the interval that the dissipation allows.
 #pragma once
 
-#include <seiche/core/function_ref.hpp>
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/method/common/energy_law.hpp>
 #include <seiche/method/projection/step_dissipation.hpp>
 

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/method/projection/energy_projection.hpp>
 #include <seiche/method/runge_kutta/exponential_runge_kutta.hpp>
 #include <seiche/method/splitting/chin.hpp>

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/projection/flow_quadrature.hpp>
 #include <seiche/method/splitting/crkn.hpp>

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/file/folder_open.hpp>
 

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/file/folder_open.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/hdf5/hdf5_calls.hpp>

@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/output/hdf5/hdf5_calls.hpp>
 #include <seiche/output/hdf5/hdf5_virtual.hpp>
 

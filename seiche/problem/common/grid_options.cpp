@@ -1,7 +1,7 @@
-#include <seiche/core/error.hpp>
-#include <seiche/core/grid/truncated_potential.hpp>
-#include <seiche/core/memory_limit.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/memory_limit.hpp>
 #include <seiche/core/text/number_text.hpp>
+#include <seiche/core/truncated_potential.hpp>
 #include <seiche/problem/common/grid_options.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // that it sets. A row without a default takes that of the options.
 #pragma once
 
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/common/problem_entry.hpp>

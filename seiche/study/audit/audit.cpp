@@ -1,9 +1,9 @@
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/config/case/case_value.hpp>
+#include <seiche/config/data/case_value.hpp>
 #include <seiche/config/data/initial_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/input_file.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/output/csv_table.hpp>
 #include <seiche/output/solution_reader.hpp>

@@ -1,6 +1,6 @@
 #include <seiche/backend/backends.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/input_file.hpp>
-#include <seiche/core/text/shortened.hpp>
 #include <seiche/study/audit/audit_book.hpp>
 
 #include <fmt/ranges.h>

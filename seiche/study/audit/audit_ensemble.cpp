@@ -1,4 +1,4 @@
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/ensemble/statistics.hpp>
 #include <seiche/law/law.hpp>

@@ -1,5 +1,5 @@
-#include <seiche/core/error.hpp>
-#include <seiche/core/text/shortened.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/shortened.hpp>
 #include <seiche/output/solution_reader.hpp>
 #include <seiche/study/audit/recorded_energies.hpp>
 

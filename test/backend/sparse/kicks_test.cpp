@@ -5,16 +5,16 @@
 #include <test/support/worst.hpp>
 
 #include <seiche/backend/sparse/equal_rows.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/formula/formula_compiler.hpp>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/method/splitting/nystrom_scheme.hpp>
 #include <seiche/problem/beta_fpu.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
 #include <seiche/problem/sine_gordon.hpp>
-#include <seiche/run/integrate.hpp>
 #include <seiche/simulation/kick_stability.hpp>
 #include <seiche/simulation/simulation.hpp>
 

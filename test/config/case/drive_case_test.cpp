@@ -1,6 +1,6 @@
 // Friction and forces in case files.
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <test/support/text_of.hpp>
 
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/ensemble/members.hpp>
 #include <seiche/ensemble/statistics.hpp>
 #include <seiche/study/audit/audit.hpp>

@@ -6,7 +6,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/fft/transform.hpp>
 #include <seiche/backend/grid/segment.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/nls.hpp>

@@ -4,9 +4,9 @@
 #include <test/support/written_problem.hpp>
 
 #include <gtest/gtest.h>
+#include <seiche/loop/integrate.hpp>
 #include <seiche/method/closure/midpoint_predictor.hpp>
 #include <seiche/problem/klein_gordon.hpp>
-#include <seiche/run/integrate.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <cmath>

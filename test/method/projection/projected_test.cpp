@@ -6,7 +6,7 @@
 #include <test/support/worst.hpp>
 
 #include <seiche/config/custom/custom_problem.hpp>
-#include <seiche/core/error.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/method/splitting/nystrom_scheme.hpp>
 #include <seiche/problem/chain.hpp>
