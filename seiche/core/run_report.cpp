@@ -16,6 +16,14 @@ std::string energy_line(const char* name, const EnergySummary& energy) {
 
 std::string counted_steps(std::int64_t count) { return fmt::format("{} step{}", count, count == 1 ? "" : "s"); }
 
+std::string reached(double t, std::int64_t steps) {
+  return fmt::format("reached t = {:.9g} in {}", t, counted_steps(steps));
+}
+
+std::string stopped(double t, std::int64_t n, double t_end) {
+  return fmt::format("stopped at t = {:.9g} (step {}) of {:.9g}", t, n, t_end);
+}
+
 std::string to_string(RunReport::Status status) {
   switch (status) {
     case RunReport::Status::success: return "success";
@@ -57,8 +65,24 @@ std::string RunReport::remark_on_replaced() const {
 void RunReport::judge_replaced() {
   const std::string remark = remark_on_replaced();
   if (remark.empty()) return;
-  message += "; " + remark;
+  say(remark);
   if (lacks_solution()) status = Status::failed;
+}
+
+void add_to(std::string& message, const std::string& more) {
+  if (message.find(more) == std::string::npos) message += "; " + more;
+}
+
+void RunReport::say_remarks(const std::string& lost_digits) {
+  judge_replaced();
+  if (!step_failed) say(lost_digits);
+  say(remark_on_widened());
+  say(remark_on_halved());
+  if (!step_failed) say(remark_on_drift());
+  if (!step_failed) say(remark_on_parting());
+  if (unresolved > 0) say(fmt::format("{} scalar equations were not resolved", unresolved));
+  if (law == LawVerdict::not_promised) say("no energy law is promised: " + law_reason);
+  if (law == LawVerdict::violated && !step_failed) say("the promised energy law was violated: " + law_reason);
 }
 
 std::string RunReport::remark_on_widened() const {

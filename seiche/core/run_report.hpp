@@ -51,6 +51,9 @@ struct EnergyDrift {
   void archive(Archive& a) { a(from, to, t, is_damped, is_parting); }
 };
 
+// What a message is made of: "; more" behind it, unless it says that already, or `more` is "".
+void add_to(std::string& message, const std::string& more);
+
 struct RunReport {
   enum class Status { success, failed, interrupted };
   Status status = Status::success;
@@ -81,7 +84,7 @@ struct RunReport {
   // More than one step in ten was replaced, or one by next to nothing: what has come out is no solution of the
   // equation.
   bool lacks_solution() const { return replaced.lost_state || replaced.count > steps / 10; }
-  void judge_replaced();                  // puts that remark into `message`; a run that lacks a solution has failed
+  void judge_replaced();                  // says that remark; a run that lacks a solution has failed
   std::string remark_on_widened() const;  // where the energy interval was widened beyond its doubt; or ""
   std::string remark_on_halved() const;   // what it does not resolve of the rest; or ""
   std::string remark_on_drift() const;    // what H did that no solution does, and what helps; "" where it did not
@@ -89,12 +92,19 @@ struct RunReport {
   // than a drift; else "".
   std::string remark_on_parting() const;
   std::vector<std::string> remarks() const;  // on steps that were replaced or halved, and on a drift
-  std::string brief() const;                 // one line
-  std::string full() const;                  // a paragraph for a terminal
-  std::string work() const;                  // how often V was evaluated, and what solvers did: a line below that
+  void say(const std::string& more) { add_to(message, more); }
+  // All of the above, and what is to be known of the law. Where a step failed, what became of the energies up to there
+  // is the same news again. `lost_digits`: of a modified energy.
+  void say_remarks(const std::string& lost_digits);
+  std::string brief() const;  // one line
+  std::string full() const;   // a paragraph for a terminal
+  std::string work() const;   // how often V was evaluated, and what solvers did: a line below that
 };
 
-std::string counted_steps(std::int64_t count);    // "1 step", "2 steps"
+std::string counted_steps(std::int64_t count);  // "1 step", "2 steps"
+// How runs and members of ensembles end: "reached t = 1 in 2 steps", "stopped at t = 1 (step 2) of 3"
+std::string reached(double t, std::int64_t steps);
+std::string stopped(double t, std::int64_t n, double t_end);
 std::string to_string(RunReport::Status status);  // "success", "failed", "interrupted"
 std::string to_string(LawVerdict verdict);        // "holds", "violated", "not promised", "not tested"
 

@@ -166,14 +166,14 @@ CaseResult CaseRun::result() {
   const std::string failure = write_for_readers(folder, spec_, *solution_, leave, warn, xdmf_every);
   if (!failure.empty()) {
     report.status = RunReport::Status::failed;
-    report.message += "; " + failure;
+    report.say(failure);
     last_words.correct(report);
   }
   if (is_over(ended) && last_words.are_written()) {
     remove_checkpoints(folder);
     if (solution_->is_joined()) remove_segments(folder);
   } else if (is_over(ended)) {
-    report.message += keeper_->way_on(report.t);  // which makes the summary again
+    report.say(keeper_->way_on(report.t));  // which makes the summary again
   }
   return {.report = report,
           .message = with_notes(report).message,
@@ -222,17 +222,17 @@ RunReport CaseRun::with_way_on(RunReport report) const {
   const bool over = is_over(report);
   // With the same settings it would fail again: those of another run are to be others.
   if (report.step_failed && report.t > spec_.t_start)
-    report.message += fmt::format(
-        "; another run goes on from there, with other settings, by initial = {{ file = \"{}\" }} and start = {} in [time]",
-        (record_.folder().path() / "final.txt").string(), report.t);
+    report.say(fmt::format(
+        "another run goes on from there, with other settings, by initial = {{ file = \"{}\" }} and start = {} in [time]",
+        (record_.folder().path() / "final.txt").string(), report.t));
   if (over) return report;
   if (report.status == RunReport::Status::interrupted) report.message += keeper_->why_stopped();
-  report.message += keeper_->way_on(report.t);
+  report.say(keeper_->way_on(report.t));
   return report;
 }
 
 RunReport CaseRun::with_notes(RunReport report) const {
-  for (const std::string& note : record_.notes()) report.message += "; " + note;
+  for (const std::string& note : record_.notes()) report.say(note);
   return report;
 }
 

@@ -94,7 +94,7 @@ std::string CheckpointKeeper::way_on(double t) const {
   if (!saved_t_) return "";
   const std::string way =
       options_.way.empty() ? fmt::format("`seiche resume {}`", folder_.path().string()) : options_.way;
-  return fmt::format("; {} goes on from {}", way,
+  return fmt::format("{} goes on from {}", way,
                      *saved_t_ == t ? "there" : fmt::format("a checkpoint at t = {:.9g}", *saved_t_));
 }
 

@@ -26,14 +26,14 @@ bool holds_replaced(const RunReport& r) { return r.replaced.count > 0 && r.statu
 bool has_drifted(const RunReport& r) { return r.drift && r.status != RunReport::Status::failed; }
 bool holds_law(const RunReport& r) { return r.law == LawVerdict::holds && r.status != RunReport::Status::failed; }
 
-// "; 3 failed, the first of them member 2: …"
+// "3 failed, the first of them member 2: …"
 template <class Is, class Reason>
 std::string first_of(const EnsembleResult& result, std::int64_t how_many, const char* what, const Is& is,
                      const Reason& reason) {
   if (how_many == 0) return "";
   const auto first = std::find_if(result.members.begin(), result.members.end(),
                                   [&](const MemberResult& member) { return is(member.report); });
-  return fmt::format("; {} {}, the first of them member {}: {}", how_many, what, first - result.members.begin() + 1,
+  return fmt::format("{} {}, the first of them member {}: {}", how_many, what, first - result.members.begin() + 1,
                      std::invoke(reason, first->report));
 }
 
@@ -49,19 +49,20 @@ EnsembleOutcome::EnsembleOutcome(const EnsembleResult& result)
       violated(count(result, has_law(LawVerdict::violated))),
       not_promised(count(result, has_law(LawVerdict::not_promised))),
       message(fmt::format("{} of {} members reached the end", succeeded, result.members.size())) {
-  message += first_of(result, failed, "failed", has_status(RunReport::Status::failed), &RunReport::message);
-  message += first_of(result, replaced, "hold replaced steps", holds_replaced, &RunReport::remark_on_replaced);
-  message += first_of(result, drifted, "have an energy that no solution has", has_drifted, &RunReport::remark_on_drift);
-  if (interrupted > 0) message += fmt::format("; {} were interrupted", interrupted);
-  message += first_of(result, violated, "violated the promised energy law", has_law(LawVerdict::violated),
-                      &RunReport::law_reason);
-  message += first_of(result, not_promised, "promise no energy law", has_law(LawVerdict::not_promised),
-                      &RunReport::law_reason);
+  add_to(message, first_of(result, failed, "failed", has_status(RunReport::Status::failed), &RunReport::message));
+  add_to(message, first_of(result, replaced, "hold replaced steps", holds_replaced, &RunReport::remark_on_replaced));
+  add_to(message,
+         first_of(result, drifted, "have an energy that no solution has", has_drifted, &RunReport::remark_on_drift));
+  if (interrupted > 0) add_to(message, fmt::format("{} were interrupted", interrupted));
+  add_to(message, first_of(result, violated, "violated the promised energy law", has_law(LawVerdict::violated),
+                           &RunReport::law_reason));
+  add_to(message, first_of(result, not_promised, "promise no energy law", has_law(LawVerdict::not_promised),
+                           &RunReport::law_reason));
   if (!result.failure.empty()) fail_to_write(result.failure);
 }
 
 void EnsembleOutcome::fail_to_write(const std::string& reason) {
-  if (message.find(reason) == std::string::npos) message += "; " + reason;
+  add_to(message, reason);
   is_written = false;
 }
 

@@ -181,7 +181,7 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
   if (folder.has_lock() && folder.is_at_its_path()) remove_pictures(folder.path());  // drawn while it went on
   const std::string way_on = keeper.way_on(energies->last().t);
   const bool is_said = outcome.interrupted > 0 || !outcome.is_written;
-  if (is_said) outcome.message += way_on;
+  if (is_said) add_to(outcome.message, way_on);
   const std::string backend =
       spec.backend == "auto" ? std::string(automatic_backend(problem).name) : spec.backend;  // of every member
   const auto summarised = [&] {
@@ -189,7 +189,7 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
   };
   attempt([&] { write_file(folder, "summary.json", summarised()); });
   if (outcome.interrupted == 0 && outcome.is_written) remove_checkpoints(folder);
-  if (!outcome.is_written && !is_said) outcome.message += way_on;  // of the summary that could not be written
+  if (!outcome.is_written && !is_said) add_to(outcome.message, way_on);  // of the summary that could not be written
   return {.outcome = outcome,
           .first = energies->first(),
           .last = energies->last(),

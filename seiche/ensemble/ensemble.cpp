@@ -265,9 +265,9 @@ class Run {
       report.message = at.message;
     } else if (report.steps < grid_.steps) {
       report.status = RunReport::Status::interrupted;
-      report.message = fmt::format("stopped at t = {:.9g} (step {}) of {:.9g}", report.t, report.steps, grid_.end);
+      report.message = seiche::stopped(report.t, report.steps, grid_.end);
     } else {
-      report.message = fmt::format("reached t = {:.9g} in {}", report.t, counted_steps(report.steps));
+      report.message = seiche::reached(report.t, report.steps);
     }
     report.judge_replaced();
     const Simulation* simulation = block_of(member).simulation(member % panel_members);
@@ -277,7 +277,7 @@ class Run {
           report, simulation->system(), [&] { return result.final; },
           [&] { return at.fed.empty() && options_.objection ? options_.objection(simulation->problem()) : at.fed; });
     }
-    if (report.drift) report.message += "; " + report.remark_on_drift();
+    report.say(report.remark_on_drift());
     if (result.final.size() == 0) {
       report.law = LawVerdict::not_promised;
       report.law_reason = "the member never started";

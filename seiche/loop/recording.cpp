@@ -139,13 +139,13 @@ void Recording::fail_not_finite(const char* what) {
 
 bool Recording::explain() {
   const std::string why = explanation_ ? explanation_() : "";
-  if (!why.empty()) report_.message += "; " + why;
+  report_.say(why);
   return !why.empty();
 }
 
 void Recording::interrupt(double t_end) {
   report_.status = RunReport::Status::interrupted;
-  report_.message = fmt::format("stopped at t = {:.9g} (step {}) of {:.9g}", state_.t, state_.n, t_end);
+  report_.message = stopped(state_.t, state_.n, t_end);
 }
 
 void Recording::interrupt_inside_step(double t_end) {
@@ -223,26 +223,15 @@ void Recording::archive(Archive& a, const std::function<std::string()>& objectio
 }
 
 void Recording::complete_message(const std::string& remark) {
-  if (report_.status == RunReport::Status::success)
-    report_.message = fmt::format("reached t = {:.9g} in {}{}", state_.t, counted_steps(report_.steps), remark);
-  report_.judge_replaced();
-  // Where a step failed, what became of the energies up to there is the same news again.
-  const bool is_told = report_.step_failed;
+  if (report_.status == RunReport::Status::success) report_.message = reached(state_.t, report_.steps) + remark;
   constexpr double lost = 1e6;  // times the energy at the start: of H̃ − H no more than some ten digits are left
-  if (!is_told && report_.has_modified_energy && state_.energy_scale > 0 && state_.shift > lost * state_.energy_scale)
-    report_.message += fmt::format(
-        "; C was raised to {:.3g} ({:.1g} × the initial energy), and the modified energy has lost digits to round-off: "
-        "reduce h, or use seilm or egc4",
-        state_.shift, state_.shift / state_.energy_scale);
-  for (const std::string& unresolved : {report_.remark_on_widened(), report_.remark_on_halved()})
-    if (!unresolved.empty()) report_.message += "; " + unresolved;
-  for (const std::string& energies : {report_.remark_on_drift(), report_.remark_on_parting()})
-    if (!is_told && !energies.empty()) report_.message += "; " + energies;
-  if (report_.unresolved > 0)
-    report_.message += fmt::format("; {} scalar equations were not resolved", report_.unresolved);
-  if (report_.law == LawVerdict::not_promised) report_.message += "; no energy law is promised: " + report_.law_reason;
-  if (!is_told && report_.law == LawVerdict::violated)
-    report_.message += "; the promised energy law was violated: " + report_.law_reason;
+  const bool has_lost =
+      report_.has_modified_energy && state_.energy_scale > 0 && state_.shift > lost * state_.energy_scale;
+  report_.say_remarks(
+      has_lost ? fmt::format("C was raised to {:.3g} ({:.1g} × the initial energy), and the modified energy has lost "
+                             "digits to round-off: reduce h, or use seilm or egc4",
+                             state_.shift, state_.shift / state_.energy_scale)
+               : "");
 }
 
 // Each gets its chance to leave whole files, also where another one could not.
@@ -251,10 +240,9 @@ void Recording::finish_observers() {
     try {
       observer->finish(report_);
     } catch (const Error& error) {
-      const bool first = report_.status == RunReport::Status::success;
+      if (report_.status == RunReport::Status::success) report_.message = error.what();
       report_.status = RunReport::Status::failed;
-      if (report_.message.find(error.what()) != std::string::npos) continue;  // several files, one reason
-      report_.message = first ? std::string(error.what()) : report_.message + "; " + error.what();
+      report_.say(error.what());  // several files, one reason
     }
   }
 }

@@ -146,7 +146,7 @@ class Run {
     if (solution_.ended_by_event)
       solution_.report.message =
           fmt::format("an event ended the run at t = {:.9g}; {}", solution_.report.t, solution_.report.message);
-    for (const std::string& note : solution_.notes) solution_.report.message += "; " + note;
+    for (const std::string& note : solution_.notes) solution_.report.say(note);
     if (options_.dense_output)
       solution_.sol =
           std::make_shared<DenseOutput>(run_.shared_simulation(), options_.tolerance.has_value(),
