@@ -329,15 +329,16 @@ TEST(Layering, RoomsInsideARoomDoNotRunInCircles) {
 // else holds a part of it.
 TEST(Layering, LengthsAndMaximaOfStatesGoThroughTheirSpace) {
   const std::regex direct(
-      R"((\.|->)(dot|norm|squaredNorm|stableNorm|lpNorm<[^>]*>|allFinite|isFinite|maxCoeff|minCoeff)\()");
+      R"((\.|->)(dot|norm|squaredNorm|stableNorm|lpNorm<[^>]*>|allFinite|isFinite|maxCoeff|minCoeff|sum|mean|prod)\()");
   const auto breaks = [&](const std::string& line) {
     const std::string code = line.substr(0, line.find("//"));
     for (std::sregex_iterator i(code.begin(), code.end(), direct), end; i != end; ++i)
-      if (!std::regex_search(i->prefix().str(), std::regex("space(_|\\(\\))?$|probe$"))) return true;
+      if (!std::regex_search(i->prefix().str(), std::regex("space(_|\\(\\))?$|probe$|terms$"))) return true;
     return false;
   };
   EXPECT_TRUE(breaks("  const double size = s.z.norm();"));
   EXPECT_TRUE(breaks("  if (!z_.allFinite()) return false;"));
+  EXPECT_TRUE(breaks("  const double mass = s.z.sum();"));
   EXPECT_FALSE(breaks("  const double size = system_.space->norm(s.z) + space().dot(a, b);  // z.norm()"));
   for (const char* folder : {"seiche/method", "seiche/run", "seiche/simulation"})
     for (const fs::path& file : files_below(folder))

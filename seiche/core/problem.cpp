@@ -83,6 +83,17 @@ bool Problem::damping_moves_potential() const {
   return false;
 }
 
+Problem part_of(const Problem& whole, const Rank& here) {
+  Problem part = whole;
+  part.grid.here = here;
+  const Index all = whole.grid.unknowns(), mine = part.grid.unknowns();
+  const Index first = all / whole.grid.axis(0).unknowns() * part.grid.slab().first;
+  part.initial.resize(part.size());
+  for (Index f = 0; f < whole.field_count(); ++f)
+    part.initial.segment(f * mine, mine) = whole.initial.segment(f * all + first, mine);
+  return part;
+}
+
 SparseMatrix rate_matrix(const Problem& problem) {
   SparseMatrix p(problem.size(), problem.size());
   for (Index i = 0; i < problem.size(); ++i)

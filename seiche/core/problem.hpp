@@ -52,6 +52,9 @@ struct Problem {
   bool damping_moves_potential() const;   // true if V does
 };
 
+// What one of several processes holds of a problem on a whole grid of two or three axes.
+Problem part_of(const Problem& whole, const Rank& here);
+
 // P of LinearDamping, ones on the diagonal in the rows of `rate_fields`: as a matrix of all unknowns, and as the block
 // of every mode.
 SparseMatrix rate_matrix(const Problem& problem);

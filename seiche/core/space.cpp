@@ -1,4 +1,7 @@
+#include <seiche/core/simd/long_sum.hpp>
 #include <seiche/core/space.hpp>
+
+#include <vector>
 
 namespace seiche {
 
@@ -6,6 +9,24 @@ Vector Space::physical(const Vector& z) const {
   Vector values(physical_size());
   to_physical(z, values);
   return values;
+}
+
+void Space::add_units(std::span<const double> sums, std::span<double> totals) const {
+  for (std::size_t i = 0; i < totals.size(); ++i) {
+    LongSum total;
+    for (std::size_t at = i; at < sums.size(); at += totals.size()) total.add(sums[at]);
+    totals[i] = total.total();
+  }
+}
+
+void Space::add(Units units, FunctionRef<void(Index unit, std::span<double> sums)> of_unit,
+                std::span<double> totals) const {
+  const std::size_t k = totals.size();
+  thread_local std::vector<double> sums;  // no step allocates
+  sums.resize(static_cast<std::size_t>(units.count()) * k);
+  for (Index unit = 0; unit < units.count(); ++unit)
+    of_unit(unit, std::span(sums).subspan(static_cast<std::size_t>(unit) * k, k));
+  add_units(sums, totals);
 }
 
 }  // namespace seiche

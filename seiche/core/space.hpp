@@ -1,7 +1,10 @@
 // ℝⁿ with its coordinates: the only place that knows what the numbers in State::z are, and who else holds some.
 #pragma once
 
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/base/vector.hpp>
+#include <seiche/core/grid/units.hpp>
+#include <seiche/core/simd/squared_norm.hpp>
 
 #include <cmath>
 #include <span>
@@ -25,6 +28,28 @@ class Space {
   virtual void sum(std::span<double> /*local*/) const {}
   virtual void max(std::span<double> /*local*/) const {}
 
+  // The numbers of one field that are here, plane behind plane: slots of z, or physical values.
+  struct Field {
+    Index size;
+    Units units = {};
+    Index first = 0, of = size;  // the number of the whole field that is the first here, and how many those are
+
+    Index plane() const { return units.planes > 0 ? size / units.planes : 0; }
+    Index begin(Index unit) const { return units.begin(unit) * plane(); }
+    Index end(Index unit) const { return units.end(unit) * plane(); }
+    // visit(begin, length) of the parts of a vector of so many numbers that belong to a unit.
+    template <class Visit>
+    void for_parts(Index numbers, Index unit, const Visit& visit) const {
+      if (units.count() == 1) return visit(Index{0}, numbers);
+      for (Index at = 0; at < numbers; at += size) visit(at + begin(unit), end(unit) - begin(unit));
+    }
+  };
+  virtual Field slots() const { return {size()}; }
+  virtual Field values() const { return {physical_size()}; }
+  // Totals over all processes of sums over the units that this one holds, `totals.size()` side by side for each: added
+  // in the order of units, they do not depend on how many processes there are.
+  virtual void add_units(std::span<const double> sums, std::span<double> totals) const;
+
   double sum(double local) const {
     sum({&local, 1});
     return local;
@@ -36,18 +61,33 @@ class Space {
   bool any(bool local) const { return max(local ? 1.0 : 0.0) != 0; }
   bool all(bool local) const { return max(local ? 0.0 : 1.0) == 0; }
 
-  // Of vectors, parts of them and expressions, in the coordinates of z or in physical values.
+  // Of what `of_unit` says of each unit, in as many numbers as there are totals.
+  void add(Units units, FunctionRef<void(Index unit, std::span<double> sums)> of_unit, std::span<double> totals) const;
+  double total(Units units, FunctionRef<double(Index unit)> of_unit) const {
+    double total = 0;
+    add(units, [&](Index unit, std::span<double> sum) { sum[0] = of_unit(unit); }, {&total, 1});
+    return total;
+  }
+
+  // Of vectors, parts of them that are whole fields, and expressions, in the coordinates of z.
   template <class A, class B>
   double dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) const {
-    return sum(a.dot(b));
+    return over(slots(), a.size(),
+                [&](Index begin, Index size) { return a.segment(begin, size).dot(b.segment(begin, size)); });
   }
   template <class A, class B>
   double absolute_dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) const {
-    return sum((a.array() * b.array()).abs().sum());
+    return over(slots(), a.size(), [&](Index begin, Index size) {
+      return (a.segment(begin, size).array() * b.segment(begin, size).array()).abs().sum();
+    });
   }
   template <class A>
   double squared_norm(const Eigen::MatrixBase<A>& a) const {
-    return sum(a.squaredNorm());
+    return squared_norm(slots(), a);
+  }
+  double squared_norm(const Vector& z) const {
+    return over(slots(), z.size(),
+                [&](Index begin, Index size) { return seiche::squared_norm(z.data() + begin, size); });
   }
   template <class A>
   double norm(const Eigen::MatrixBase<A>& a) const {
@@ -56,9 +96,16 @@ class Space {
   // Without squares that under- or overflow.
   template <class A>
   double stable_norm(const Eigen::MatrixBase<A>& a) const {
-    const double local = a.stableNorm(), largest = max(local);
-    return largest > 0 && std::isfinite(largest) ? largest * std::sqrt(sum(square(local / largest))) : largest;
+    const double largest = max_norm(a);
+    if (!(largest > 0 && std::isfinite(largest))) return largest;
+    return largest * std::sqrt(squared_norm(a.derived() / largest));
   }
+  // Of physical values.
+  template <class A>
+  double norm_of_values(const Eigen::MatrixBase<A>& u) const {
+    return std::sqrt(squared_norm(values(), u));
+  }
+  // Of either.
   template <class A>
   double max_norm(const Eigen::MatrixBase<A>& a) const {
     return max(a.template lpNorm<Eigen::Infinity>());
@@ -66,6 +113,20 @@ class Space {
   template <class A>
   bool is_finite(const Eigen::MatrixBase<A>& a) const {
     return all(a.allFinite());
+  }
+
+ private:
+  template <class A>
+  double squared_norm(const Field& field, const Eigen::MatrixBase<A>& a) const {
+    return over(field, a.size(), [&](Index begin, Index size) { return a.segment(begin, size).squaredNorm(); });
+  }
+  template <class OfPart>
+  double over(const Field& field, Index size, const OfPart& of_part) const {
+    return total(field.units, [&](Index unit) {
+      double sum = 0;
+      field.for_parts(size, unit, [&](Index begin, Index length) { sum += of_part(begin, length); });
+      return sum;
+    });
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <seiche/core/damping.hpp>
 #include <seiche/core/external_force.hpp>
+#include <seiche/core/grid/ranks.hpp>
 #include <seiche/core/kicks.hpp>
 #include <seiche/core/linear_part.hpp>
 #include <seiche/core/phi.hpp>
@@ -75,6 +76,8 @@ struct SparseOptions {
 struct BackendOptions {
   bool measure_plans = false;  // FFTW: fastest plans instead of repeatable ones
   int threads = 1;             // of the modal backend, ≥ 1; results do not depend on it
+  const Ranks* ranks =
+      nullptr;  // who holds the rest of Problem::grid, which says which part is here; outlives the system
   SparseOptions sparse = {};
 };
 

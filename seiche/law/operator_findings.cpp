@@ -87,7 +87,7 @@ bool is_one_damping(const Problem& problem) {
 
 template <class AnyBlock>
 OperatorFindings look_at_modes(const Problem& problem) {
-  const Modes modes(problem.grid);
+  const Modes modes(problem.grid.whole());
   const Index m = problem.field_count();
   const LinearDamping& damping = problem.damping;
   const bool has_constant = problem.has_constant_damping();

@@ -116,7 +116,7 @@ Hypothesis hypothesis_of_commuting(const Problem& problem) {
     largest = SparseMatrix(D * P - P * D).norm();
     size = D.norm();
   } else {
-    const Modes modes(problem.grid);
+    const Modes modes(problem.grid.whole());
     for (Index k = 0; k < modes.count(); ++k) {
       const Block D = problem.damping.constant.symbol(modes[k]);
       const Block P = rate_symbol(problem);

@@ -34,11 +34,13 @@ class Line {
   }
 
   double tenth() const {
-    const double speed = space_.norm(du_);
-    return speed > 0 ? 0.1 * space_.norm(u_) / speed : 0;
+    const double speed = space_.norm_of_values(du_);
+    return speed > 0 ? 0.1 * space_.norm_of_values(u_) / speed : 0;
   }
   // Further than a tenth of itself in the time s?
-  bool runs_away(double s) const { return is_endless_ || s * space_.norm(du_) > 0.1 * space_.norm(u_); }
+  bool runs_away(double s) const {
+    return is_endless_ || s * space_.norm_of_values(du_) > 0.1 * space_.norm_of_values(u_);
+  }
   Vector at(double s) const { return u_ + s * du_; }
   const Vector& start() const { return start_; }  // of the run
 

@@ -112,15 +112,18 @@ class CountingTransform final : public FieldTransform {
     ++count;
     std::copy(slots.begin(), slots.end(), values.begin());
   }
-  double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const override {
+  std::span<const double> through_values(std::span<const double> from, std::span<double> slots,
+                                         const Pointwise& f) const override {
     std::copy(from.begin(), from.end(), slots.begin());
-    return f(slots);
+    sum_ = f(slots);
+    return {&sum_, 1};
   }
 
   mutable int count = 0;
 
  private:
   Index n_;
+  mutable double sum_ = 0;
 };
 
 TEST(Potential, TheMagnitudeBesideTheValueTakesNoFurtherTransform) {

@@ -13,29 +13,23 @@ namespace {
 
 using std::numbers::sqrt2;
 
-// Rows of a batch: enough to fill part of the cache with their values.
-Index batch_of(Index length, Index rows) {
-  constexpr Index numbers = 16384;
-  return std::clamp<Index>(numbers / length, 1, rows);
-}
-
 // â_k = w_k Σ_j u_j e^{−2πijk/N} for k = 0 … N/2.
 class FourierRows final : public RowTransform {
  public:
-  FourierRows(Index length, Index rows, bool alone_are_real, bool measure)
+  FourierRows(Index length, const Batches& rows, bool alone_are_real, bool measure)
       : length_(length),
-        batch_(batch_of(length, rows)),
+        batch_(rows.width()),
         alone_are_real_(alone_are_real),
-        values_(fftw_buffer(static_cast<std::size_t>(batch_ * length))),
-        slots_(fftw_buffer(static_cast<std::size_t>(batch_ * slots()))),
-        forward_(batch_, rows % batch_, measure,
+        values_(fftw_buffer(static_cast<std::size_t>(rows.most() * length))),
+        slots_(fftw_buffer(static_cast<std::size_t>(rows.most() * slots()))),
+        forward_(batch_, rows.rest(), measure,
                  [&](int count, unsigned flags) {
                    const int n = static_cast<int>(length_);
                    const int modes = n / 2 + 1;
                    return fftw_plan_many_dft_r2c(1, &n, count, values_.get(), nullptr, 1, n, pairs(slots_.get()),
                                                  nullptr, 1, modes, flags);
                  }),
-        inverse_(batch_, rows % batch_, measure, [&](int count, unsigned flags) {
+        inverse_(batch_, rows.rest(), measure, [&](int count, unsigned flags) {
           const int n = static_cast<int>(length_);
           const int modes = n / 2 + 1;
           return fftw_plan_many_dft_c2r(1, &n, count, pairs(slots_.get()), nullptr, 1, modes, values_.get(), nullptr, 1,
@@ -47,7 +41,6 @@ class FourierRows final : public RowTransform {
 
   Index values() const override { return length_; }
   Index slots() const override { return 2 * (length_ / 2 + 1); }
-  Index batch() const override { return batch_; }
 
   void to_slots(const double* values, double* slots, Index rows) const override {
     fftw_execute_dft_r2c((rows == batch_ ? forward_.full : forward_.rest).of(values, slots),
@@ -82,17 +75,17 @@ class FourierRows final : public RowTransform {
 // Sines, cosines or half-complex coefficients by FFTW's own real transforms.
 class RealRows final : public RowTransform {
  public:
-  RealRows(const GridAxis& axis, Index rows, bool measure)
+  RealRows(const GridAxis& axis, const Batches& rows, bool measure)
       : length_(axis.unknowns()),
-        batch_(batch_of(length_, rows)),
+        batch_(rows.width()),
         alone_(modes_alone(axis)),
-        values_(fftw_buffer(static_cast<std::size_t>(batch_ * length_))),
-        slots_(fftw_buffer(static_cast<std::size_t>(batch_ * length_))),
-        forward_(batch_, rows % batch_, measure,
+        values_(fftw_buffer(static_cast<std::size_t>(rows.most() * length_))),
+        slots_(fftw_buffer(static_cast<std::size_t>(rows.most() * length_))),
+        forward_(batch_, rows.rest(), measure,
                  [&](int count, unsigned flags) {
                    return plan(values_, slots_, count, kinds_of(axis.boundary).forward, flags);
                  }),
-        inverse_(batch_, rows % batch_, measure, [&](int count, unsigned flags) {
+        inverse_(batch_, rows.rest(), measure, [&](int count, unsigned flags) {
           return plan(slots_, values_, count, kinds_of(axis.boundary).inverse, flags);
         }) {
     values_.reset();
@@ -101,7 +94,6 @@ class RealRows final : public RowTransform {
 
   Index values() const override { return length_; }
   Index slots() const override { return length_; }
-  Index batch() const override { return batch_; }
 
   void to_slots(const double* values, double* slots, Index rows) const override {
     fftw_execute_r2r((rows == batch_ ? forward_.full : forward_.rest).of(values, slots), const_cast<double*>(values),
@@ -133,13 +125,18 @@ class RealRows final : public RowTransform {
 
 }  // namespace
 
-std::unique_ptr<RowTransform> fourier_rows(Index length, Index rows, bool alone_are_real, bool measure) {
+Index rows_of_batch(Index length) {
+  constexpr Index numbers = 16384;
+  return length > numbers ? 1 : std::max<Index>(numbers / length / 2 * 2, 2);
+}
+
+std::unique_ptr<RowTransform> fourier_rows(Index length, const Batches& rows, bool alone_are_real, bool measure) {
   return std::make_unique<FourierRows>(length, rows, alone_are_real, measure);
 }
 
-std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, Index rows, bool measure) {
+std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, const Batches& rows, bool measure) {
   constexpr Index longest_split = 1 << 18;
-  if (axis.boundary == Boundary::dirichlet && rows == 1 && axis.intervals <= longest_split)
+  if (axis.boundary == Boundary::dirichlet && rows.most() == 1 && axis.intervals <= longest_split)
     return sine_row(axis.intervals, measure);
   return std::make_unique<RealRows>(axis, rows, measure);
 }

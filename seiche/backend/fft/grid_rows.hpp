@@ -1,6 +1,7 @@
 // One-dimensional transforms of the lines of a grid along its last axis, in batches that stay in the cache.
 #pragma once
 
+#include <seiche/backend/fft/batches.hpp>
 #include <seiche/core/grid/grid.hpp>
 
 #include <memory>
@@ -14,12 +15,14 @@ class RowTransform {
   virtual ~RowTransform() = default;
   virtual Index values() const = 0;  // numbers per row
   virtual Index slots() const = 0;
-  virtual Index batch() const = 0;                                                   // rows per call, at most
-  virtual void to_slots(const double* values, double* slots, Index rows) const = 0;  // `rows` = batch, or the rest
+  virtual void to_slots(const double* values, double* slots, Index rows) const = 0;  // `rows` of one of the batches
   virtual void to_values(double* slots, double* values, Index rows) const = 0;       // overwrites slots
 };
 
-std::unique_ptr<RowTransform> fourier_rows(Index length, Index rows, bool alone_are_real, bool measure);
-std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, Index rows, bool measure);
+// How many rows fill part of the cache with their values: an even number, or one long row.
+Index rows_of_batch(Index length);
+
+std::unique_ptr<RowTransform> fourier_rows(Index length, const Batches& rows, bool alone_are_real, bool measure);
+std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, const Batches& rows, bool measure);
 
 }  // namespace seiche

@@ -95,7 +95,6 @@ class SineRows final : public RowTransform {
 
   Index values() const override { return intervals_ - 1; }
   Index slots() const override { return intervals_ - 1; }
-  Index batch() const override { return 1; }
   void to_slots(const double* values, double* slots, Index) const override { sines(values, slots); }
   void to_values(double* slots, double* values, Index) const override { sines(slots, values); }
 

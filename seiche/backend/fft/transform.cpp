@@ -1,3 +1,4 @@
+#include <seiche/backend/fft/crossing.hpp>
 #include <seiche/backend/fft/fftw_plan.hpp>
 #include <seiche/backend/fft/grid_columns.hpp>
 #include <seiche/backend/fft/grid_rows.hpp>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace seiche {
@@ -25,45 +27,62 @@ class IdentityTransform final : public FieldTransform {
   void to_values(std::span<double> slots, std::span<double> values) const override {
     std::copy(slots.begin(), slots.end(), values.begin());
   }
-  double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const override {
+  std::span<const double> through_values(std::span<const double> from, std::span<double> slots,
+                                         const Pointwise& f) const override {
     if (from.data() != slots.data()) std::copy(from.begin(), from.end(), slots.begin());
-    return f(slots);
+    sum_ = f(slots);
+    return {&sum_, 1};
   }
 
  private:
   Index n_;
+  mutable double sum_ = 0;
 };
 
-// Rows along the last axis, then columns along the others: the same small transforms whatever the number of threads.
+// Rows along the last axis, then columns along the others, axis 0 last, which turns the planes: the same small
+// transforms whatever the number of threads.
 class ModalTransform final : public FieldTransform {
  public:
   ModalTransform(const Grid& grid, const TransformOptions& options)
-      : n_(grid.unknowns()), threads_(options.threads), row_count_(n_ / grid.axes.back().unknowns()) {
+      : n_(grid.unknowns()),
+        all_(grid.whole().unknowns()),
+        first_(all_ / grid.axis(0).unknowns() * grid.slab().first),
+        threads_(options.threads),
+        row_count_(n_ / grid.axes.back().unknowns()),
+        pairs_(grid.is_periodic()),
+        modes_(grid),
+        planes_(grid.dimension() > 1 ? grid.slab().planes : 1),
+        rows_of_plane_(grid.dimension() == 3 ? grid.axis(1).unknowns() : 1),
+        batches_(rows_of_plane_ == 1 ? row_count_ : rows_of_plane_, rows_of_batch(grid.axes.back().unknowns())),
+        batch_count_(rows_of_plane_ == 1 ? batches_.count() : planes_ * batches_.count()) {
     const Index last = grid.dimension() - 1;
-    const bool pairs = grid.is_periodic();
-    rows_ = pairs ? fourier_rows(grid.axis(last).intervals, row_count_, grid.dimension() == 1, options.measure_plans)
-                  : real_rows(grid.axis(last), row_count_, options.measure_plans);
-    slots_ = row_count_ * rows_->slots();
-    Index inner = pairs ? rows_->slots() / 2 : rows_->slots();
-    for (Index a = last; a >= 0; --a) {
+    rows_ = pairs_ ? fourier_rows(grid.axis(last).intervals, batches_, grid.dimension() == 1, options.measure_plans)
+                   : real_rows(grid.axis(last), batches_, options.measure_plans);
+    slots_ = modes_.slots();
+    for (Index a = 0; a <= last; ++a) {
       const GridAxis& axis = grid.axis(a);
       const auto n = static_cast<double>(axis.intervals);
       // Pairs stand for a mode and its conjugate once, along the last axis; other axes hold both.
-      const bool unitary = pairs && a != last;
+      const bool unitary = pairs_ && a != last;
       slot_scale_ *= unitary ? 1 / std::sqrt(n) : seiche::slot_scale(axis);
       value_scale_ *= unitary ? 1 / std::sqrt(n) : seiche::value_scale(axis);
-      if (a == last) continue;
-      const Index length = axis.unknowns();
-      Index outer = 1;
-      for (Index b = 0; b < a; ++b) outer *= grid.axis(b).unknowns();
-      const Lines lines{outer, length, inner};
-      columns_.push_back(pairs ? fourier_columns(lines, options.measure_plans)
-                               : real_columns(axis, lines, options.measure_plans));
-      inner *= length;
     }
-    batch_count_ = (row_count_ + rows_->batch() - 1) / rows_->batch();
-    sums_.resize(static_cast<std::size_t>(batch_count_));
-    const auto batch_size = static_cast<std::size_t>(rows_->batch() * rows_->values());
+    const Index inner = pairs_ ? rows_->slots() / 2 : rows_->slots();
+    if (last == 2) {
+      const Lines lines{planes_, grid.axis(1).unknowns(), inner};
+      columns_ = pairs_ ? fourier_columns(lines, options.measure_plans)
+                        : real_columns(grid.axis(1), lines, options.measure_plans);
+    }
+    if (last > 0) {
+      const Turned lines{grid.axis(0).unknowns(), modes_.units().planes, last == 2 ? inner : 1};
+      turned_ = pairs_ ? turned_fourier_columns(lines, options.measure_plans)
+                       : turned_real_columns(grid.axis(0), lines, options.measure_plans);
+      between_ = fftw_buffer(static_cast<std::size_t>(row_count_ * rows_->slots()));
+      if (options.ranks != nullptr) crossing_.emplace(*options.ranks, grid, modes_, row_count_ * rows_->slots());
+    }
+    parts_.resize(static_cast<std::size_t>(batch_count_));
+    sums_.resize(static_cast<std::size_t>(value_units().count()));
+    const auto batch_size = static_cast<std::size_t>(batches_.most() * rows_->values());
     for (int thread = 0; thread < threads_; ++thread) values_.push_back(fftw_buffer(batch_size));
   }
 
@@ -71,71 +90,121 @@ class ModalTransform final : public FieldTransform {
   Index slots() const override { return slots_; }
   double slot_scale() const override { return slot_scale_; }
   double value_scale() const override { return value_scale_; }
+  Units value_units() const override { return {planes_}; }
+  Index first_unknown() const override { return first_; }
+  Index all_unknowns() const override { return all_; }
+  Units slot_units() const override { return modes_.units(); }
 
   void to_slots(std::span<const double> values, std::span<double> slots) const override {
+    double* const rows = turned_ ? between_.get() : slots.data();
     for_blocks(batch_count_, threads_, [&](Index batch) {
-      rows_->to_slots(values.data() + row(batch) * rows_->values(), slots.data() + row(batch) * rows_->slots(),
-                      rows_in(batch));
+      rows_->to_slots(values.data() + row(batch) * rows_->values(), rows + row(batch) * rows_->slots(), size(batch));
     });
-    columns_to_slots(slots);
+    columns_to_slots(slots.data());
   }
 
   void to_values(std::span<double> slots, std::span<double> values) const override {
-    columns_to_values(slots);
+    double* const rows = columns_to_values(slots.data());
     for_blocks(batch_count_, threads_, [&](Index batch) {
-      rows_->to_values(slots.data() + row(batch) * rows_->slots(), values.data() + row(batch) * rows_->values(),
-                       rows_in(batch));
+      rows_->to_values(rows + row(batch) * rows_->slots(), values.data() + row(batch) * rows_->values(), size(batch));
     });
   }
 
-  double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const override {
-    if (from.data() != slots.data()) {
-      // On all threads: one alone would draw into its cache what the passes over the modes have left in those of
-      // others.
-      for_blocks(batch_count_, threads_, [&](Index batch) {
-        const Index begin = row(batch) * rows_->slots();
-        std::copy_n(from.data() + begin, rows_in(batch) * rows_->slots(), slots.data() + begin);
-      });
-    }
-    columns_to_values(slots);
+  std::span<const double> through_values(std::span<const double> from, std::span<double> slots,
+                                         const Pointwise& f) const override {
+    const bool is_kept = turned_ && pairs_;  // by the transform that is read from it
+    if (from.data() != slots.data() && !is_kept) copy(from.data(), slots.data());
+    double* const rows = columns_to_values(is_kept ? const_cast<double*>(from.data()) : slots.data());
     for_blocks_by_thread(batch_count_, threads_, [&](Index batch, int thread) {
-      double* at = slots.data() + row(batch) * rows_->slots();
-      double* values = values_[static_cast<std::size_t>(thread)].get();
-      rows_->to_values(at, values, rows_in(batch));
-      sums_[static_cast<std::size_t>(batch)] = f({values, static_cast<std::size_t>(rows_in(batch) * rows_->values())});
-      rows_->to_slots(values, at, rows_in(batch));
+      double* const at = rows + row(batch) * rows_->slots();
+      double* const values = values_[static_cast<std::size_t>(thread)].get();
+      rows_->to_values(at, values, size(batch));
+      apply(f, batch, values);
+      rows_->to_slots(values, at, size(batch));
     });
-    columns_to_slots(slots);
-    double sum = 0;
-    for (const double part : sums_) sum += part;
-    return sum;
+    columns_to_slots(slots.data());
+    add_parts();
+    return sums_;
   }
 
  private:
-  Index row(Index batch) const { return batch * rows_->batch(); }
-  Index rows_in(Index batch) const { return std::min(rows_->batch(), row_count_ - row(batch)); }
-
-  void columns_to_slots(std::span<double> slots) const {
-    for (const auto& columns : columns_)
-      for_blocks(columns->blocks(), threads_, [&](Index block) { columns->to_slots(slots.data(), block); });
+  Index row(Index batch) const {
+    if (rows_of_plane_ == 1) return batches_.begin(batch);
+    return batch / batches_.count() * rows_of_plane_ + batches_.begin(batch % batches_.count());
   }
-  void columns_to_values(std::span<double> slots) const {
-    for (std::size_t i = columns_.size(); i-- > 0;) {
-      const ColumnTransform& columns = *columns_[i];
-      for_blocks(columns.blocks(), threads_, [&](Index block) { columns.to_values(slots.data(), block); });
+  Index size(Index batch) const { return batches_.size(rows_of_plane_ == 1 ? batch : batch % batches_.count()); }
+
+  // Where planes are rows, a batch holds whole units, but for one row that is too long for others; else it is a part of
+  // a plane.
+  void apply(const Pointwise& f, Index batch, double* values) const {
+    const auto count = [&](Index rows) { return static_cast<std::size_t>(rows * rows_->values()); };
+    if (rows_of_plane_ > 1 || size(batch) == 1) {
+      parts_[static_cast<std::size_t>(batch)] = f({values, count(size(batch))});
+      return;
+    }
+    const Index first = row(batch), end = first + size(batch);
+    const Units units = value_units();
+    for (Index unit = first / 2; unit < units.count() && units.begin(unit) < end; ++unit)
+      sums_[static_cast<std::size_t>(unit)] =
+          f({values + (units.begin(unit) - first) * rows_->values(), count(units.end(unit) - units.begin(unit))});
+  }
+  void add_parts() const {
+    if (rows_of_plane_ == 1 && batches_.width() > 1) return;
+    const Units units = value_units();
+    const Index per_plane = batch_count_ / planes_;
+    for (Index unit = 0; unit < units.count(); ++unit) {
+      double& sum = sums_[static_cast<std::size_t>(unit)];
+      sum = 0;
+      for (Index part = units.begin(unit) * per_plane; part < units.end(unit) * per_plane; ++part)
+        sum += parts_[static_cast<std::size_t>(part)];
     }
   }
 
-  Index n_;
+  // On all threads: one alone would draw into its cache what the passes over the modes have left in those of others.
+  void copy(const double* from, double* to) const {
+    constexpr Index block_slots = 8192;
+    for_blocks((slots_ + block_slots - 1) / block_slots, threads_, [&](Index block) {
+      const Index begin = block * block_slots;
+      std::copy_n(from + begin, std::min(block_slots, slots_ - begin), to + begin);
+    });
+  }
+
+  void columns_to_slots(double* slots) const {
+    if (columns_)
+      for_blocks(columns_->blocks(), threads_,
+                 [&](Index block) { columns_->to_slots(between_.get(), between_.get(), block); });
+    if (!turned_) return;
+    double* const columns = crossing_ ? crossing_->to_modes(between_.get()) : between_.get();
+    for_blocks(turned_->blocks(), threads_, [&](Index block) { turned_->to_slots(columns, slots, block); });
+  }
+  double* columns_to_values(double* slots) const {  // the rows
+    if (!turned_) return slots;
+    double* const columns = crossing_ ? crossing_->columns() : between_.get();
+    for_blocks(turned_->blocks(), threads_, [&](Index block) { turned_->to_values(slots, columns, block); });
+    if (crossing_) crossing_->to_values(between_.get());
+    if (columns_)
+      for_blocks(columns_->blocks(), threads_,
+                 [&](Index block) { columns_->to_values(between_.get(), between_.get(), block); });
+    return between_.get();
+  }
+
+  Index n_, all_, first_ = 0;
   int threads_;
   Index row_count_;
+  bool pairs_;
+  Modes modes_;
+  Index planes_, rows_of_plane_;
+  Batches batches_;  // of all rows where each is a plane, else of those of one plane
+  Index batch_count_;
   Index slots_ = 0;
-  Index batch_count_ = 0;
   double slot_scale_ = 1, value_scale_ = 1;
   std::unique_ptr<RowTransform> rows_;
-  std::vector<std::unique_ptr<ColumnTransform>> columns_;  // from the last axis but one to the first
-  std::vector<FftwBuffer> values_;                         // of one batch, for each thread
-  mutable std::vector<double> sums_;
+  std::unique_ptr<ColumnTransform> columns_;  // along axis 1 of three
+  std::unique_ptr<ColumnTransform> turned_;   // along axis 0, where it is not the last
+  FftwBuffer between_;                        // the rows, where they are not the slots
+  std::vector<FftwBuffer> values_;            // of one batch, for each thread
+  std::optional<Crossing> crossing_;          // to the other processes
+  mutable std::vector<double> parts_, sums_;  // of batches, where they are parts of planes; of units
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <seiche/core/grid/grid.hpp>
+#include <seiche/core/grid/ranks.hpp>
+#include <seiche/core/grid/units.hpp>
 
 #include <functional>
 #include <memory>
@@ -26,11 +28,19 @@ class FieldTransform {
   virtual void to_slots(std::span<const double> values, std::span<double> slots) const = 0;
   virtual void to_values(std::span<double> slots, std::span<double> values) const = 0;
 
-  // slots ← to_slots(f(to_values(from))), where f overwrites the values of some points and returns a number; the sum of
-  // these. f must treat every point alike and alone. Blocks of points pass through the cache, on several threads.
-  // `from` has as many coordinates as `slots`, and is the same array or apart from it; then it is kept.
+  // Of the planes along axis 0 of the values, and along axis 1 of the slots.
+  virtual Units value_units() const { return {}; }   // those that are here
+  virtual Index first_unknown() const { return 0; }  // of all, the first that is here
+  virtual Index all_unknowns() const { return unknowns(); }
+  virtual Units slot_units() const { return {}; }
+
+  // slots ← to_slots(f(to_values(from))), where f overwrites the values of some points and returns a number: the sums
+  // of these over each of value_units(). f must treat every point alike and alone. Blocks of points pass through the
+  // cache, on several threads. `from` has as many coordinates as `slots`, and is the same array or apart from it; then
+  // it is kept.
   using Pointwise = std::function<double(std::span<double> values)>;
-  virtual double through_values(std::span<const double> from, std::span<double> slots, const Pointwise& f) const = 0;
+  virtual std::span<const double> through_values(std::span<const double> from, std::span<double> slots,
+                                                 const Pointwise& f) const = 0;
 };
 
 std::unique_ptr<FieldTransform> identity_transform(Index unknowns);
@@ -38,6 +48,7 @@ std::unique_ptr<FieldTransform> identity_transform(Index unknowns);
 struct TransformOptions {
   bool measure_plans = false;  // let FFTW try plans, which then differ from run to run in the last bits
   int threads = 1;
+  const Ranks* ranks = nullptr;  // outlive the transform
 };
 
 // Fourier on grids that are periodic along every axis, in the order of Modes: pairs of slots (Re â, Im â). Sines,

@@ -30,26 +30,53 @@ void GridPotential::set_gradient(const Vector& physical, Vector& gradient) const
     transform_->forward(segment(physical, f * n, n), segment(gradient, support_.begin + f * slots, slots));
 }
 
-ValueAndMagnitude GridPotential::sum(const ValueAndMagnitude& local) const {
-  std::array sums = {local.value, local.magnitude};
-  space_.sum(sums);
-  return {.value = sums[0], .magnitude = sums[1]};
+// A V of points alone is added up unit by unit. of_part(part, sums): what part(u) is of values u.
+template <class OfPart>
+void GridPotential::add(const OfPart& of_part, std::span<double> totals) const {
+  if (!pointwise_->is_local()) {
+    of_part([](std::span<const double> u) { return u; }, totals);
+    return space_.sum(totals);
+  }
+  const Space::Field field = space_.values();
+  space_.add(
+      field.units,
+      [&](Index unit, std::span<double> sums) {
+        const auto begin = static_cast<std::size_t>(field.begin(unit)), end = static_cast<std::size_t>(field.end(unit));
+        of_part([=](std::span<const double> u) { return u.subspan(begin, end - begin); }, sums);
+      },
+      totals);
 }
 
 double GridPotential::value(const Vector& z) const {
   if (!pointwise_) return 0;
   ++counts_.values;
-  return space_.sum(pointwise_->value(values_of(z, a_)));
-}
-
-double GridPotential::magnitude(const Vector& z) const {
-  return pointwise_ ? space_.sum(pointwise_->magnitude(values_of(z, a_))) : 0;
+  const std::span<const double> u = values_of(z, a_);
+  double value = 0;
+  add([&](const auto& part, std::span<double> sum) { sum[0] = pointwise_->value(part(u)); }, {&value, 1});
+  return value;
 }
 
 ValueAndMagnitude GridPotential::value_and_magnitude(const Vector& z) const {
   if (!pointwise_) return {};
   ++counts_.values;
-  return sum(pointwise_->value_and_magnitude(values_of(z, a_)));
+  const std::span<const double> u = values_of(z, a_);
+  std::array<double, 2> totals{};
+  add(
+      [&](const auto& part, std::span<double> sums) {
+        const ValueAndMagnitude v = pointwise_->value_and_magnitude(part(u));
+        sums[0] = v.value;
+        sums[1] = v.magnitude;
+      },
+      totals);
+  return {.value = totals[0], .magnitude = totals[1]};
+}
+
+double GridPotential::magnitude(const Vector& z) const {
+  if (!pointwise_) return 0;
+  const std::span<const double> u = values_of(z, a_);
+  double magnitude = 0;
+  add([&](const auto& part, std::span<double> sum) { sum[0] = pointwise_->magnitude(part(u)); }, {&magnitude, 1});
+  return magnitude;
 }
 
 // In the vector of the gradient: coordinates become values, these slopes, and those coordinates again.
@@ -59,9 +86,13 @@ double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) cons
   const auto slopes = [this](std::span<double> values) {
     return pointwise_->value_and_gradient_in_place(transform_->value_scale(), transform_->slot_scale(), values);
   };
-  if (pointwise_->is_local())
-    return space_.sum(transform_->through_values(segment(z, support_.begin, support_.size),
-                                                 segment(gradient, support_.begin, support_.size), slopes));
+  if (pointwise_->is_local()) {
+    double value = 0;
+    space_.add_units(transform_->through_values(segment(z, support_.begin, support_.size),
+                                                segment(gradient, support_.begin, support_.size), slopes),
+                     {&value, 1});
+    return value;
+  }
   if (&z != &gradient) gradient.segment(support_.begin, support_.size) = z.segment(support_.begin, support_.size);
   const Index n = transform_->unknowns();
   const Index slots = transform_->slots();
@@ -92,22 +123,23 @@ void GridPotential::along(const Vector& p, const Vector& q, std::span<double> co
     return;
   }
   ++counts_.values;
-  pointwise_->along(values_of(p, a_), values_of(q, b_), coefficients);
-  space_.sum(coefficients);
+  const std::span<const double> u = values_of(p, a_), v = values_of(q, b_);
+  add([&](const auto& part, std::span<double> sums) { pointwise_->along(part(u), part(v), sums); }, coefficients);
 }
 
 void GridPotential::along_ray(const Vector& z, std::span<double> coefficients) const {
   std::fill(coefficients.begin(), coefficients.end(), 0.0);
   if (!pointwise_) return;
   ++counts_.values;
-  const std::span<const double> u = values_of(z, b_);
+  const std::span<const double> v = values_of(z, b_);
   if (const int d = pointwise_->homogeneity(); d > 0) {
-    coefficients[static_cast<std::size_t>(d)] = space_.sum(pointwise_->value(u));
+    add([&](const auto& part, std::span<double> sum) { sum[0] = pointwise_->value(part(v)); },
+        coefficients.subspan(static_cast<std::size_t>(d), 1));
     return;
   }
   a_.setZero();
-  pointwise_->along(all(a_), u, coefficients);
-  space_.sum(coefficients);
+  const std::span<const double> u = all(a_);
+  add([&](const auto& part, std::span<double> sums) { pointwise_->along(part(u), part(v), sums); }, coefficients);
 }
 
 }  // namespace seiche

@@ -29,7 +29,8 @@ class GridPotential final : public Potential {
 
  private:
   std::span<const double> values_of(const Vector& z, Vector& values) const;
-  ValueAndMagnitude sum(const ValueAndMagnitude& local) const;
+  template <class OfPart>
+  void add(const OfPart& of_part, std::span<double> totals) const;
   void set_gradient(const Vector& physical, Vector& gradient) const;
 
   std::shared_ptr<const PointwisePotential> pointwise_;

@@ -1,10 +1,27 @@
 #include <seiche/backend/grid/grid_space.hpp>
 #include <seiche/backend/grid/segment.hpp>
 
+#include <vector>
+
 namespace seiche {
 
-GridSpace::GridSpace(Index fields, std::shared_ptr<const FieldTransform> transform)
-    : fields_(fields), transform_(std::move(transform)) {}
+GridSpace::GridSpace(Index fields, std::shared_ptr<const FieldTransform> transform, const Ranks* ranks)
+    : fields_(fields), transform_(std::move(transform)), ranks_(ranks) {}
+
+void GridSpace::sum(std::span<double> local) const {
+  if (ranks_ != nullptr) ranks_->sum(local);
+}
+
+void GridSpace::max(std::span<double> local) const {
+  if (ranks_ != nullptr) ranks_->max(local);
+}
+
+void GridSpace::add_units(std::span<const double> sums, std::span<double> totals) const {
+  if (ranks_ == nullptr) return Space::add_units(sums, totals);
+  thread_local std::vector<double> all;  // no step allocates
+  ranks_->gather(sums, all);
+  Space::add_units(all, totals);
+}
 
 void GridSpace::to_physical(const Vector& z, Vector& values) const {
   const Index n = transform_->unknowns();

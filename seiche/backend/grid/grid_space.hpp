@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/backend/fft/transform.hpp>
+#include <seiche/core/grid/ranks.hpp>
 #include <seiche/core/space.hpp>
 
 #include <memory>
@@ -10,15 +11,25 @@ namespace seiche {
 
 class GridSpace final : public Space {
  public:
-  GridSpace(Index fields, std::shared_ptr<const FieldTransform> transform);
+  GridSpace(Index fields, std::shared_ptr<const FieldTransform> transform, const Ranks* ranks = nullptr);
+  using Space::max;
+  using Space::sum;
+  void sum(std::span<double> local) const override;
+  void max(std::span<double> local) const override;
+  void add_units(std::span<const double> sums, std::span<double> totals) const override;
   Index size() const override { return fields_ * transform_->slots(); }
   Index physical_size() const override { return fields_ * transform_->unknowns(); }
+  Field slots() const override { return {transform_->slots(), transform_->slot_units()}; }
+  Field values() const override {
+    return {transform_->unknowns(), transform_->value_units(), transform_->first_unknown(), transform_->all_unknowns()};
+  }
   void to_physical(const Vector& z, Vector& values) const override;
   void from_physical(const Vector& values, Vector& z) const override;
 
  private:
   Index fields_;
   std::shared_ptr<const FieldTransform> transform_;
+  const Ranks* ranks_;  // null: this process alone
 };
 
 }  // namespace seiche

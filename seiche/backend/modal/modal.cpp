@@ -24,6 +24,19 @@ void require_symmetric(const BlockStencil& a, std::string_view name) {
                     name, i, j);
 }
 
+// What several processes do not share yet is refused, where they would compute something else than one.
+void require_divisible(const Problem& problem) {
+  const auto refuse = [&](bool holds, std::string_view what) {
+    if (holds) throw Error("{} has {}, which only one process computes; run it without mpiexec", problem.name, what);
+  };
+  refuse(problem.grid.dimension() == 1, "a grid of one axis");
+  refuse(problem.potential && !problem.potential->is_local(), "a potential of several fields, or of the place");
+  refuse(problem.friction != nullptr, "friction");
+  refuse(problem.has_forces(), "external forces");
+  refuse(problem.damping.field_rate != nullptr, "a damping that depends on the place");
+  refuse(problem.structure != nullptr, "a structure matrix that depends on the state");
+}
+
 // A truncated V by a mask on the modes instead of its convolutions.
 std::unique_ptr<Potential> modal_potential(const Problem& problem,
                                            const std::shared_ptr<const FieldTransform>& transform, const Space& space) {
@@ -49,16 +62,18 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
         "the modal backend needs coefficients that are the same at every point, and {} has matrices; use "
         "\"sparse\" or \"dense\"",
         problem.name);
+  if (options.ranks != nullptr) require_divisible(problem);
   if (!problem.grid.is_periodic()) {
     require_symmetric(problem.S, "S");
     require_symmetric(problem.M, "M");
     require_symmetric(problem.damping.constant, "D");
   }
   const std::shared_ptr<const FieldTransform> transform =
-      modal_transform(problem.grid, {.measure_plans = options.measure_plans, .threads = options.threads});
+      modal_transform(problem.grid,
+                      {.measure_plans = options.measure_plans, .threads = options.threads, .ranks = options.ranks});
   System system;
   system.fields = problem.field_count();
-  system.space = std::make_unique<GridSpace>(problem.field_count(), transform);
+  system.space = std::make_unique<GridSpace>(problem.field_count(), transform, options.ranks);
   system.linear = modal_linear_part(problem, *system.space, options.threads);
   system.potential = modal_potential(problem, transform, *system.space);
   const ModalOperators operators{.grid = problem.grid,

@@ -67,6 +67,7 @@ class ModalLinear final : public LinearPart {
         nonnegative_ = nonnegative_ && factor >= 0;
       }
     }
+    nonnegative_ = space_.all(nonnegative_);
     if (!has_fused_propagator(extent_, metric_->unit)) metric_->unit = 0;  // its factors are there all the same
   }
 
@@ -79,6 +80,7 @@ class ModalLinear final : public LinearPart {
     if (!S_is_skew_) {
       S_is_skew_ = true;
       for (Index k = 0; k < extent_.modes && *S_is_skew_; ++k) S_is_skew_ = twice(k).isZero(0);
+      S_is_skew_ = space_.all(*S_is_skew_);
     }
     if (*S_is_skew_) return false;
     if (!symmetric_S_)
@@ -97,13 +99,20 @@ class ModalLinear final : public LinearPart {
 
   double quadratic_energy(const Vector& z) const override {
     if (metric_) {
-      double twice = 0;
-      for (Index f = 0; f < extent_.fields; ++f) {
-        const bool unit = (metric_->unit >> static_cast<unsigned>(f) & 1U) != 0;
-        twice += weighted_square(extent_.layout, unit ? nullptr : metric_->factors.data(f, 0),
-                                 z.data() + f * extent_.slots(), extent_.slots());
-      }
-      return space_.sum(twice) / 2;
+      const Space::Field field = space_.slots();
+      const double twice = space_.total(field.units, [&](Index unit) {
+        const Index begin = field.begin(unit), size = field.end(unit) - begin;
+        double sum = 0;
+        for (Index f = 0; f < extent_.fields; ++f) {
+          const bool is_unit = (metric_->unit >> static_cast<unsigned>(f) & 1U) != 0;
+          sum +=
+              weighted_square(extent_.layout,
+                              is_unit ? nullptr : metric_->factors.data(f, 0) + begin / slots_per_mode(extent_.layout),
+                              z.data() + f * extent_.slots() + begin, size);
+        }
+        return sum;
+      });
+      return twice / 2;
     }
     scratch_.resize(z.size());
     apply_M(z, scratch_);

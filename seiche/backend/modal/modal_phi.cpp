@@ -128,10 +128,9 @@ class ModalPhiMap final : public PhiMap {
 class ModalPhiForms final : public PhiForms {
  public:
   ModalPhiForms(std::span<const PhiEvaluator::Form> forms, const ModalExtent& extent, const Space& space)
-      : space_(space),
-        columns_(forms.front().rows, extent),
+      : columns_(forms.front().rows, extent),
         threads_(extent.threads),
-        forms_(extent.layout, extent.modes, static_cast<Index>(forms.size()), columns_.size()) {}
+        forms_(extent.layout, extent.modes, static_cast<Index>(forms.size()), columns_.size(), space) {}
 
   void fill(std::span<const PhiEvaluator::Form> forms, const ModeBlockArrays& blocks, double h) {
     fill_forms(blocks, forms, h, columns_.all(), forms_);
@@ -161,7 +160,6 @@ class ModalPhiForms final : public PhiForms {
 
   void apply(const Vector& z, std::span<const Vector> forces, std::span<double> values) const override {
     forms_.apply(columns_.of(z, forces), values, threads_);
-    space_.sum(values);
   }
 
  private:
@@ -181,7 +179,6 @@ class ModalPhiForms final : public PhiForms {
     return congruence(flow_dissipation(mode, h), z_and_n);
   }
 
-  const Space& space_;
   Columns columns_;
   int threads_;
   ModeForms forms_;
@@ -242,7 +239,7 @@ class ModalPhi final : public PhiEvaluator {
   Dissipation dissipation() const override { return dissipation_; }
 
   bool without_casimirs(const Vector& z, Vector& d) const override {
-    if (casimirs_.empty()) return false;
+    if (!has_casimirs_) return false;
     d = z;
     const Index slots = extent_.slots();
     const bool pairs = extent_.layout != ModeLayout::singles;
@@ -284,6 +281,7 @@ class ModalPhi final : public PhiEvaluator {
       blocks_.set_size(k, scaled_norm(L));
       rate_ = std::max(rate_, spectral_bound(L));
     }
+    rate_ = space_.max(rate_);
   }
 
   // Damping and sym(S) must leave alone what V depends on for Q to be quadratic. Q ⪰ 0 is judged mode by mode: damping
@@ -304,12 +302,16 @@ class ModalPhi final : public PhiEvaluator {
       const Eigen::VectorXd rates = Eigen::SelfAdjointEigenSolver<Block>(Q, Eigen::EigenvaluesOnly).eigenvalues();
       dissipation_.is_nonnegative = dissipation_.is_nonnegative && rates.minCoeff() >= -1e-13 * size;
     }
+    dissipation_ = {.is_quadratic = space_.all(dissipation_.is_quadratic),
+                    .is_nonnegative = space_.all(dissipation_.is_nonnegative),
+                    .is_zero = space_.all(dissipation_.is_zero)};
   }
 
   void find_casimirs() {
     double size = 0;
     for (Index k = 0; k < symbols_.modes.count(); ++k)
       size = std::max(size, symbols_.S.symbol(symbols_.modes[k]).cwiseAbs().maxCoeff());
+    size = space_.max(size);
     for (Index k = 0; k < symbols_.modes.count(); ++k) {
       const Block S = symbols_.S.symbol(symbols_.modes[k]);
       // |det S| ≤ σ_min · (m · size)^{m−1}: a determinant above this has no singular value below 1e-13 · size.
@@ -321,6 +323,7 @@ class ModalPhi final : public PhiEvaluator {
         if (svd.singularValues()[i] <= 1e-13 * size) projector += svd.matrixV().col(i) * svd.matrixV().col(i).adjoint();
       if (!projector.isZero(0)) casimirs_.push_back({k, projector});
     }
+    has_casimirs_ = space_.any(!casimirs_.empty());
   }
 
   struct Casimir {
@@ -333,7 +336,8 @@ class ModalPhi final : public PhiEvaluator {
   ModeBlockArrays blocks_{extent_.modes, extent_.fields, symbols_.are_real()};
   double rate_ = 0;
   Dissipation dissipation_;
-  std::vector<Casimir> casimirs_;
+  std::vector<Casimir> casimirs_;  // those that are here
+  bool has_casimirs_ = false;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <seiche/backend/modal/modal_propagator.hpp>
 #include <seiche/backend/modal/mode_kernels.hpp>
+#include <seiche/backend/modal/unit_blocks.hpp>
 #include <seiche/core/simd/parallel.hpp>
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 
 using namespace mode_kernels;
 
-constexpr Index block_slots = 8192;  // of one thread's share; part of what fixes the order of sums
+constexpr Index block_slots = 8192;  // of one thread's share
 
 template <class S>
 class FusedPropagator final : public Propagator {
@@ -26,8 +27,7 @@ class FusedPropagator final : public Propagator {
         maps_(std::move(maps)),
         step_(with_maps(maps_.F)),
         middle_(with_maps(maps_.Q)),
-        sums_(static_cast<std::size_t>(blocks_)),
-        recalled_(sums_.size()) {}
+        of_units_(space.slots(), block_slots) {}
 
   void increment(const Vector& z, Vector& dz) const override {
     Operands<S> o = step_;
@@ -55,27 +55,16 @@ class FusedPropagator final : public Propagator {
     }
     middle_.weight = g.weight;
     middle_.ratio = g.ratio;
-    for_blocks(blocks_, threads_, [&](Index block) {
-      recalled_[static_cast<std::size_t>(block)] =
-          mode_kernels::sums_of<RecallLanes, S>(middle_, begin(block), end(block));
-    });
-    RecallSums total;
-    for (const RecallSums& part : recalled_) total += part;
-    std::array sums = {total.missed, total.moved};
-    space_.sum(sums);
+    std::array<double, 2> sums{};
+    add_up<RecallLanes>(middle_, sums);
     recalled = {.missed = sums[0], .moved = sums[1]};
     return true;
   }
 
   Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
     point(step_, z, &f, nullptr, before);
-    for_blocks(blocks_, threads_, [&](Index block) {
-      sums_[static_cast<std::size_t>(block)] = mode_kernels::sums_of<PowerLanes, S>(step_, begin(block), end(block));
-    });
-    PowerSums total;
-    for (const PowerSums& part : sums_) total += part;
-    std::array sums = {total.of_increment, total.of_force, total.twice_energy};
-    space_.sum(sums);
+    std::array<double, 3> sums{};
+    add_up<PowerLanes>(step_, sums);
     return {.of_increment = sums[0], .of_force = sums[1], .quadratic_energy = sums[2] / 2};
   }
   void update(Vector& z, const Vector& f, double c, FieldFactors before, FieldFactors after) const override {
@@ -111,6 +100,12 @@ class FusedPropagator final : public Propagator {
     for (std::size_t i = 0; i < factors.size(); ++i) factors[i] = given.empty() ? 1.0 : given[i];
   }
 
+  template <template <class, class> class LanesOf>
+  void add_up(const Operands<S>& o, std::span<double> totals) const {
+    of_units_.add(space_, threads_, totals, [&](Index begin, Index end, std::span<double> sums) {
+      mode_kernels::sums_of<LanesOf, S>(o, begin, end).write_to(sums);
+    });
+  }
   template <class Verb>
   void run_over(const Operands<S>& o) const {
     for_blocks(blocks_, threads_, [&](Index block) { run<Verb, S>(o, begin(block), end(block)); });
@@ -122,8 +117,7 @@ class FusedPropagator final : public Propagator {
   const ModalMetric& metric_;
   ModalForceMaps maps_;
   mutable Operands<S> step_, middle_;  // with F, and with Q
-  mutable std::vector<PowerSums> sums_;
-  mutable std::vector<RecallSums> recalled_;
+  UnitBlocks of_units_;
 };
 
 using Make = std::unique_ptr<Propagator> (*)(const Space&, const ModalExtent&, const ModalMetric&, ModalForceMaps);

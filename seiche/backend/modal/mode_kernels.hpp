@@ -6,6 +6,7 @@
 #include <seiche/core/simd/multiversion.hpp>
 
 #include <array>
+#include <span>
 
 namespace seiche::mode_kernels {
 
@@ -129,6 +130,11 @@ struct PowerSums {
     twice_energy += other.twice_energy;
     return *this;
   }
+  void write_to(std::span<double> sums) const {
+    sums[0] = of_increment;
+    sums[1] = of_force;
+    sums[2] = twice_energy;
+  }
 };
 
 // fᵀFMz⁻, fᵀFf and z⁻ᵀMz⁻ of one chunk, lane by lane.
@@ -157,6 +163,10 @@ struct RecallSums {
     missed += other.missed;
     moved += other.moved;
     return *this;
+  }
+  void write_to(std::span<double> sums) const {
+    sums[0] = missed;
+    sums[1] = moved;
   }
 };
 

@@ -10,7 +10,7 @@
 namespace seiche {
 namespace {
 
-constexpr Index chunks_per_block = 1024;  // of one thread's share; part of what fixes the order of sums
+constexpr Index chunks_per_block = 1024;  // of one thread's share
 constexpr Index max_columns = 40;         // the inputs of eight slots wait in the first-level cache
 constexpr int unrolled_columns = 8;
 constexpr std::size_t max_forms = 4;
@@ -192,25 +192,30 @@ void ModeTable::apply(std::span<const double* const> in, std::span<double* const
   });
 }
 
-ModeForms::ModeForms(ModeLayout layout, Index modes, Index forms, Index columns)
-    : columns_(checked_columns(columns)), forms_(forms), factors_(layout, modes, forms * columns * (columns + 1) / 2) {
+ModeForms::ModeForms(ModeLayout layout, Index modes, Index forms, Index columns, const Space& space)
+    : columns_(checked_columns(columns)),
+      forms_(forms),
+      factors_(layout, modes, forms * columns * (columns + 1) / 2),
+      space_(space),
+      blocks_(space.slots(), chunks_per_block * lane_count) {
   if (static_cast<std::size_t>(forms) > max_forms)
     throw Error("up to {} forms are taken at a time, and here there are {}", max_forms, forms);
-  sums_.resize(static_cast<std::size_t>(blocks_of(factors_) * forms));
 }
 
 void ModeForms::set(Index mode, Index form, Index i, Index j, std::complex<double> factor) {
   factors_.set(mode, entry(form, i, j), i == j ? factor : 2.0 * factor);  // once for both sides
 }
 
+// Units begin at whole chunks (units_in_eights).
 void ModeForms::apply(std::span<const double* const> in, std::span<double> values, int threads) const {
-  const auto forms = static_cast<std::size_t>(forms_);
-  over_blocks(factors_, threads, [&]<ModeLayout layout>(Index block, Index first, Index last) {
-    const std::span<double> sums(sums_.data() + static_cast<std::size_t>(block) * forms, forms);
-    with_columns(columns_, [&]<int known>() { sum_forms<layout, known>(factors_, in, first, last, sums); });
-  });
-  std::fill(values.begin(), values.end(), 0.0);
-  for (std::size_t i = 0; i < sums_.size(); ++i) values[i % forms] += sums_[i];
+  blocks_.add(space_, threads, values.first(static_cast<std::size_t>(forms_)),
+              [&](Index begin, Index end, std::span<double> sums) {
+                const Index first = begin / lane_count, last = (end + lane_count - 1) / lane_count;
+                with_layout(factors_.layout(), [&]<ModeLayout layout>() {
+                  with_columns(columns_,
+                               [&]<int known>() { sum_forms<layout, known>(factors_, in, first, last, sums); });
+                });
+              });
 }
 
 }  // namespace seiche

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/backend/modal/mode_arrays.hpp>
+#include <seiche/backend/modal/unit_blocks.hpp>
 #include <seiche/core/simd/lanes.hpp>
 
 #include <complex>
@@ -71,7 +72,8 @@ class ModeTable {
 // Hermitian forms, several of the same inputs.
 class ModeForms {
  public:
-  ModeForms(ModeLayout layout, Index modes, Index forms, Index columns);
+  // `space` outlives it.
+  ModeForms(ModeLayout layout, Index modes, Index forms, Index columns, const Space& space);
   // i ≤ j: the factor of (j, i) is its conjugate.
   void set(Index mode, Index form, Index i, Index j, std::complex<double> factor);
   [[gnu::always_inline]] inline void set_eight(Index first, Index form, Index i, Index j, const Lanes& re,
@@ -79,7 +81,7 @@ class ModeForms {
     const double sides = i == j ? 1.0 : 2.0;
     factors_.set_eight(first, entry(form, i, j), sides * re, sides * im);
   }
-  // values[l] ← Σ_modes Re Σ_ij x̄_i factor_l(i, j) x_j, in an order that does not depend on the threads
+  // values[l] ← Σ_modes Re Σ_ij x̄_i factor_l(i, j) x_j, over all processes
   void apply(std::span<const double* const> in, std::span<double> values, int threads) const;
 
  private:
@@ -89,7 +91,8 @@ class ModeForms {
 
   Index columns_, forms_;
   ModeFactors factors_;
-  mutable std::vector<double> sums_;
+  const Space& space_;
+  UnitBlocks blocks_;
 };
 
 }  // namespace seiche

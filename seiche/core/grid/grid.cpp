@@ -4,15 +4,26 @@
 
 namespace seiche {
 
+Slab Grid::slab() const {
+  const Index planes = axis(0).unknowns();
+  return dimension() > 1 ? slab_of({planes}, here) : Slab{0, planes};
+}
+
+Grid Grid::whole() const {
+  Grid grid = *this;
+  grid.here = {};
+  return grid;
+}
+
 Index Grid::unknowns() const {
-  Index n = 1;
-  for (const GridAxis& a : axes) n *= a.unknowns();
+  Index n = slab().planes;
+  for (Index a = 1; a < dimension(); ++a) n *= axis(a).unknowns();
   return n;
 }
 
 double Grid::coordinate(Index point, Index a) const {
   for (Index b = dimension() - 1; b > a; --b) point /= axis(b).unknowns();
-  return axis(a).x(point % axis(a).unknowns());
+  return axis(a).x(a == 0 ? slab().first + point : point % axis(a).unknowns());
 }
 
 Place Grid::place(Index point) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/base/vector.hpp>
+#include <seiche/core/grid/units.hpp>
 
 #include <array>
 #include <vector>
@@ -40,10 +41,16 @@ struct Grid {
   // `supports`, which do not move.
   std::vector<Place> supports = {};
   std::vector<std::array<Index, 2>> bars = {};
+  // Of several processes each holds a slab of planes along axis 0, whose points alone are counted and placed. One axis
+  // is not cut.
+  Rank here = {};
+
+  Slab slab() const;  // of axis 0
+  Grid whole() const;
 
   Index dimension() const { return static_cast<Index>(axes.size()); }
   const GridAxis& axis(Index a) const { return axes[static_cast<std::size_t>(a)]; }
-  Index unknowns() const;
+  Index unknowns() const;                         // here
   double coordinate(Index point, Index a) const;  // of unknown `point` along axis a
   Place place(Index point) const;
   bool is_periodic() const;  // along every axis

@@ -14,7 +14,8 @@ struct Mode {
 };
 
 // Periodic along every axis: complex exponentials, ⌊N/2⌋ + 1 of them along the last axis (the others follow by
-// conjugation), each a pair of slots (Re, Im). Otherwise: products of cosines and sines, one real slot each.
+// conjugation), each a pair of slots (Re, Im). Otherwise: products of cosines and sines, one real slot each. Axis 1
+// runs slowest where there is one, then axis 0, then axis 2: a transform along axis 0, its last, turns the two.
 class Modes {
  public:
   explicit Modes(const Grid& grid);
@@ -22,6 +23,10 @@ class Modes {
   bool are_pairs() const { return pairs_; }
   Index slots() const { return pairs_ ? 2 * count_ : count_; }
   Mode operator[](Index index) const;
+  // Of planes along axis 1, of which this process holds a slab; one plane where there is one axis.
+  const Units& units() const { return units_; }  // here
+  Slab slab_of_rank(int rank) const;             // of any process
+  Index plane() const { return plane_; }         // slots
 
  private:
   Mode first_;  // periods
@@ -29,6 +34,9 @@ class Modes {
   std::array<Boundary, 3> boundaries_{};
   Index dimension_;
   bool pairs_;
+  Rank here_;
+  Units whole_, units_;
+  Index plane_ = 1, first_plane_ = 0;
   Index count_ = 1;
 };
 

@@ -21,6 +21,6 @@ SEICHE_MULTIVERSION double sum_of_squares(const double* x, Index n) {
 
 }  // namespace
 
-double squared_norm(const Vector& z) { return sum_of_squares(z.data(), z.size()); }
+double squared_norm(const double* x, Index n) { return sum_of_squares(x, n); }
 
 }  // namespace seiche

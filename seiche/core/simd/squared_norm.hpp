@@ -5,7 +5,7 @@
 
 namespace seiche {
 
-// |z|² in a fixed order of sums, by the widest vectors of the machine. NaN and ∞ where z holds them.
-double squared_norm(const Vector& z);
+// |x|² in a fixed order of sums, by the widest vectors of the machine. NaN and ∞ where x holds them.
+double squared_norm(const double* x, Index n);
 
 }  // namespace seiche

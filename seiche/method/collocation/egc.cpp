@@ -84,7 +84,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     const double displacement = projected_.last().displacement - projected_.last().blur;
     if (displacement <= of_forces) return of_forces;
     system_.space->to_physical(s.z, physical_);
-    const double share = space().max_norm(physical_) / space().norm(physical_);
+    const double share = space().max_norm(physical_) / space().norm_of_values(physical_);
     return std::max(of_forces, displacement * (std::isfinite(share) ? share : 1.0));
   }
 

@@ -9,14 +9,14 @@
 namespace seiche {
 namespace {
 
-// `count` outputs at a time, whose sums the registers hold; squares[i] ← ‖out[i]‖².
+// `count` outputs at a time, whose sums the registers hold; squares[i] += ‖out[i]‖² of this part.
 template <int count>
 SEICHE_MULTIVERSION void combine_some(const double* weights, Index weight_stride, const double* const* in, Index inputs,
-                                      Index size, double* const* out, double* squares) {
+                                      Index begin, Index end, double* const* out, double* squares) {
   std::array<Lanes, count> lanes{};
   std::array<double, count> rest{};
-  Index k = 0;
-  for (; k + lane_count <= size; k += lane_count) {
+  Index k = begin;
+  for (; k + lane_count <= end; k += lane_count) {
     std::array<Lanes, count> sums{};
     for (Index j = 0; j < inputs; ++j) {
       const Lanes x = load<Lanes>(in[j] + k);
@@ -27,7 +27,7 @@ SEICHE_MULTIVERSION void combine_some(const double* weights, Index weight_stride
       lanes[i] += sums[i] * sums[i];
     }
   }
-  for (; k < size; ++k) {
+  for (; k < end; ++k) {
     for (int i = 0; i < count; ++i) {
       double value = 0;
       for (Index j = 0; j < inputs; ++j) value += weights[i + j * weight_stride] * in[j][k];
@@ -35,7 +35,7 @@ SEICHE_MULTIVERSION void combine_some(const double* weights, Index weight_stride
       rest[i] += value * value;
     }
   }
-  for (int i = 0; i < count; ++i) squares[i] = sum(lanes[i]) + rest[i];
+  for (int i = 0; i < count; ++i) squares[i] += sum(lanes[i]) + rest[i];
 }
 
 SEICHE_MULTIVERSION double squared_distance(const double* a, const double* b, Index size) {
@@ -60,6 +60,7 @@ double combine(const Space& space, const Eigen::MatrixXd& weights, std::span<con
   std::array<const double*, most_in> from{};
   std::array<double*, most> to{};
   std::array<double, most> squares{};
+  const Space::Field field = space.slots();
   for (std::size_t j = 0; j < in.size(); ++j) from[j] = in[j].data() + begin;
   double largest = 0;
   for (Index first = 0; first < weights.rows(); first += most) {
@@ -67,8 +68,14 @@ double combine(const Space& space, const Eigen::MatrixXd& weights, std::span<con
     for (Index i = 0; i < count; ++i)
       to[static_cast<std::size_t>(i)] = out[static_cast<std::size_t>(first + i)].data() + begin;
     const auto some = [&]<int known>() {
-      combine_some<known>(weights.data() + first, weights.rows(), from.data(), weights.cols(), size, to.data(),
-                          squares.data());
+      const auto of_unit = [&](Index unit, std::span<double> sums) {
+        std::fill(sums.begin(), sums.end(), 0.0);
+        field.for_parts(size, unit, [&](Index at, Index length) {
+          combine_some<known>(weights.data() + first, weights.rows(), from.data(), weights.cols(), at, at + length,
+                              to.data(), sums.data());
+        });
+      };
+      space.add(field.units, of_unit, std::span(squares).first(known));
     };
     switch (count) {
       case 1: some.operator()<1>(); break;
@@ -76,7 +83,6 @@ double combine(const Space& space, const Eigen::MatrixXd& weights, std::span<con
       case 3: some.operator()<3>(); break;
       default: some.operator()<4>(); break;
     }
-    space.sum({squares.data(), static_cast<std::size_t>(count)});
     for (Index i = 0; i < count; ++i) {
       const double square = squares[static_cast<std::size_t>(i)];
       largest = square <= largest ? largest : square;  // NaN counts as the largest
@@ -86,7 +92,14 @@ double combine(const Space& space, const Eigen::MatrixXd& weights, std::span<con
 }
 
 double distance(const Space& space, const Vector& whole, Index begin, const Vector& b) {
-  return std::sqrt(space.sum(squared_distance(whole.data() + begin, b.data(), b.size())));
+  const Space::Field field = space.slots();
+  return std::sqrt(space.total(field.units, [&](Index unit) {
+    double sum = 0;
+    field.for_parts(b.size(), unit, [&](Index at, Index length) {
+      sum += squared_distance(whole.data() + begin + at, b.data() + at, length);
+    });
+    return sum;
+  }));
 }
 
 }  // namespace seiche

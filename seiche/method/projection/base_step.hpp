@@ -1,7 +1,6 @@
 // A step without a law, for Projected to end with one.
 #pragma once
 
-#include <seiche/core/simd/squared_norm.hpp>
 #include <seiche/core/space.hpp>
 #include <seiche/core/state.hpp>
 #include <seiche/method/projection/step_dissipation.hpp>
@@ -16,7 +15,7 @@ namespace seiche {
 // solution that has faded until its square underflows is one.
 inline bool may_be_solution(const Space& space, const Vector& z, double size) {
   constexpr double gross_growth = 1e3;
-  const double grown = space.sum(squared_norm(z));
+  const double grown = space.squared_norm(z);
   return std::isfinite(grown) && (grown < std::numeric_limits<double>::min() || grown <= square(gross_growth * size));
 }
 

@@ -1,4 +1,3 @@
-#include <seiche/core/simd/squared_norm.hpp>
 #include <seiche/method/projection/energy_projection.hpp>
 
 #include <algorithm>
@@ -81,7 +80,7 @@ bool EnergyProjection::is_there(const EnergyTarget& aim) {
 
 bool EnergyProjection::moved_far(const Outcome& outcome, const Vector& z) const {
   if (std::abs(outcome.computed - outcome.H) <= 0.01 * std::abs(outcome.H - rest_)) return false;  // saves the norm
-  return system_.space->sum(squared_norm(z)) < square(10 * outcome.displacement);
+  return system_.space->squared_norm(z) < square(10 * outcome.displacement);
 }
 
 // z from `here` on its line to where H is what it should be; false, with z as it was, if the secant iteration does not

@@ -1,5 +1,4 @@
 #include <seiche/core/base/error.hpp>
-#include <seiche/core/simd/squared_norm.hpp>
 #include <seiche/core/text/number_text.hpp>
 #include <seiche/method/projection/energy_interval.hpp>
 #include <seiche/method/projection/projected.hpp>
@@ -210,7 +209,7 @@ bool Projected::has_grown_beyond_reason(const EnergyProjection::Outcome& outcome
 // s is still as it was before the step, and z_ what it is to become.
 void Projected::note_replaced(StepReport& report, const State& s, std::string_view why) const {
   constexpr double least = 0.1;
-  const bool lost_state = system_.space->sum(squared_norm(z_)) < square(least) * system_.space->sum(squared_norm(s.z));
+  const bool lost_state = system_.space->squared_norm(z_) < square(least) * system_.space->squared_norm(s.z);
   report.replaced = {.count = 1,
                      .lost_state = report.replaced.lost_state || lost_state,
                      .why = why,

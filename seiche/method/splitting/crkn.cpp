@@ -266,7 +266,7 @@ class FewPasses final : public Nystrom {
     const Kicks::Report report = kicks_->split(stages_.at(h), b.back() * h, s.z, z);
     set_taken(space().sum(report.taken));
     // |p| and |p − b₀hF| bound b₀h|F|. That is looser than |zⁿ| + h|F|, and costs no pass of its own.
-    const double before = std::sqrt(space().sum(squared_norm(s.z)));
+    const double before = std::sqrt(space().squared_norm(s.z));
     return may_be_solution(space(), z, before + (before + std::sqrt(space().sum(report.kicked))) / std::abs(b[0]));
   }
 

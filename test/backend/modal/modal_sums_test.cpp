@@ -26,6 +26,12 @@ class HeldTwice final : public Space {
   void sum(std::span<double> local) const override {
     for (double& x : local) x *= 2;
   }
+  Field slots() const override { return here_.slots(); }
+  Field values() const override { return here_.values(); }
+  void add_units(std::span<const double> sums, std::span<double> totals) const override {
+    Space::add_units(sums, totals);
+    sum(totals);
+  }
 
  private:
   const Space& here_;

@@ -1,6 +1,7 @@
 // φ-functions of eight modes at a time, where neighbouring lanes differ by many orders of magnitude and eigenvalues
 // meet.
 #include <test/support/matrices.hpp>
+#include <test/support/plain_space.hpp>
 
 #include <seiche/backend/modal/mode_phi.hpp>
 #include <seiche/backend/phi/force_map.hpp>
@@ -135,7 +136,8 @@ TEST(ModePhi, SumsOfAnyNumberOfColumnsAreSums) {
         const Eigen::MatrixXd in = Eigen::MatrixXd::Random(slots, columns);
         const Eigen::MatrixXcd factors = Eigen::MatrixXcd::Random(modes, columns);
         ModeTable table(layout, modes, 1, columns);
-        ModeForms forms(layout, modes, 1, columns);
+        const PlainSpace space(slots);
+        ModeForms forms(layout, modes, 1, columns, space);
         std::vector<const double*> from;
         for (Index j = 0; j < columns; ++j) {
           from.push_back(in.col(j).data());

@@ -1,0 +1,53 @@
+#include <seiche/backend/fft/crossing.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace seiche {
+namespace {
+
+std::size_t sum_of(const std::vector<Index>& counts) {
+  return static_cast<std::size_t>(std::accumulate(counts.begin(), counts.end(), Index{0}));
+}
+
+}  // namespace
+
+Crossing::Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Index size_of_rows)
+    : ranks_(ranks), planes_(grid.slab().planes) {
+  const Index middle = modes.plane() / grid.axis(0).unknowns();  // numbers of one k along axis 1 in a plane of rows
+  const Index planes_of_columns = modes.units().planes;
+  for (int rank = 0; rank < grid.here.count; ++rank) {
+    const Slab theirs = modes.slab_of_rank(rank);
+    first_.push_back(theirs.first * middle);
+    piece_.push_back(theirs.planes * middle);
+    of_rows_.push_back(planes_ * piece_.back());
+    Grid there = grid;
+    there.here.index = rank;
+    of_columns_.push_back(there.slab().planes * planes_of_columns * middle);
+  }
+  row_ = planes_ > 0 ? size_of_rows / planes_ : 0;
+  packed_ = fftw_buffer(static_cast<std::size_t>(size_of_rows));
+  columns_ = fftw_buffer(sum_of(of_columns_));
+}
+
+template <class Visit>
+void Crossing::for_pieces(const Visit& visit) const {
+  Index at = 0;
+  for (std::size_t rank = 0; rank < piece_.size(); ++rank)
+    for (Index plane = 0; plane < planes_; ++plane, at += piece_[rank])
+      visit(packed_.get() + at, plane * row_ + first_[rank], piece_[rank]);
+}
+
+double* Crossing::to_modes(const double* rows) const {
+  for_pieces([&](double* packed, Index in_rows, Index count) { std::copy_n(rows + in_rows, count, packed); });
+  ranks_.exchange({packed_.get(), sum_of(of_rows_)}, of_rows_, {columns_.get(), sum_of(of_columns_)}, of_columns_);
+  return columns_.get();
+}
+
+void Crossing::to_values(double* rows) const {
+  ranks_.exchange({columns_.get(), sum_of(of_columns_)}, of_columns_, {packed_.get(), sum_of(of_rows_)}, of_rows_);
+  for_pieces([&](const double* packed, Index in_rows, Index count) { std::copy_n(packed, count, rows + in_rows); });
+}
+
+}  // namespace seiche

@@ -1,0 +1,32 @@
+// From planes along axis 0 to planes along axis 1, and back: the one exchange of all processes with all.
+#pragma once
+
+#include <seiche/backend/fft/fftw_plan.hpp>
+#include <seiche/core/grid/modes.hpp>
+#include <seiche/core/grid/ranks.hpp>
+
+#include <vector>
+
+namespace seiche {
+
+// Rows lie as axis 0 here × axis 1 × the rest, columns as axis 0 × axis 1 here × the rest.
+class Crossing {
+ public:
+  Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Index size_of_rows);
+  double* columns() const { return columns_.get(); }
+  double* to_modes(const double* rows) const;  // the columns, of these rows
+  void to_values(double* rows) const;          // the rows, of the columns
+
+ private:
+  // visit(where in packed_, at which number of the rows, how many numbers): plane by plane what goes to each process.
+  template <class Visit>
+  void for_pieces(const Visit& visit) const;
+
+  const Ranks& ranks_;
+  Index planes_, row_ = 0;                   // along axis 0 here; numbers of one plane of rows
+  std::vector<Index> first_, piece_;         // of a plane of rows: where the part of each process begins, and its size
+  std::vector<Index> of_rows_, of_columns_;  // what goes to each process, and what comes from it
+  FftwBuffer packed_, columns_;
+};
+
+}  // namespace seiche

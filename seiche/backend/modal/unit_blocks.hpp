@@ -1,0 +1,50 @@
+// Slots of a field in blocks for loops that add up, unit by unit.
+#pragma once
+
+#include <seiche/core/simd/parallel.hpp>
+#include <seiche/core/space.hpp>
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace seiche {
+
+class UnitBlocks {
+ public:
+  // Of `field`, in blocks of at most `most` slots.
+  UnitBlocks(const Space::Field& field, Index most) {
+    for (Index unit = 0; unit < field.units.count(); ++unit) {
+      for (Index begin = field.begin(unit); begin < field.end(unit); begin += most)
+        blocks_.push_back({unit, begin, std::min(begin + most, field.end(unit))});
+    }
+    units_ = field.units.count();
+  }
+
+  // Of body(begin, end, sums), which is called on several threads and writes as many sums as there are totals: the same
+  // for every number of threads and processes.
+  template <class Body>
+  void add(const Space& space, int threads, std::span<double> totals, const Body& body) const {
+    const std::size_t k = totals.size();
+    parts_.resize(blocks_.size() * k);
+    sums_.assign(static_cast<std::size_t>(units_) * k, 0.0);
+    for_blocks(static_cast<Index>(blocks_.size()), threads, [&](Index block) {
+      const auto at = static_cast<std::size_t>(block);
+      body(blocks_[at].begin, blocks_[at].end, std::span(parts_).subspan(at * k, k));
+    });
+    for (std::size_t at = 0; at < blocks_.size(); ++at)
+      for (std::size_t i = 0; i < k; ++i)
+        sums_[static_cast<std::size_t>(blocks_[at].unit) * k + i] += parts_[at * k + i];
+    space.add_units(sums_, totals);
+  }
+
+ private:
+  struct Block {
+    Index unit, begin, end;
+  };
+  std::vector<Block> blocks_;
+  Index units_ = 0;
+  mutable std::vector<double> parts_, sums_;  // scratch
+};
+
+}  // namespace seiche

@@ -1,0 +1,26 @@
+// The processes that hold one state together.
+#pragma once
+
+#include <seiche/core/grid/units.hpp>
+
+#include <span>
+#include <vector>
+
+namespace seiche {
+
+// Each call is one of all processes, and returns on all of them what is the same for all, but for `exchange`. Where one
+// process has failed, the others do not wait for it: calls throw Error then.
+class Ranks {
+ public:
+  virtual ~Ranks() = default;
+  virtual Rank here() const = 0;
+  virtual void sum(std::span<double> numbers) const = 0;  // in the order of ranks
+  virtual void max(std::span<double> numbers) const = 0;
+  // all ← what each process holds, in the order of ranks.
+  virtual void gather(std::span<const double> mine, std::vector<double>& all) const = 0;
+  // To each process the next sent[r] numbers of `from`, and from each the next received[r] of `to`.
+  virtual void exchange(std::span<const double> from, std::span<const Index> sent, std::span<double> to,
+                        std::span<const Index> received) const = 0;
+};
+
+}  // namespace seiche
