@@ -11,7 +11,7 @@ Vector Space::physical(const Vector& z) const {
   return values;
 }
 
-void Space::add_units(std::span<const double> sums, std::span<double> totals) const {
+void Space::add_units(const Units&, std::span<const double> sums, std::span<double> totals) const {
   for (std::size_t i = 0; i < totals.size(); ++i) {
     LongSum total;
     for (std::size_t at = i; at < sums.size(); at += totals.size()) total.add(sums[at]);
@@ -19,14 +19,14 @@ void Space::add_units(std::span<const double> sums, std::span<double> totals) co
   }
 }
 
-void Space::add(Units units, FunctionRef<void(Index unit, std::span<double> sums)> of_unit,
+void Space::add(const Units& units, FunctionRef<void(Index unit, std::span<double> sums)> of_unit,
                 std::span<double> totals) const {
   const std::size_t k = totals.size();
   thread_local std::vector<double> sums;  // no step allocates
   sums.resize(static_cast<std::size_t>(units.count()) * k);
   for (Index unit = 0; unit < units.count(); ++unit)
     of_unit(unit, std::span(sums).subspan(static_cast<std::size_t>(unit) * k, k));
-  add_units(sums, totals);
+  add_units(units, sums, totals);
 }
 
 }  // namespace seiche

@@ -40,7 +40,7 @@ class Space {
     // visit(begin, length) of the parts of a vector of so many numbers that belong to a unit.
     template <class Visit>
     void for_parts(Index numbers, Index unit, const Visit& visit) const {
-      if (units.count() == 1) return visit(Index{0}, numbers);
+      if (Units{.planes = units.of, .size = units.size}.count() == 1) return visit(Index{0}, numbers);
       for (Index at = 0; at < numbers; at += size) visit(at + begin(unit), end(unit) - begin(unit));
     }
   };
@@ -48,7 +48,7 @@ class Space {
   virtual Field values() const { return {physical_size()}; }
   // Totals over all processes of sums over the units that this one holds, `totals.size()` side by side for each: added
   // in the order of units, they do not depend on how many processes there are.
-  virtual void add_units(std::span<const double> sums, std::span<double> totals) const;
+  virtual void add_units(const Units& units, std::span<const double> sums, std::span<double> totals) const;
 
   double sum(double local) const {
     sum({&local, 1});
@@ -58,12 +58,14 @@ class Space {
     max({&local, 1});
     return local;
   }
+  Index size_of_all() const { return static_cast<Index>(sum(static_cast<double>(size()))); }  // the numbers of z
   bool any(bool local) const { return max(local ? 1.0 : 0.0) != 0; }
   bool all(bool local) const { return max(local ? 0.0 : 1.0) == 0; }
 
-  // Of what `of_unit` says of each unit, in as many numbers as there are totals.
-  void add(Units units, FunctionRef<void(Index unit, std::span<double> sums)> of_unit, std::span<double> totals) const;
-  double total(Units units, FunctionRef<double(Index unit)> of_unit) const {
+  // Of what `of_unit` says of each unit, in as many numbers as there are totals; it adds up nothing itself.
+  void add(const Units& units, FunctionRef<void(Index unit, std::span<double> sums)> of_unit,
+           std::span<double> totals) const;
+  double total(const Units& units, FunctionRef<double(Index unit)> of_unit) const {
     double total = 0;
     add(units, [&](Index unit, std::span<double> sum) { sum[0] = of_unit(unit); }, {&total, 1});
     return total;

@@ -27,7 +27,7 @@ class AdaptiveLoop {
         controller_(stepper.order(), options.tolerance),
         events_(options.events),
         checkpoints_(options.resumption.checkpoints),
-        pace_(state.t, options.t_end, system.space->size()),
+        pace_(state.t, options.t_end, system.space->size_of_all()),
         time_(state.t),
         size_(system.space->max_norm(system.space->physical(state.z))) {
     if (options.tolerance < 1e-14 * size_)

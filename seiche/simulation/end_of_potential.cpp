@@ -146,6 +146,7 @@ std::string on_line(const Problem& problem, const System& system, const Vector& 
 
 std::string end_of_potential(const Problem& problem, const System& system, const Vector& initial, const State& s,
                              double h) {
+  if (problem.grid.here.count > 1) return "";  // the line ahead is followed on one process alone
   if (!problem.potential || initial.size() != problem.size() || !system.space->is_finite(s.z)) return "";
   try {
     return on_line(problem, system, initial, s, h);

@@ -27,6 +27,12 @@ bool kicks_suit(const SimulationOptions& options) {
 
 const BackendEntry& choose_backend(const SimulationOptions& options, const Problem& problem,
                                    const MethodOptions& method_options) {
+  if (options.backend_options.ranks != nullptr) {
+    if (options.backend != "auto" && options.backend != "modal")
+      throw Error("only the modal backend runs on several processes, and not \"{}\"; write backend = \"modal\"",
+                  options.backend);
+    return find_backend("modal");
+  }
   if (options.backend != "auto") return find_backend(options.backend);
   return automatic_backend(problem, method_options.linear == LinearTreatment::explicit_kicks && kicks_suit(options));
 }
@@ -35,6 +41,7 @@ const BackendEntry& choose_backend(const SimulationOptions& options, const Probl
 // matrices.
 bool may_choose_kicks(const SimulationOptions& options, const Problem& problem, const BackendEntry& backend) {
   constexpr Index most_unknowns = Index{1} << 23;
+  if (options.backend_options.ranks != nullptr) return false;
   if (backend.exponentials_by_krylov) return kicks_suit(options);
   return options.backend == "auto" && kicks_suit(options) && options.backend_options.threads == 1 &&
          problem.size() <= most_unknowns && &automatic_backend(problem, true) != &backend;

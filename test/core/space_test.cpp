@@ -22,8 +22,8 @@ class HeldTwice final : public Space {
   void sum(std::span<double> local) const override {
     for (double& x : local) x *= 2;
   }
-  void add_units(std::span<const double> sums, std::span<double> totals) const override {
-    Space::add_units(sums, totals);
+  void add_units(const Units& units, std::span<const double> sums, std::span<double> totals) const override {
+    Space::add_units(units, sums, totals);
     sum(totals);
   }
   void max(std::span<double> local) const override {

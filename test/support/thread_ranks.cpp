@@ -75,13 +75,18 @@ class ThreadRanks final : public Ranks {
     reduce("sum", numbers, [](double a, double b) { return a + b; });
   }
   void max(std::span<double> numbers) const override {
-    reduce("max", numbers, [](double a, double b) { return std::max(a, b); });
+    reduce("max", numbers, [](double a, double b) { return b <= a ? a : b; });
   }
-  void gather(std::span<const double> mine, std::vector<double>& all) const override {
-    meet({"gather", mine, {}}, [&] {
-      all.clear();
-      for (int r = 0; r < meeting_.count(); ++r)
-        all.insert(all.end(), meeting_.of(r).from.begin(), meeting_.of(r).from.end());
+  void gather(std::span<const double> mine, std::span<const Index> counts, std::span<double> all) const override {
+    meet({fmt::format("gather of {}", fmt::join(counts, ", ")), mine, {}}, [&] {
+      auto to = all.begin();
+      for (int r = 0; r < meeting_.count(); ++r) {
+        const std::span<const double> theirs = meeting_.of(r).from;
+        if (std::ssize(theirs) != counts[static_cast<std::size_t>(r)])
+          throw Error("rank {} gives {} numbers, and {} are expected", r, theirs.size(),
+                      counts[static_cast<std::size_t>(r)]);
+        to = std::copy(theirs.begin(), theirs.end(), to);
+      }
       if (rank_ == 0) ++meeting_.traffic.reductions;
     });
   }

@@ -13,7 +13,7 @@ class Batches {
  public:
   Batches(Index lines, Index width) : lines_(lines), width_(std::clamp<Index>(lines, 1, width)) {
     const Index over = lines_ % width_;
-    count_ = lines_ / width_ + (over > 1 || (over == 1 && lines_ < width_) ? 1 : 0);
+    count_ = lines_ / width_ + (over > 1 ? 1 : 0);
   }
   Index count() const { return count_; }
   Index width() const { return width_; }

@@ -1,4 +1,5 @@
 #include <seiche/backend/fft/crossing.hpp>
+#include <seiche/core/simd/parallel.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -13,8 +14,8 @@ std::size_t sum_of(const std::vector<Index>& counts) {
 
 }  // namespace
 
-Crossing::Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Index size_of_rows)
-    : ranks_(ranks), planes_(grid.slab().planes) {
+Crossing::Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Index size_of_rows, int threads)
+    : ranks_(ranks), threads_(threads), planes_(grid.slab().planes) {
   const Index middle = modes.plane() / grid.axis(0).unknowns();  // numbers of one k along axis 1 in a plane of rows
   const Index planes_of_columns = modes.units().planes;
   for (int rank = 0; rank < grid.here.count; ++rank) {
@@ -33,10 +34,13 @@ Crossing::Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Ind
 
 template <class Visit>
 void Crossing::for_pieces(const Visit& visit) const {
-  Index at = 0;
-  for (std::size_t rank = 0; rank < piece_.size(); ++rank)
-    for (Index plane = 0; plane < planes_; ++plane, at += piece_[rank])
-      visit(packed_.get() + at, plane * row_ + first_[rank], piece_[rank]);
+  for_blocks(planes_, threads_, [&](Index plane) {
+    Index at = 0;  // of what goes to each process
+    for (std::size_t rank = 0; rank < piece_.size(); ++rank) {
+      visit(packed_.get() + at + plane * piece_[rank], plane * row_ + first_[rank], piece_[rank]);
+      at += planes_ * piece_[rank];
+    }
+  });
 }
 
 double* Crossing::to_modes(const double* rows) const {

@@ -12,7 +12,7 @@ namespace seiche {
 // Rows lie as axis 0 here × axis 1 × the rest, columns as axis 0 × axis 1 here × the rest.
 class Crossing {
  public:
-  Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Index size_of_rows);
+  Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Index size_of_rows, int threads);
   double* columns() const { return columns_.get(); }
   double* to_modes(const double* rows) const;  // the columns, of these rows
   void to_values(double* rows) const;          // the rows, of the columns
@@ -23,6 +23,7 @@ class Crossing {
   void for_pieces(const Visit& visit) const;
 
   const Ranks& ranks_;
+  int threads_;
   Index planes_, row_ = 0;                   // along axis 0 here; numbers of one plane of rows
   std::vector<Index> first_, piece_;         // of a plane of rows: where the part of each process begins, and its size
   std::vector<Index> of_rows_, of_columns_;  // what goes to each process, and what comes from it

@@ -171,22 +171,36 @@ class RealColumns final : public ColumnTransform {
   BatchPlans forward_, inverse_;
 };
 
+// Of a process that holds no plane; FFTW plans no lines.
+class NoColumns final : public ColumnTransform {
+ public:
+  Index blocks() const override { return 0; }
+  void to_slots(double*, double*, Index) const override {}
+  void to_values(double*, double*, Index) const override {}
+};
+
+template <class Columns, class... Arguments>
+std::unique_ptr<ColumnTransform> columns(const Places& places, const Arguments&... arguments) {
+  if (places.size() == 0) return std::make_unique<NoColumns>();
+  return std::make_unique<Columns>(arguments...);
+}
+
 }  // namespace
 
 std::unique_ptr<ColumnTransform> fourier_columns(const Lines& lines, bool measure) {
-  return std::make_unique<FourierColumns>(in_place(lines), measure);
+  return columns<FourierColumns>(in_place(lines), in_place(lines), measure);
 }
 
 std::unique_ptr<ColumnTransform> real_columns(const GridAxis& axis, const Lines& lines, bool measure) {
-  return std::make_unique<RealColumns>(axis, in_place(lines), measure);
+  return columns<RealColumns>(in_place(lines), axis, in_place(lines), measure);
 }
 
 std::unique_ptr<ColumnTransform> turned_fourier_columns(const Turned& lines, bool measure) {
-  return std::make_unique<FourierColumns>(turned(lines), measure);
+  return columns<FourierColumns>(turned(lines), turned(lines), measure);
 }
 
 std::unique_ptr<ColumnTransform> turned_real_columns(const GridAxis& axis, const Turned& lines, bool measure) {
-  return std::make_unique<RealColumns>(axis, turned(lines), measure);
+  return columns<RealColumns>(turned(lines), axis, turned(lines), measure);
 }
 
 }  // namespace seiche

@@ -16,7 +16,7 @@ class ColumnTransform {
  public:
   virtual ~ColumnTransform() = default;
   virtual Index blocks() const = 0;
-  // Of one block. Both may overwrite what they read.
+  // Of one block. Both may overwrite what they read, but for Fourier columns that are turned: they keep it.
   virtual void to_slots(double* values, double* slots, Index block) const = 0;
   virtual void to_values(double* slots, double* values, Index block) const = 0;
 };

@@ -134,9 +134,9 @@ std::unique_ptr<RowTransform> fourier_rows(Index length, const Batches& rows, bo
   return std::make_unique<FourierRows>(length, rows, alone_are_real, measure);
 }
 
-std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, const Batches& rows, bool measure) {
+std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, const Batches& rows, bool is_only_one, bool measure) {
   constexpr Index longest_split = 1 << 18;
-  if (axis.boundary == Boundary::dirichlet && rows.most() == 1 && axis.intervals <= longest_split)
+  if (axis.boundary == Boundary::dirichlet && is_only_one && axis.intervals <= longest_split)
     return sine_row(axis.intervals, measure);
   return std::make_unique<RealRows>(axis, rows, measure);
 }

@@ -23,6 +23,7 @@ class RowTransform {
 Index rows_of_batch(Index length);
 
 std::unique_ptr<RowTransform> fourier_rows(Index length, const Batches& rows, bool alone_are_real, bool measure);
-std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, const Batches& rows, bool measure);
+// `is_only_one`: of all rows of the grid, which is transformed on one thread alone.
+std::unique_ptr<RowTransform> real_rows(const GridAxis& axis, const Batches& rows, bool is_only_one, bool measure);
 
 }  // namespace seiche

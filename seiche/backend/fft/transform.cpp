@@ -52,12 +52,13 @@ class ModalTransform final : public FieldTransform {
         pairs_(grid.is_periodic()),
         modes_(grid),
         planes_(grid.dimension() > 1 ? grid.slab().planes : 1),
+        all_planes_(grid.dimension() > 1 ? grid.axis(0).unknowns() : 1),
         rows_of_plane_(grid.dimension() == 3 ? grid.axis(1).unknowns() : 1),
         batches_(rows_of_plane_ == 1 ? row_count_ : rows_of_plane_, rows_of_batch(grid.axes.back().unknowns())),
         batch_count_(rows_of_plane_ == 1 ? batches_.count() : planes_ * batches_.count()) {
     const Index last = grid.dimension() - 1;
     rows_ = pairs_ ? fourier_rows(grid.axis(last).intervals, batches_, grid.dimension() == 1, options.measure_plans)
-                   : real_rows(grid.axis(last), batches_, options.measure_plans);
+                   : real_rows(grid.axis(last), batches_, last == 0, options.measure_plans);
     slots_ = modes_.slots();
     for (Index a = 0; a <= last; ++a) {
       const GridAxis& axis = grid.axis(a);
@@ -78,7 +79,8 @@ class ModalTransform final : public FieldTransform {
       turned_ = pairs_ ? turned_fourier_columns(lines, options.measure_plans)
                        : turned_real_columns(grid.axis(0), lines, options.measure_plans);
       between_ = fftw_buffer(static_cast<std::size_t>(row_count_ * rows_->slots()));
-      if (options.ranks != nullptr) crossing_.emplace(*options.ranks, grid, modes_, row_count_ * rows_->slots());
+      if (options.ranks != nullptr && grid.here.count > 1)
+        crossing_.emplace(*options.ranks, grid, modes_, row_count_ * rows_->slots(), threads_);
     }
     parts_.resize(static_cast<std::size_t>(batch_count_));
     sums_.resize(static_cast<std::size_t>(value_units().count()));
@@ -90,7 +92,7 @@ class ModalTransform final : public FieldTransform {
   Index slots() const override { return slots_; }
   double slot_scale() const override { return slot_scale_; }
   double value_scale() const override { return value_scale_; }
-  Units value_units() const override { return {planes_}; }
+  Units value_units() const override { return {.planes = planes_, .of = all_planes_}; }
   Index first_unknown() const override { return first_; }
   Index all_unknowns() const override { return all_; }
   Units slot_units() const override { return modes_.units(); }
@@ -144,14 +146,14 @@ class ModalTransform final : public FieldTransform {
     }
     const Index first = row(batch), end = first + size(batch);
     const Units units = value_units();
-    for (Index unit = first / 2; unit < units.count() && units.begin(unit) < end; ++unit)
+    for (Index unit = first / units.size; unit < units.count() && units.begin(unit) < end; ++unit)
       sums_[static_cast<std::size_t>(unit)] =
           f({values + (units.begin(unit) - first) * rows_->values(), count(units.end(unit) - units.begin(unit))});
   }
   void add_parts() const {
     if (rows_of_plane_ == 1 && batches_.width() > 1) return;
     const Units units = value_units();
-    const Index per_plane = batch_count_ / planes_;
+    const Index per_plane = rows_of_plane_ == 1 ? 1 : batches_.count();
     for (Index unit = 0; unit < units.count(); ++unit) {
       double& sum = sums_[static_cast<std::size_t>(unit)];
       sum = 0;
@@ -193,7 +195,7 @@ class ModalTransform final : public FieldTransform {
   Index row_count_;
   bool pairs_;
   Modes modes_;
-  Index planes_, rows_of_plane_;
+  Index planes_, all_planes_, rows_of_plane_;
   Batches batches_;  // of all rows where each is a plane, else of those of one plane
   Index batch_count_;
   Index slots_ = 0;

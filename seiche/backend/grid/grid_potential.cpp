@@ -88,7 +88,8 @@ double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) cons
   };
   if (pointwise_->is_local()) {
     double value = 0;
-    space_.add_units(transform_->through_values(segment(z, support_.begin, support_.size),
+    space_.add_units(transform_->value_units(),
+                     transform_->through_values(segment(z, support_.begin, support_.size),
                                                 segment(gradient, support_.begin, support_.size), slopes),
                      {&value, 1});
     return value;

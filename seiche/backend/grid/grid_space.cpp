@@ -16,11 +16,17 @@ void GridSpace::max(std::span<double> local) const {
   if (ranks_ != nullptr) ranks_->max(local);
 }
 
-void GridSpace::add_units(std::span<const double> sums, std::span<double> totals) const {
-  if (ranks_ == nullptr) return Space::add_units(sums, totals);
-  thread_local std::vector<double> all;  // no step allocates
-  ranks_->gather(sums, all);
-  Space::add_units(all, totals);
+void GridSpace::add_units(const Units& units, std::span<const double> sums, std::span<double> totals) const {
+  if (ranks_ == nullptr) return Space::add_units(units, sums, totals);
+  thread_local std::vector<Index> counts;  // no step allocates
+  thread_local std::vector<double> all;
+  const int processes = ranks_->here().count;
+  counts.clear();
+  for (int rank = 0; rank < processes; ++rank)
+    counts.push_back(units_of(units, {rank, processes}).count() * static_cast<Index>(totals.size()));
+  all.resize(static_cast<std::size_t>(units_of(units, {}).count()) * totals.size());
+  ranks_->gather(sums, counts, all);
+  Space::add_units(units, all, totals);
 }
 
 void GridSpace::to_physical(const Vector& z, Vector& values) const {

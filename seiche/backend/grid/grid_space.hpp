@@ -16,7 +16,7 @@ class GridSpace final : public Space {
   using Space::sum;
   void sum(std::span<double> local) const override;
   void max(std::span<double> local) const override;
-  void add_units(std::span<const double> sums, std::span<double> totals) const override;
+  void add_units(const Units& units, std::span<const double> sums, std::span<double> totals) const override;
   Index size() const override { return fields_ * transform_->slots(); }
   Index physical_size() const override { return fields_ * transform_->unknowns(); }
   Field slots() const override { return {transform_->slots(), transform_->slot_units()}; }

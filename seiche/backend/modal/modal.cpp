@@ -30,6 +30,7 @@ void require_divisible(const Problem& problem) {
     if (holds) throw Error("{} has {}, which only one process computes; run it without mpiexec", problem.name, what);
   };
   refuse(problem.grid.dimension() == 1, "a grid of one axis");
+  refuse(dynamic_cast<const TruncatedPotential*>(problem.potential.get()) != nullptr, "a potential without aliases");
   refuse(problem.potential && !problem.potential->is_local(), "a potential of several fields, or of the place");
   refuse(problem.friction != nullptr, "friction");
   refuse(problem.has_forces(), "external forces");

@@ -13,12 +13,11 @@ namespace seiche {
 class UnitBlocks {
  public:
   // Of `field`, in blocks of at most `most` slots.
-  UnitBlocks(const Space::Field& field, Index most) {
+  UnitBlocks(const Space::Field& field, Index most) : units_(field.units) {
     for (Index unit = 0; unit < field.units.count(); ++unit) {
       for (Index begin = field.begin(unit); begin < field.end(unit); begin += most)
-        blocks_.push_back({unit, begin, std::min(begin + most, field.end(unit))});
+        add({unit, begin, std::min(begin + most, field.end(unit))}, most);
     }
-    units_ = field.units.count();
   }
 
   // Of body(begin, end, sums), which is called on several threads and writes as many sums as there are totals: the same
@@ -27,23 +26,35 @@ class UnitBlocks {
   void add(const Space& space, int threads, std::span<double> totals, const Body& body) const {
     const std::size_t k = totals.size();
     parts_.resize(blocks_.size() * k);
-    sums_.assign(static_cast<std::size_t>(units_) * k, 0.0);
-    for_blocks(static_cast<Index>(blocks_.size()), threads, [&](Index block) {
-      const auto at = static_cast<std::size_t>(block);
-      body(blocks_[at].begin, blocks_[at].end, std::span(parts_).subspan(at * k, k));
+    sums_.assign(static_cast<std::size_t>(units_.count()) * k, 0.0);
+    for_blocks(static_cast<Index>(shares_.size()), threads, [&](Index share) {
+      const auto [first, last] = shares_[static_cast<std::size_t>(share)];
+      for (std::size_t at = first; at < last; ++at)
+        body(blocks_[at].begin, blocks_[at].end, std::span(parts_).subspan(at * k, k));
     });
     for (std::size_t at = 0; at < blocks_.size(); ++at)
       for (std::size_t i = 0; i < k; ++i)
         sums_[static_cast<std::size_t>(blocks_[at].unit) * k + i] += parts_[at * k + i];
-    space.add_units(sums_, totals);
+    space.add_units(units_, sums_, totals);
   }
 
  private:
   struct Block {
     Index unit, begin, end;
   };
+  void add(const Block& block, Index most) {
+    blocks_.push_back(block);
+    if (shares_.empty() || block.end - blocks_[shares_.back().first].begin > most)
+      shares_.push_back({blocks_.size() - 1, blocks_.size()});
+    else
+      shares_.back().last = blocks_.size();
+  }
+  Units units_;
   std::vector<Block> blocks_;
-  Index units_ = 0;
+  struct Share {
+    std::size_t first, last;
+  };
+  std::vector<Share> shares_;                 // blocks of one call on a thread, up to `most` slots
   mutable std::vector<double> parts_, sums_;  // scratch
 };
 

@@ -14,7 +14,7 @@ Modes::Modes(const Grid& grid) : dimension_(grid.dimension()), pairs_(grid.is_pe
     plane_ = (pairs_ ? 2 : 1) * sizes_[0] * sizes_[2];
     whole_ = units_in_eights(sizes_[1], plane_);
     const Slab slab = slab_of_rank(here_.index);
-    units_ = {slab.planes, whole_.size};
+    units_ = {slab.planes, whole_.size, whole_.planes};
     sizes_[1] = slab.planes;
     first_plane_ = slab.first;
   } else {

@@ -12,8 +12,9 @@ namespace seiche {
 // units, and a process holds whole units: so no sum depends on how many processes there are. Nor does a transform of
 // lines, for FFTW computes one line alone in another way than two or more side by side, and a unit has at least two.
 struct Units {
-  Index planes = 1;
-  Index size = 2;  // ≥ 2
+  Index planes = 1;   // here
+  Index size = 2;     // ≥ 2
+  Index of = planes;  // in all processes
 
   Index count() const { return planes > 0 ? std::max<Index>(planes / size, 1) : 0; }
   Index begin(Index unit) const { return size * unit; }  // the first plane
@@ -39,10 +40,15 @@ inline Slab slab_of(const Units& whole, const Rank& part) {
   return {whole.begin(begin), whole.end(end - 1) - whole.begin(begin)};
 }
 
+// Those of one process of the units of all.
+inline Units units_of(const Units& units, const Rank& part) {
+  return {slab_of({units.of, units.size}, part).planes, units.size, units.of};
+}
+
 // Units of so many numbers each that eight lie side by side from their first number on, whatever lies before them.
 inline Units units_in_eights(Index planes, Index plane) {
   constexpr Index eight = 8;
-  return {planes, std::max<Index>(eight / std::gcd(eight, plane), 2)};
+  return {.planes = planes, .size = std::max<Index>(eight / std::gcd(eight, plane), 2)};
 }
 
 }  // namespace seiche

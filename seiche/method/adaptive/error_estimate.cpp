@@ -21,7 +21,7 @@ class Estimated final : public AdaptiveStepper {
         stepper_(std::move(stepper)),
         phi_(system.make_phi()),
         force_(system),
-        cache_(cached_step_sizes(system.space->size())) {
+        cache_(cached_step_sizes(system.space->size_of_all())) {
     const Index size = system.space->size();
     forces_.assign(3, Vector::Zero(size));
     out_.assign(1, Vector::Zero(size));

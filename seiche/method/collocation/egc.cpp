@@ -33,7 +33,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
         dissipation_(system, *phi_, output_, output_, {rule_, GaussRule(stages + 2), NestedRules(stages)}),
         projected_(system, *phi_, *this, law),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
-        cache_(cached_step_sizes(system.space->size())),
+        cache_(cached_step_sizes(system.space->size_of_all())),
         forces_(static_cast<std::size_t>(stages)),
         of_forces_(force_.kind() == PhiRows::Forces::gradients ? system.potential->support()
                                                                : Potential::Support{0, system.space->size()}),

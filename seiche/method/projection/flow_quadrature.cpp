@@ -10,7 +10,7 @@ FlowQuadrature::FlowQuadrature(const System& system, const PhiEvaluator& phi, Ph
       kind_(kind),
       nodes_(std::move(nodes)),
       weights_(std::move(weights)),
-      cache_(cached_step_sizes(system.space->size())) {}
+      cache_(cached_step_sizes(system.space->size_of_all())) {}
 
 const PhiForms& FlowQuadrature::error(double h) {
   return cache_.at(h, [&] {

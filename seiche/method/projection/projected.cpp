@@ -22,7 +22,7 @@ Projected::Projected(const System& system, const PhiEvaluator& phi, BaseStep& ba
       feeds_(phi.dissipation().is_quadratic && !phi.dissipation().is_nonnegative),
       projection_(system, phi),
       rate_(system),
-      free_(cached_step_sizes(system.space->size())),
+      free_(cached_step_sizes(system.space->size_of_all())),
       z_(Vector::Zero(system.space->size())) {
   saved_.z = z_;
 }

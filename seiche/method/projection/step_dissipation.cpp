@@ -37,7 +37,7 @@ StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, 
       needs_gradient_(!phi.dissipation().is_quadratic || system.damping->touches_potential() ||
                       (system.force && system.force->touches_potential())),
       follows_energies_(kind_ == Kind::general && follow_energies(system)),
-      cache_(cached_step_sizes(system.space->size())) {
+      cache_(cached_step_sizes(system.space->size_of_all())) {
   if (!needs_gradient_) coarse_output_ = output_;  // errors of z inside a step oscillate, and their sum is small
   if (kind_ == Kind::none) return;
   const Index size = system.space->size();

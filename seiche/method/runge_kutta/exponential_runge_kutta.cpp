@@ -16,7 +16,7 @@ class ExponentialRungeKutta final : public BaseStep {
         output_(output_of(tableau.C)),
         dissipation_(system, phi, output_, output_of(tableau.C_coarse),
                      {GaussRule(tableau.coarse), GaussRule(tableau.fine), NestedRules(tableau.nested)}),
-        cache_(cached_step_sizes(system.space->size())),
+        cache_(cached_step_sizes(system.space->size_of_all())),
         forces_(tableau.stages.size() + 1, Vector::Zero(system.space->size())) {}
 
   bool compute(const State& s, double t, double h, Vector& z) override {

@@ -100,7 +100,7 @@ class ExactFlows final : public OneByOne {
   ExactFlows(const System& system, const PhiEvaluator& phi, int order)
       : OneByOne(system, phi, order),
         phi_(phi),
-        cache_(cached_step_sizes(system.space->size())),
+        cache_(cached_step_sizes(system.space->size_of_all())),
         work_(Vector::Zero(system.space->size())) {
     if (!dissipates()) return;
     const Eigen::VectorXd start = Eigen::VectorXd::Zero(1);

@@ -15,7 +15,7 @@ class StrangExact final : public BaseStep {
         kind_(StepDissipation::kind_of(system, phi)),
         is_kick_(system.damping->is_constant() && momentum_form(system).kicks &&
                  !(system.force && system.force->touches_potential())),
-        halves_(cached_step_sizes(system.space->size())) {
+        halves_(cached_step_sizes(system.space->size_of_all())) {
     for (Vector* v : {&gradient_, &rate_, &rest_, &middle_, &scratch_}) v->setZero(system.space->size());
   }
 

@@ -28,8 +28,8 @@ class HeldTwice final : public Space {
   }
   Field slots() const override { return here_.slots(); }
   Field values() const override { return here_.values(); }
-  void add_units(std::span<const double> sums, std::span<double> totals) const override {
-    Space::add_units(sums, totals);
+  void add_units(const Units& units, std::span<const double> sums, std::span<double> totals) const override {
+    Space::add_units(units, sums, totals);
     sum(totals);
   }
 

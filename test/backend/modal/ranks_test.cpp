@@ -18,6 +18,7 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -134,6 +135,69 @@ TEST_P(OnRanks, StepsByToleranceHaveTheBitsOfOneProcess) {
     EXPECT_EQ(found.numbers, numbers) << c.name;
     EXPECT_EQ((found.values - alone.physical()).lpNorm<Eigen::Infinity>(), 0) << c.name;
   }
+}
+
+// Lines of a length that FFTW computes in another way where one stands alone, and one more of them than a block takes.
+TEST(Ranks, TransformsHaveTheBitsOfOneProcess) {
+  for (const std::vector<long>& points : {std::vector<long>{64, 32}, {48, 32}, {3, 64, 32}, {64, 5, 33}}) {
+    const Problem problem = klein_gordon({.grid = {.points = points, .length = {4.0}}});
+    const auto alone = modal_transform(problem.grid);
+    Vector values(alone->unknowns()), slots(alone->slots());
+    for (Index i = 0; i < values.size(); ++i) values[i] = std::sin(1.3 * static_cast<double>(i + 1));
+    const auto span_of = [](auto& v) { return std::span(v.data(), static_cast<std::size_t>(v.size())); };
+    alone->forward(span_of(values), span_of(slots));
+    for (const int count : {2, 3, 5})
+      on_ranks(count, [&](const Ranks& ranks) {
+        const Grid grid = part_of(problem, ranks.here()).grid;
+        const auto transform = modal_transform(grid, {.ranks = &ranks});
+        const Modes modes(grid);
+        Vector mine = values.segment(values.size() / grid.axis(0).unknowns() * grid.slab().first, grid.unknowns());
+        Vector found(transform->slots());
+        transform->forward(span_of(mine), span_of(found));
+        const Index first = modes.slab_of_rank(ranks.here().index).first * modes.plane();
+        EXPECT_EQ(found, Vector(slots.segment(first, found.size()))) << points.front() << " on " << count;
+      });
+  }
+}
+
+// Where processes hold one unit, several, and none.
+TEST(Ranks, LengthsAndProductsHaveTheBitsOfOneProcess) {
+  for (const Index points : {8, 12, 16}) {
+    const Problem problem = plane(points);
+    const System alone = modal_system(problem);
+    const Vector expected = alone.initial.array() + 0.1;
+    const double of_values = alone.space->norm_of_values(alone.space->physical(expected));
+    for (const int count : {2, 3, 4, 7}) {
+      on_ranks(count, [&](const Ranks& ranks) {
+        const System system = modal_system(part_of(problem, ranks.here()), {.ranks = &ranks});
+        const Vector z = system.initial.array() + 0.1;
+        const Space& space = *system.space;
+        EXPECT_EQ(space.norm(z + z), alone.space->norm(expected + expected)) << points << " on " << count;
+        EXPECT_EQ(space.squared_norm(z), alone.space->squared_norm(expected)) << points << " on " << count;
+        EXPECT_EQ(space.dot(z, 0.7 * z), alone.space->dot(expected, 0.7 * expected)) << points << " on " << count;
+        EXPECT_EQ(space.stable_norm(z), alone.space->stable_norm(expected)) << points << " on " << count;
+        EXPECT_EQ(space.norm_of_values(space.physical(z)), of_values) << points << " on " << count;
+      });
+    }
+  }
+}
+
+TEST(Ranks, PlansMayBeMeasuredWhereAProcessHoldsNothing) {
+  on_ranks(7, [](const Ranks& ranks) {
+    const Problem part = part_of(plane(4), ranks.here());
+    const System system = modal_system(part, {.measure_plans = true, .ranks = &ranks});
+    const Vector u = system.space->physical(system.initial);
+    EXPECT_LE((u - part.initial).cwiseAbs().sum(), 1e-13);
+  });
+}
+
+TEST(Ranks, RunOnTheModalBackendAlone) {
+  on_ranks(2, [](const Ranks& ranks) {
+    const Problem part = part_of(plane(4), ranks.here());
+    const Simulation chosen(part, {.backend_options = {.ranks = &ranks}});
+    EXPECT_EQ(chosen.backend().name, "modal") << "however few unknowns one of them holds";
+    EXPECT_THROW(Simulation(part, {.backend = "dense", .backend_options = {.ranks = &ranks}}), Error);
+  });
 }
 
 // Every process writes to every other one once for each transform, and no more than that: half of what it holds where

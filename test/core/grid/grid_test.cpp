@@ -91,6 +91,19 @@ TEST(Grid, EigenfunctionsOfEveryBoundaryAreEigenfunctions) {
   }
 }
 
+TEST(Grid, LongLinesSideBySideAreTransformedOnSeveralThreads) {
+  const Grid grid{.axes = {{5, 1.0, dirichlet}, {32768, 1.0, dirichlet}}};
+  Vector u(grid.unknowns());
+  for (Index j = 0; j < u.size(); ++j) u[j] = std::sin(0.1 * static_cast<double>(j % 4099));
+  Vector one(u.size()), two(u.size());
+  modal_transform(grid)->forward(all(u), all(one));
+  const auto on_two = modal_transform(grid, {.threads = 2});
+  for (int i = 0; i < 20; ++i) {
+    on_two->forward(all(u), all(two));
+    ASSERT_EQ(one, two);
+  }
+}
+
 // Long lines are split, those of odd or short lengths are not.
 TEST(Grid, SinesOfLinesOfAnyLengthAreTheirSums) {
   for (const Index intervals : {2, 3, 4, 127, 128, 130, 132, 256, 260, 516, 1000, 1024, 2048}) {

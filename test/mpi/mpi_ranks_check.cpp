@@ -1,0 +1,66 @@
+// mpiexec -n P mpi_ranks_check: on P processes of MPI a run has the bits that each of them computes alone.
+#include <seiche/core/base/error.hpp>
+#include <seiche/damping/rates.hpp>
+#include <seiche/mpi/mpi_ranks.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/simulation/simulation.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace seiche;
+
+Problem wave(std::vector<long> points, std::vector<Boundary> boundary) {
+  Problem p = klein_gordon({.grid = {.points = std::move(points), .length = {3.0}, .boundary = std::move(boundary)},
+                            .alpha = 1.0,
+                            .gamma = constant_rate(0.2)});
+  for (Index i = 0; i < p.size(); ++i) p.initial[i] = std::sin(1.3 * static_cast<double>(i + 1));
+  return p;
+}
+
+// Throws Error where this process holds other numbers than it computes alone.
+void compare(const Problem& problem, const std::string& method, const Ranks& ranks) {
+  Simulation alone(problem, {.method = method, .backend = "modal"});
+  const Problem part = part_of(problem, ranks.here());
+  Simulation together(part, {.method = method, .backend = "modal", .backend_options = {.ranks = &ranks}});
+  for (int n = 0; n < 5; ++n) {
+    alone.step(0.05);
+    together.step(0.05);
+  }
+  if (alone.energy().H != together.energy().H)
+    throw Error("{}: H = {} on {} processes, and {} on one", method, together.energy().H, ranks.here().count,
+                alone.energy().H);
+  Problem expected = problem;
+  expected.initial = alone.physical();
+  const Vector mine = together.physical();
+  if (mine != part_of(expected, ranks.here()).initial)
+    throw Error("{}: other bits on {} processes than on one", method, ranks.here().count);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const MpiSession session;
+  try {
+    const auto ranks = mpi_ranks();
+    if (count > 1 && std::string(arguments[1]) == "--fail") {
+      if (ranks->here().index == 0) throw Error("process 0 fails, and the others wait for it");
+      double waits = 0;
+      ranks->max({&waits, 1});
+    }
+    using enum Boundary;
+    for (const std::string method : {"seisav", "seilm", "egc4", "seavf"}) {
+      compare(wave({20, 14}, {periodic}), method, *ranks);
+      compare(wave({9, 12}, {dirichlet, neumann}), method, *ranks);
+      compare(wave({8, 7, 6}, {periodic}), method, *ranks);
+    }
+    if (ranks->here().index == 0) fmt::print("the same bits on {} processes\n", ranks->here().count);
+  } catch (const Error& error) {
+    abort_all(error.what(), 1);
+  }
+}
