@@ -1,4 +1,6 @@
 // mpiexec -n P mpi_ranks_check: on P processes of MPI a run has the bits that each of them computes alone.
+//                              --time METHOD POINTS: milliseconds that a step takes on a square of so many points
+//                              --fail: the first process fails
 #include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/mpi/mpi_ranks.hpp>
@@ -7,7 +9,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -42,13 +47,34 @@ void compare(const Problem& problem, const std::string& method, const Ranks& ran
     throw Error("{}: other bits on {} processes than on one", method, ranks.here().count);
 }
 
+// The least of several turns.
+double milliseconds_of_a_step(const std::string& method, long points, const Ranks& ranks) {
+  const Problem part = part_of(wave({points, points}, {Boundary::periodic}), ranks.here());
+  Simulation simulation(part, {.method = method, .backend = "modal", .backend_options = {.ranks = &ranks}});
+  double least = std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn < 10; ++turn) {
+    constexpr int steps = 8;
+    const auto begin = std::chrono::steady_clock::now();
+    for (int n = 0; n < steps; ++n) simulation.step(0.001);
+    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
+    least = std::min(least, taken.count() / steps);
+  }
+  return least;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   const MpiSession session;
   try {
     const auto ranks = mpi_ranks();
-    if (count > 1 && std::string(arguments[1]) == "--fail") {
+    const std::vector<std::string> words(arguments + 1, arguments + count);
+    if (words.size() == 3 && words[0] == "--time") {
+      const double time = milliseconds_of_a_step(words[1], std::stol(words[2]), *ranks);
+      if (ranks->here().index == 0) fmt::print("{:.3f} ms on {} processes\n", time, ranks->here().count);
+      return 0;
+    }
+    if (words == std::vector<std::string>{"--fail"}) {
       if (ranks->here().index == 0) throw Error("process 0 fails, and the others wait for it");
       double waits = 0;
       ranks->max({&waits, 1});

@@ -29,7 +29,12 @@ Crossing::Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Ind
   }
   row_ = planes_ > 0 ? size_of_rows / planes_ : 0;
   packed_ = fftw_buffer(static_cast<std::size_t>(size_of_rows));
-  columns_ = fftw_buffer(sum_of(of_columns_));
+  length_ = grid.axis(0).unknowns();
+  column_ = planes_of_columns * middle;
+  constexpr Index gap = 16, power_of_two = 128;
+  stride_ = column_ + (column_ > 0 && column_ % power_of_two == 0 ? gap : 0);
+  columns_ = fftw_buffer(static_cast<std::size_t>(length_ * stride_));
+  if (stride_ != column_) dense_ = fftw_buffer(sum_of(of_columns_));
 }
 
 template <class Visit>
@@ -43,14 +48,23 @@ void Crossing::for_pieces(const Visit& visit) const {
   });
 }
 
+template <class Copy>
+void Crossing::for_columns(const Copy& copy) const {
+  if (stride_ == column_) return;
+  for_blocks(length_, threads_,
+             [&](Index plane) { copy(columns_.get() + plane * stride_, dense_.get() + plane * column_); });
+}
+
 double* Crossing::to_modes(const double* rows) const {
   for_pieces([&](double* packed, Index in_rows, Index count) { std::copy_n(rows + in_rows, count, packed); });
-  ranks_.exchange({packed_.get(), sum_of(of_rows_)}, of_rows_, {columns_.get(), sum_of(of_columns_)}, of_columns_);
+  ranks_.exchange({packed_.get(), sum_of(of_rows_)}, of_rows_, {received(), sum_of(of_columns_)}, of_columns_);
+  for_columns([this](double* column, double* dense) { std::copy_n(dense, column_, column); });
   return columns_.get();
 }
 
 void Crossing::to_values(double* rows) const {
-  ranks_.exchange({columns_.get(), sum_of(of_columns_)}, of_columns_, {packed_.get(), sum_of(of_rows_)}, of_rows_);
+  for_columns([this](double* column, double* dense) { std::copy_n(column, column_, dense); });
+  ranks_.exchange({received(), sum_of(of_columns_)}, of_columns_, {packed_.get(), sum_of(of_rows_)}, of_rows_);
   for_pieces([&](const double* packed, Index in_rows, Index count) { std::copy_n(packed, count, rows + in_rows); });
 }
 

@@ -9,11 +9,13 @@
 
 namespace seiche {
 
-// Rows lie as axis 0 here × axis 1 × the rest, columns as axis 0 × axis 1 here × the rest.
+// Rows lie as axis 0 here × axis 1 × the rest, columns as axis 0 × axis 1 here × the rest, but that a few numbers are
+// left between planes that would lie a high power of two apart: caches hold few lines of such columns at a time.
 class Crossing {
  public:
   Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Index size_of_rows, int threads);
   double* columns() const { return columns_.get(); }
+  Index stride() const { return stride_; }     // numbers from one plane along axis 0 of the columns to the next
   double* to_modes(const double* rows) const;  // the columns, of these rows
   void to_values(double* rows) const;          // the rows, of the columns
 
@@ -27,7 +29,11 @@ class Crossing {
   Index planes_, row_ = 0;                   // along axis 0 here; numbers of one plane of rows
   std::vector<Index> first_, piece_;         // of a plane of rows: where the part of each process begins, and its size
   std::vector<Index> of_rows_, of_columns_;  // what goes to each process, and what comes from it
-  FftwBuffer packed_, columns_;
+  Index length_, column_, stride_;           // of the columns: planes, numbers of one, and from one to the next
+  double* received() const { return stride_ == column_ ? columns_.get() : dense_.get(); }
+  template <class Copy>
+  void for_columns(const Copy& copy) const;
+  FftwBuffer packed_, columns_, dense_;  // dense_: the columns without gaps, where those have some
 };
 
 }  // namespace seiche

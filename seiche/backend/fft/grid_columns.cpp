@@ -46,6 +46,7 @@ struct Places {
   bool in_place;
 
   Index size() const { return length * outer * count; }
+  Index size_of_values() const { return in_place ? size() : length * values.along; }
 };
 
 Places in_place(const Lines& l) {
@@ -60,7 +61,7 @@ Places turned(const Turned& l) {
   return {.length = l.length,
           .outer = in_lines ? 1 : l.middle,
           .count = in_lines ? l.middle : l.inner,
-          .values = {.along = l.middle * l.inner, .across = 1, .outer = l.inner},
+          .values = {.along = l.stride, .across = 1, .outer = l.inner},
           .slots = {.along = l.inner, .across = in_lines ? l.length : 1, .outer = l.length * l.inner},
           .in_place = false};
 }
@@ -70,7 +71,7 @@ class FourierColumns final : public ColumnTransform {
   FourierColumns(const Places& places, bool measure)
       : places_(places),
         blocks_(places.outer, places.count),
-        values_(fftw_buffer(static_cast<std::size_t>(2 * places.size()))),
+        values_(fftw_buffer(static_cast<std::size_t>(2 * places.size_of_values()))),
         slots_(fftw_buffer(static_cast<std::size_t>(places.in_place ? 0 : 2 * places.size()))),
         forward_(blocks_.width(), blocks_.rest(), measure,
                  [&](int count, unsigned flags) {
@@ -119,7 +120,7 @@ class RealColumns final : public ColumnTransform {
       : places_(places),
         blocks_(places.outer, places.count),
         alone_(modes_alone(axis)),
-        values_(fftw_buffer(static_cast<std::size_t>(places.size()))),
+        values_(fftw_buffer(static_cast<std::size_t>(places.size_of_values()))),
         slots_(fftw_buffer(static_cast<std::size_t>(places.in_place ? 0 : places.size()))),
         forward_(blocks_.width(), blocks_.rest(), measure,
                  [&](int count, unsigned flags) {

@@ -29,6 +29,7 @@ std::unique_ptr<ColumnTransform> real_columns(const GridAxis& axis, const Lines&
 // `inner`: lines lie close together then, where they are long side by side.
 struct Turned {
   Index length, middle, inner;
+  Index stride = middle * inner;  // from one plane along axis 0 to the next
 };
 std::unique_ptr<ColumnTransform> turned_fourier_columns(const Turned& lines, bool measure);
 std::unique_ptr<ColumnTransform> turned_real_columns(const GridAxis& axis, const Turned& lines, bool measure);

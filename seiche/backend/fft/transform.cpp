@@ -75,12 +75,13 @@ class ModalTransform final : public FieldTransform {
                         : real_columns(grid.axis(1), lines, options.measure_plans);
     }
     if (last > 0) {
-      const Turned lines{grid.axis(0).unknowns(), modes_.units().planes, last == 2 ? inner : 1};
-      turned_ = pairs_ ? turned_fourier_columns(lines, options.measure_plans)
-                       : turned_real_columns(grid.axis(0), lines, options.measure_plans);
       between_ = fftw_buffer(static_cast<std::size_t>(row_count_ * rows_->slots()));
       if (options.ranks != nullptr && grid.here.count > 1)
         crossing_.emplace(*options.ranks, grid, modes_, row_count_ * rows_->slots(), threads_);
+      Turned lines{grid.axis(0).unknowns(), modes_.units().planes, last == 2 ? inner : 1};
+      if (crossing_) lines.stride = crossing_->stride() / (pairs_ ? 2 : 1);
+      turned_ = pairs_ ? turned_fourier_columns(lines, options.measure_plans)
+                       : turned_real_columns(grid.axis(0), lines, options.measure_plans);
     }
     parts_.resize(static_cast<std::size_t>(batch_count_));
     sums_.resize(static_cast<std::size_t>(value_units().count()));
