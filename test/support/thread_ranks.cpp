@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -11,10 +12,10 @@
 #include <thread>
 
 namespace seiche::test {
-namespace TEST_FILE {
+namespace {
 
-struct Call {
-  std::string name = "";  // with its sizes where they must agree
+struct CallOfRank {
+  std::string name;  // with its sizes where they must agree
   std::span<const double> from = {};
   std::span<const Index> sent = {};
 };
@@ -24,15 +25,15 @@ class Meeting {
  public:
   explicit Meeting(int count) : calls_(static_cast<std::size_t>(count)) {}
 
-  void enter(int rank, const Call& call) {
+  void enter(int rank, const CallOfRank& call) {
     calls_[static_cast<std::size_t>(rank)] = call;
     wait(call.name);
     if (failed_) throw Error("another rank has failed");
-    for (const Call& other : calls_)
+    for (const CallOfRank& other : calls_)
       if (other.name != call.name) throw Error("rank {} calls {}, and another one {}", rank, call.name, other.name);
   }
   void leave(int rank) { wait(calls_[static_cast<std::size_t>(rank)].name); }
-  const Call& of(int rank) const { return calls_[static_cast<std::size_t>(rank)]; }
+  const CallOfRank& of(int rank) const { return calls_[static_cast<std::size_t>(rank)]; }
   int count() const { return static_cast<int>(calls_.size()); }
   void fail() {
     const std::scoped_lock lock(mutex_);
@@ -58,12 +59,12 @@ class Meeting {
     throw Error("a rank waits in {} for others, which make no call", name);
   }
 
-  std::vector<Call> calls_;
+  std::vector<CallOfRank> calls_;
   std::mutex mutex_;
   std::condition_variable all_here_;
   int here_ = 0;
   std::int64_t turn_ = 0;
-  bool failed_ = false;
+  std::atomic<bool> failed_ = false;
 };
 
 class ThreadRanks final : public Ranks {
@@ -95,7 +96,7 @@ class ThreadRanks final : public Ranks {
     meet({"exchange", from, sent}, [&] {
       Index at = 0;
       for (int r = 0; r < meeting_.count(); ++r) {
-        const Call& theirs = meeting_.of(r);
+        const CallOfRank& theirs = meeting_.of(r);
         Index before = 0;
         for (int i = 0; i < rank_; ++i) before += theirs.sent[static_cast<std::size_t>(i)];
         const Index count = theirs.sent[static_cast<std::size_t>(rank_)];
@@ -118,7 +119,7 @@ class ThreadRanks final : public Ranks {
  private:
   // `read` while the numbers of all lie still.
   template <class Read>
-  void meet(const Call& call, const Read& read) const {
+  void meet(const CallOfRank& call, const Read& read) const {
     meeting_.enter(rank_, call);
     read();
     meeting_.leave(rank_);
@@ -139,8 +140,7 @@ class ThreadRanks final : public Ranks {
   int rank_;
 };
 
-}  // namespace TEST_FILE
-using namespace TEST_FILE;
+}  // namespace
 
 Traffic traffic_on_ranks(int count, const std::function<void(const Ranks&)>& body) {
   Meeting meeting(count);
