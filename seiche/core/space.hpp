@@ -30,7 +30,7 @@ class Space {
 
   // The numbers of one field that are here, plane behind plane: slots of z, or physical values.
   struct Field {
-    Index size;
+    Index size = 0;
     Units units = {};
     Index first = 0, of = size;  // the number of the whole field that is the first here, and how many those are
 
