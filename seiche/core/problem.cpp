@@ -86,8 +86,7 @@ bool Problem::damping_moves_potential() const {
 Problem part_of(const Problem& whole, const Rank& here) {
   Problem part = whole;
   part.grid.here = here;
-  const Index all = whole.grid.unknowns(), mine = part.grid.unknowns();
-  const Index first = all / whole.grid.axis(0).unknowns() * part.grid.slab().first;
+  const Index all = whole.grid.unknowns(), mine = part.grid.unknowns(), first = part.grid.first_unknown();
   part.initial.resize(part.size());
   for (Index f = 0; f < whole.field_count(); ++f)
     part.initial.segment(f * mine, mine) = whole.initial.segment(f * all + first, mine);

@@ -40,7 +40,7 @@ class Space {
     // visit(begin, length) of the parts of a vector of so many numbers that belong to a unit.
     template <class Visit>
     void for_parts(Index numbers, Index unit, const Visit& visit) const {
-      if (Units{.planes = units.of, .size = units.size}.count() == 1) return visit(Index{0}, numbers);
+      if (units.whole().count() == 1) return visit(Index{0}, numbers);
       for (Index at = 0; at < numbers; at += size) visit(at + begin(unit), end(unit) - begin(unit));
     }
   };

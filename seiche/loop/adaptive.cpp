@@ -238,11 +238,7 @@ class AdaptiveLoop {
   }
 
   bool happen(const EventFinder::Found& found) {
-    bool goes_on = true;
-    for (const Event* event : found.events) {
-      recording_.report().events.push_back(found.t);
-      goes_on = event->action && event->action(state_) && goes_on;
-    }
+    const bool goes_on = found.happen(state_, recording_.report().events);
     stepper_.restart(state_);
     time_ = Time(state_.t);
     recording_.reopen();

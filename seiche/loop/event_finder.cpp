@@ -27,6 +27,15 @@ double EventFinder::value(std::size_t i, double t, const Vector& z) const {
   return g;
 }
 
+bool EventFinder::Found::happen(State& state, std::vector<double>& times) const {
+  bool goes_on = true;
+  for (const Event* event : events) {
+    times.push_back(t);
+    goes_on = event->action && event->action(state) && goes_on;
+  }
+  return goes_on;
+}
+
 // Two short steps of Euler's method: a velocity that is 0 may yet change g through its own rate.
 EventFinder::Found EventFinder::begin(const System& system, const State& state) {
   constexpr double short_of = 0x1p-20;  // the time in which z would change by its own size

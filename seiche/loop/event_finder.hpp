@@ -18,6 +18,8 @@ class EventFinder {
     double t = 0.0;
     std::vector<const Event*> events;  // all that happen at t; none: no event in the step
     bool empty() const { return events.empty(); }
+    // All their actions, each booked by its time; false: the run ends.
+    bool happen(State& state, std::vector<double>& times) const;
   };
   // The events that the run begins with: those whose g is 0, in the direction that it then takes. As in SciPy.
   Found begin(const System& system, const State& state);

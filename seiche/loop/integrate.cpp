@@ -115,11 +115,7 @@ class FixedLoop {
   }
 
   bool happen(const EventFinder::Found& found) {
-    bool goes_on = true;
-    for (const Event* event : found.events) {
-      recording_.report().events.push_back(found.t);
-      goes_on = event->action && event->action(state_) && goes_on;
-    }
+    const bool goes_on = found.happen(state_, recording_.report().events);
     stepper_.begin(state_);
     recording_.reopen();
     grid_ = TimeGrid(state_.t, grid_.h, grid_.end);

@@ -3,11 +3,9 @@
 
 #include <mpi.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace seiche {
@@ -58,20 +56,11 @@ class MpiRanks final : public Ranks {
 
   Rank here() const override { return here_; }
 
-  // MPI's own sum may add in any order.
-  void sum(std::span<double> numbers) const override {
-    reduce(numbers, [](double a, double b) { return a + b; });
-  }
-  // MPI's own maximum may lose NaN.
-  void max(std::span<double> numbers) const override {
-    reduce(numbers, [](double a, double b) { return b <= a ? a : b; });
-  }
-
   void gather(std::span<const double> mine, std::span<const Index> counts, std::span<double> all) const override {
     received_.set(counts);
     require(MPI_Allgatherv(mine.data(), static_cast<int>(mine.size()), MPI_DOUBLE, all.data(), received_.counts.data(),
                            received_.begins.data(), MPI_DOUBLE, communicator_),
-            "gather sums");
+            "gather numbers");
   }
 
   void exchange(std::span<const double> from, std::span<const Index> sent, std::span<double> to,
@@ -84,21 +73,9 @@ class MpiRanks final : public Ranks {
   }
 
  private:
-  template <class Join>
-  void reduce(std::span<double> numbers, const Join& join) const {
-    const std::size_t k = numbers.size();
-    all_.resize(k * static_cast<std::size_t>(here_.count));
-    require(MPI_Allgather(numbers.data(), static_cast<int>(k), MPI_DOUBLE, all_.data(), static_cast<int>(k), MPI_DOUBLE,
-                          communicator_),
-            "gather numbers");
-    std::copy_n(all_.begin(), k, numbers.begin());
-    for (std::size_t i = k; i < all_.size(); ++i) numbers[i % k] = join(numbers[i % k], all_[i]);
-  }
-
   MPI_Comm communicator_ = MPI_COMM_NULL;
   Rank here_;
   mutable Counts sent_, received_;
-  mutable std::vector<double> all_;
 };
 
 }  // namespace

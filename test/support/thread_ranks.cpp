@@ -72,12 +72,6 @@ class ThreadRanks final : public Ranks {
   ThreadRanks(Meeting& meeting, int rank) : meeting_(meeting), rank_(rank) {}
   Rank here() const override { return {rank_, meeting_.count()}; }
 
-  void sum(std::span<double> numbers) const override {
-    reduce("sum", numbers, [](double a, double b) { return a + b; });
-  }
-  void max(std::span<double> numbers) const override {
-    reduce("max", numbers, [](double a, double b) { return b <= a ? a : b; });
-  }
   void gather(std::span<const double> mine, std::span<const Index> counts, std::span<double> all) const override {
     meet({fmt::format("gather of {}", fmt::join(counts, ", ")), mine, {}}, [&] {
       auto to = all.begin();
@@ -123,17 +117,6 @@ class ThreadRanks final : public Ranks {
     meeting_.enter(rank_, call);
     read();
     meeting_.leave(rank_);
-  }
-  template <class Join>
-  void reduce(const char* name, std::span<double> numbers, const Join& join) const {
-    std::vector<double> total;
-    meet({fmt::format("{} of {}", name, numbers.size()), numbers, {}}, [&] {
-      total.assign(meeting_.of(0).from.begin(), meeting_.of(0).from.end());
-      for (int r = 1; r < meeting_.count(); ++r)
-        for (std::size_t i = 0; i < total.size(); ++i) total[i] = join(total[i], meeting_.of(r).from[i]);
-      if (rank_ == 0) ++meeting_.traffic.reductions;
-    });
-    std::copy(total.begin(), total.end(), numbers.begin());
   }
 
   Meeting& meeting_;

@@ -17,20 +17,17 @@ std::size_t sum_of(const std::vector<Index>& counts) {
 Crossing::Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Index size_of_rows, int threads)
     : ranks_(ranks), threads_(threads), planes_(grid.slab().planes) {
   const Index middle = modes.plane() / grid.axis(0).unknowns();  // numbers of one k along axis 1 in a plane of rows
-  const Index planes_of_columns = modes.units().planes;
+  length_ = grid.axis(0).unknowns();
+  column_ = modes.units().planes * middle;
   for (int rank = 0; rank < grid.here.count; ++rank) {
     const Slab theirs = modes.slab_of_rank(rank);
     first_.push_back(theirs.first * middle);
     piece_.push_back(theirs.planes * middle);
     of_rows_.push_back(planes_ * piece_.back());
-    Grid there = grid;
-    there.here.index = rank;
-    of_columns_.push_back(there.slab().planes * planes_of_columns * middle);
+    of_columns_.push_back(slab_of({length_}, {rank, grid.here.count}).planes * column_);
   }
   row_ = planes_ > 0 ? size_of_rows / planes_ : 0;
   packed_ = fftw_buffer(static_cast<std::size_t>(size_of_rows));
-  length_ = grid.axis(0).unknowns();
-  column_ = planes_of_columns * middle;
   constexpr Index gap = 16, power_of_two = 128;
   stride_ = column_ + (column_ > 0 && column_ % power_of_two == 0 ? gap : 0);
   columns_ = fftw_buffer(static_cast<std::size_t>(length_ * stride_));

@@ -23,6 +23,9 @@ class Crossing {
   // visit(where in packed_, at which number of the rows, how many numbers): plane by plane what goes to each process.
   template <class Visit>
   void for_pieces(const Visit& visit) const;
+  template <class Copy>
+  void for_columns(const Copy& copy) const;  // copy(plane with the gap, without), where there are gaps
+  double* received() const { return stride_ == column_ ? columns_.get() : dense_.get(); }
 
   const Ranks& ranks_;
   int threads_;
@@ -30,10 +33,7 @@ class Crossing {
   std::vector<Index> first_, piece_;         // of a plane of rows: where the part of each process begins, and its size
   std::vector<Index> of_rows_, of_columns_;  // what goes to each process, and what comes from it
   Index length_, column_, stride_;           // of the columns: planes, numbers of one, and from one to the next
-  double* received() const { return stride_ == column_ ? columns_.get() : dense_.get(); }
-  template <class Copy>
-  void for_columns(const Copy& copy) const;
-  FftwBuffer packed_, columns_, dense_;  // dense_: the columns without gaps, where those have some
+  FftwBuffer packed_, columns_, dense_;      // dense_: the columns without gaps, where those have some
 };
 
 }  // namespace seiche

@@ -49,6 +49,18 @@ struct Places {
   Index size_of_values() const { return in_place ? size() : length * values.along; }
 };
 
+// Arrays for FFTW to plan upon, one where lines are transformed in place.
+struct Planned {
+  FftwBuffer first, second;
+
+  Planned(const Places& places, Index numbers)  // 2: of pairs
+      : first(fftw_buffer(static_cast<std::size_t>(numbers * places.size_of_values()))) {
+    if (!places.in_place) second = fftw_buffer(static_cast<std::size_t>(numbers * places.size()));
+  }
+  double* values() const { return first.get(); }
+  double* slots() const { return second ? second.get() : first.get(); }
+};
+
 Places in_place(const Lines& l) {
   const Strides strides{.along = l.inner, .across = 1, .outer = l.length * l.inner};
   return {
@@ -71,18 +83,8 @@ class FourierColumns final : public ColumnTransform {
   FourierColumns(const Places& places, bool measure)
       : places_(places),
         blocks_(places.outer, places.count),
-        values_(fftw_buffer(static_cast<std::size_t>(2 * places.size_of_values()))),
-        slots_(fftw_buffer(static_cast<std::size_t>(places.in_place ? 0 : 2 * places.size()))),
-        forward_(blocks_.width(), blocks_.rest(), measure,
-                 [&](int count, unsigned flags) {
-                   return plan(values_, places_.values, slots_, places_.slots, count, FFTW_FORWARD, flags);
-                 }),
-        inverse_(blocks_.width(), blocks_.rest(), measure, [&](int count, unsigned flags) {
-          return plan(slots_, places_.slots, values_, places_.values, count, FFTW_BACKWARD, flags);
-        }) {
-    values_.reset();  // planned upon only
-    slots_.reset();
-  }
+        forward_(plans(Planned(places, 2), true, measure)),
+        inverse_(plans(Planned(places, 2), false, measure)) {}
 
   Index blocks() const override { return blocks_.count(); }
   void to_slots(double* values, double* slots, Index block) const override {
@@ -95,14 +97,16 @@ class FourierColumns final : public ColumnTransform {
   }
 
  private:
-  fftw_plan plan(const FftwBuffer& from, const Strides& in, const FftwBuffer& to, const Strides& out, int count,
-                 int sign, unsigned flags) const {
-    const int n = static_cast<int>(places_.length);
-    double* const a = (places_.in_place ? values_ : from).get();
-    double* const b = (places_.in_place ? values_ : to).get();
-    return fftw_plan_many_dft(1, &n, count, pairs(a), nullptr, static_cast<int>(in.along), static_cast<int>(in.across),
-                              pairs(b), nullptr, static_cast<int>(out.along), static_cast<int>(out.across), sign,
-                              flags);
+  BatchPlans plans(const Planned& on, bool forward, bool measure) const {
+    const Strides &in = forward ? places_.values : places_.slots, &out = forward ? places_.slots : places_.values;
+    FftwComplex* const from = pairs(forward ? on.values() : on.slots());
+    FftwComplex* const to = pairs(forward ? on.slots() : on.values());
+    const int n = static_cast<int>(places_.length), sign = forward ? FFTW_FORWARD : FFTW_BACKWARD;
+    return {blocks_.width(), blocks_.rest(), measure, [&](int count, unsigned flags) {
+              return fftw_plan_many_dft(1, &n, count, from, nullptr, static_cast<int>(in.along),
+                                        static_cast<int>(in.across), to, nullptr, static_cast<int>(out.along),
+                                        static_cast<int>(out.across), sign, flags);
+            }};
   }
   void execute(const BatchPlans& plans, double* from, double* to, Index block) const {
     fftw_execute_dft((blocks_.is_full(block) ? plans.full : plans.rest).of(from, to), pairs(from), pairs(to));
@@ -110,29 +114,17 @@ class FourierColumns final : public ColumnTransform {
 
   Places places_;
   Blocks blocks_;
-  FftwBuffer values_, slots_;
   BatchPlans forward_, inverse_;
 };
 
 class RealColumns final : public ColumnTransform {
  public:
-  RealColumns(const GridAxis& axis, const Places& places, bool measure)
+  RealColumns(const Places& places, const GridAxis& axis, bool measure)
       : places_(places),
         blocks_(places.outer, places.count),
         alone_(modes_alone(axis)),
-        values_(fftw_buffer(static_cast<std::size_t>(places.size_of_values()))),
-        slots_(fftw_buffer(static_cast<std::size_t>(places.in_place ? 0 : places.size()))),
-        forward_(blocks_.width(), blocks_.rest(), measure,
-                 [&](int count, unsigned flags) {
-                   return plan(values_, places_.values, slots_, places_.slots, count, kinds_of(axis.boundary).forward,
-                               flags);
-                 }),
-        inverse_(blocks_.width(), blocks_.rest(), measure, [&](int count, unsigned flags) {
-          return plan(slots_, places_.slots, values_, places_.values, count, kinds_of(axis.boundary).inverse, flags);
-        }) {
-    values_.reset();
-    slots_.reset();
-  }
+        forward_(plans(Planned(places, 1), axis.boundary, true, measure)),
+        inverse_(plans(Planned(places, 1), axis.boundary, false, measure)) {}
 
   Index blocks() const override { return blocks_.count(); }
   void to_slots(double* values, double* slots, Index block) const override {
@@ -147,14 +139,18 @@ class RealColumns final : public ColumnTransform {
   }
 
  private:
-  fftw_plan plan(const FftwBuffer& from, const Strides& in, const FftwBuffer& to, const Strides& out, int count,
-                 int kind, unsigned flags) const {
-    const auto r2r_kind = static_cast<fftw_r2r_kind>(kind);
+  BatchPlans plans(const Planned& on, Boundary boundary, bool forward, bool measure) const {
+    const Strides &in = forward ? places_.values : places_.slots, &out = forward ? places_.slots : places_.values;
+    double* const from = forward ? on.values() : on.slots();
+    double* const to = forward ? on.slots() : on.values();
     const int n = static_cast<int>(places_.length);
-    double* const a = (places_.in_place ? values_ : from).get();
-    double* const b = (places_.in_place ? values_ : to).get();
-    return fftw_plan_many_r2r(1, &n, count, a, nullptr, static_cast<int>(in.along), static_cast<int>(in.across), b,
-                              nullptr, static_cast<int>(out.along), static_cast<int>(out.across), &r2r_kind, flags);
+    const LineKinds kinds = kinds_of(boundary);
+    const auto kind = static_cast<fftw_r2r_kind>(forward ? kinds.forward : kinds.inverse);
+    return {blocks_.width(), blocks_.rest(), measure, [&](int count, unsigned flags) {
+              return fftw_plan_many_r2r(1, &n, count, from, nullptr, static_cast<int>(in.along),
+                                        static_cast<int>(in.across), to, nullptr, static_cast<int>(out.along),
+                                        static_cast<int>(out.across), &kind, flags);
+            }};
   }
   void execute(const BatchPlans& plans, double* from, double* to, Index block) const {
     fftw_execute_r2r((blocks_.is_full(block) ? plans.full : plans.rest).of(from, to), from, to);
@@ -168,7 +164,6 @@ class RealColumns final : public ColumnTransform {
   Places places_;
   Blocks blocks_;
   std::vector<Index> alone_;
-  FftwBuffer values_, slots_;
   BatchPlans forward_, inverse_;
 };
 
@@ -183,25 +178,25 @@ class NoColumns final : public ColumnTransform {
 template <class Columns, class... Arguments>
 std::unique_ptr<ColumnTransform> columns(const Places& places, const Arguments&... arguments) {
   if (places.size() == 0) return std::make_unique<NoColumns>();
-  return std::make_unique<Columns>(arguments...);
+  return std::make_unique<Columns>(places, arguments...);
 }
 
 }  // namespace
 
 std::unique_ptr<ColumnTransform> fourier_columns(const Lines& lines, bool measure) {
-  return columns<FourierColumns>(in_place(lines), in_place(lines), measure);
+  return columns<FourierColumns>(in_place(lines), measure);
 }
 
 std::unique_ptr<ColumnTransform> real_columns(const GridAxis& axis, const Lines& lines, bool measure) {
-  return columns<RealColumns>(in_place(lines), axis, in_place(lines), measure);
+  return columns<RealColumns>(in_place(lines), axis, measure);
 }
 
 std::unique_ptr<ColumnTransform> turned_fourier_columns(const Turned& lines, bool measure) {
-  return columns<FourierColumns>(turned(lines), turned(lines), measure);
+  return columns<FourierColumns>(turned(lines), measure);
 }
 
 std::unique_ptr<ColumnTransform> turned_real_columns(const GridAxis& axis, const Turned& lines, bool measure) {
-  return columns<RealColumns>(turned(lines), axis, turned(lines), measure);
+  return columns<RealColumns>(turned(lines), axis, measure);
 }
 
 }  // namespace seiche

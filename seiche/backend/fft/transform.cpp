@@ -46,16 +46,15 @@ class ModalTransform final : public FieldTransform {
   ModalTransform(const Grid& grid, const TransformOptions& options)
       : n_(grid.unknowns()),
         all_(grid.whole().unknowns()),
-        first_(all_ / grid.axis(0).unknowns() * grid.slab().first),
+        first_(grid.first_unknown()),
         threads_(options.threads),
         row_count_(n_ / grid.axes.back().unknowns()),
         pairs_(grid.is_periodic()),
         modes_(grid),
-        planes_(grid.dimension() > 1 ? grid.slab().planes : 1),
-        all_planes_(grid.dimension() > 1 ? grid.axis(0).unknowns() : 1),
+        units_(grid.dimension() > 1 ? Units{.planes = grid.slab().planes, .of = grid.axis(0).unknowns()} : Units{}),
         rows_of_plane_(grid.dimension() == 3 ? grid.axis(1).unknowns() : 1),
         batches_(rows_of_plane_ == 1 ? row_count_ : rows_of_plane_, rows_of_batch(grid.axes.back().unknowns())),
-        batch_count_(rows_of_plane_ == 1 ? batches_.count() : planes_ * batches_.count()) {
+        batch_count_(rows_of_plane_ == 1 ? batches_.count() : units_.planes * batches_.count()) {
     const Index last = grid.dimension() - 1;
     rows_ = pairs_ ? fourier_rows(grid.axis(last).intervals, batches_, grid.dimension() == 1, options.measure_plans)
                    : real_rows(grid.axis(last), batches_, last == 0, options.measure_plans);
@@ -70,7 +69,7 @@ class ModalTransform final : public FieldTransform {
     }
     const Index inner = pairs_ ? rows_->slots() / 2 : rows_->slots();
     if (last == 2) {
-      const Lines lines{planes_, grid.axis(1).unknowns(), inner};
+      const Lines lines{units_.planes, grid.axis(1).unknowns(), inner};
       columns_ = pairs_ ? fourier_columns(lines, options.measure_plans)
                         : real_columns(grid.axis(1), lines, options.measure_plans);
     }
@@ -84,7 +83,7 @@ class ModalTransform final : public FieldTransform {
                        : turned_real_columns(grid.axis(0), lines, options.measure_plans);
     }
     parts_.resize(static_cast<std::size_t>(batch_count_));
-    sums_.resize(static_cast<std::size_t>(value_units().count()));
+    sums_.resize(static_cast<std::size_t>(units_.count()));
     const auto batch_size = static_cast<std::size_t>(batches_.most() * rows_->values());
     for (int thread = 0; thread < threads_; ++thread) values_.push_back(fftw_buffer(batch_size));
   }
@@ -93,7 +92,7 @@ class ModalTransform final : public FieldTransform {
   Index slots() const override { return slots_; }
   double slot_scale() const override { return slot_scale_; }
   double value_scale() const override { return value_scale_; }
-  Units value_units() const override { return {.planes = planes_, .of = all_planes_}; }
+  Units value_units() const override { return units_; }
   Index first_unknown() const override { return first_; }
   Index all_unknowns() const override { return all_; }
   Units slot_units() const override { return modes_.units(); }
@@ -146,19 +145,17 @@ class ModalTransform final : public FieldTransform {
       return;
     }
     const Index first = row(batch), end = first + size(batch);
-    const Units units = value_units();
-    for (Index unit = first / units.size; unit < units.count() && units.begin(unit) < end; ++unit)
+    for (Index unit = first / units_.size; unit < units_.count() && units_.begin(unit) < end; ++unit)
       sums_[static_cast<std::size_t>(unit)] =
-          f({values + (units.begin(unit) - first) * rows_->values(), count(units.end(unit) - units.begin(unit))});
+          f({values + (units_.begin(unit) - first) * rows_->values(), count(units_.end(unit) - units_.begin(unit))});
   }
   void add_parts() const {
     if (rows_of_plane_ == 1 && batches_.width() > 1) return;
-    const Units units = value_units();
     const Index per_plane = rows_of_plane_ == 1 ? 1 : batches_.count();
-    for (Index unit = 0; unit < units.count(); ++unit) {
+    for (Index unit = 0; unit < units_.count(); ++unit) {
       double& sum = sums_[static_cast<std::size_t>(unit)];
       sum = 0;
-      for (Index part = units.begin(unit) * per_plane; part < units.end(unit) * per_plane; ++part)
+      for (Index part = units_.begin(unit) * per_plane; part < units_.end(unit) * per_plane; ++part)
         sum += parts_[static_cast<std::size_t>(part)];
     }
   }
@@ -191,12 +188,13 @@ class ModalTransform final : public FieldTransform {
     return between_.get();
   }
 
-  Index n_, all_, first_ = 0;
+  Index n_, all_, first_;
   int threads_;
   Index row_count_;
   bool pairs_;
   Modes modes_;
-  Index planes_, all_planes_, rows_of_plane_;
+  Units units_;  // of the values
+  Index rows_of_plane_;
   Batches batches_;  // of all rows where each is a plane, else of those of one plane
   Index batch_count_;
   Index slots_ = 0;

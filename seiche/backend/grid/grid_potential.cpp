@@ -47,13 +47,20 @@ void GridPotential::add(const OfPart& of_part, std::span<double> totals) const {
       totals);
 }
 
+double GridPotential::total(std::span<const double> u, Number number) const {
+  double total = 0;
+  add([&](const auto& part, std::span<double> sum) { sum[0] = (*pointwise_.*number)(part(u)); }, {&total, 1});
+  return total;
+}
+
 double GridPotential::value(const Vector& z) const {
   if (!pointwise_) return 0;
   ++counts_.values;
-  const std::span<const double> u = values_of(z, a_);
-  double value = 0;
-  add([&](const auto& part, std::span<double> sum) { sum[0] = pointwise_->value(part(u)); }, {&value, 1});
-  return value;
+  return total(values_of(z, a_), &PointwisePotential::value);
+}
+
+double GridPotential::magnitude(const Vector& z) const {
+  return pointwise_ ? total(values_of(z, a_), &PointwisePotential::magnitude) : 0;
 }
 
 ValueAndMagnitude GridPotential::value_and_magnitude(const Vector& z) const {
@@ -69,14 +76,6 @@ ValueAndMagnitude GridPotential::value_and_magnitude(const Vector& z) const {
       },
       totals);
   return {.value = totals[0], .magnitude = totals[1]};
-}
-
-double GridPotential::magnitude(const Vector& z) const {
-  if (!pointwise_) return 0;
-  const std::span<const double> u = values_of(z, a_);
-  double magnitude = 0;
-  add([&](const auto& part, std::span<double> sum) { sum[0] = pointwise_->magnitude(part(u)); }, {&magnitude, 1});
-  return magnitude;
 }
 
 // In the vector of the gradient: coordinates become values, these slopes, and those coordinates again.
@@ -134,8 +133,7 @@ void GridPotential::along_ray(const Vector& z, std::span<double> coefficients) c
   ++counts_.values;
   const std::span<const double> v = values_of(z, b_);
   if (const int d = pointwise_->homogeneity(); d > 0) {
-    add([&](const auto& part, std::span<double> sum) { sum[0] = pointwise_->value(part(v)); },
-        coefficients.subspan(static_cast<std::size_t>(d), 1));
+    coefficients[static_cast<std::size_t>(d)] = total(v, &PointwisePotential::value);
     return;
   }
   a_.setZero();

@@ -31,6 +31,8 @@ class GridPotential final : public Potential {
   std::span<const double> values_of(const Vector& z, Vector& values) const;
   template <class OfPart>
   void add(const OfPart& of_part, std::span<double> totals) const;
+  using Number = double (PointwisePotential::*)(std::span<const double> u) const;
+  double total(std::span<const double> u, Number number) const;
   void set_gradient(const Vector& physical, Vector& gradient) const;
 
   std::shared_ptr<const PointwisePotential> pointwise_;

@@ -24,7 +24,7 @@ void GridSpace::add_units(const Units& units, std::span<const double> sums, std:
   counts.clear();
   for (int rank = 0; rank < processes; ++rank)
     counts.push_back(units_of(units, {rank, processes}).count() * static_cast<Index>(totals.size()));
-  all.resize(static_cast<std::size_t>(units_of(units, {}).count()) * totals.size());
+  all.resize(static_cast<std::size_t>(units.whole().count()) * totals.size());
   ranks_->gather(sums, counts, all);
   Space::add_units(units, all, totals);
 }

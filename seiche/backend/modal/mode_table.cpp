@@ -146,13 +146,13 @@ void with_columns(Index columns, const Body& body) {
     body.template operator()<0>();
 }
 
-// body<layout>(block, first chunk, last chunk)
+// body<layout>(first chunk, last chunk)
 template <class Body>
 void over_blocks(const ModeFactors& factors, int threads, const Body& body) {
   for_blocks(blocks_of(factors), threads, [&](Index block) {
     const Index first = block * chunks_per_block;
     const Index last = std::min(factors.chunks(), first + chunks_per_block);
-    with_layout(factors.layout(), [&]<ModeLayout layout>() { body.template operator()<layout>(block, first, last); });
+    with_layout(factors.layout(), [&]<ModeLayout layout>() { body.template operator()<layout>(first, last); });
   });
 }
 
@@ -187,7 +187,7 @@ void ModeTable::apply(std::span<const double* const> in, std::span<double* const
     for (double* const row : out) std::fill_n(row, factors_.slots(), 0.0);
     return;
   }
-  over_blocks(factors_, threads, [&]<ModeLayout layout>(Index, Index first, Index last) {
+  over_blocks(factors_, threads, [&]<ModeLayout layout>(Index first, Index last) {
     with_columns(columns_, [&]<int known>() { sum_rows<layout, known>(factors_, in, out, first, last); });
   });
 }

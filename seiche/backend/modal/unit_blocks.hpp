@@ -16,7 +16,7 @@ class UnitBlocks {
   UnitBlocks(const Space::Field& field, Index most) : units_(field.units) {
     for (Index unit = 0; unit < field.units.count(); ++unit) {
       for (Index begin = field.begin(unit); begin < field.end(unit); begin += most)
-        add({unit, begin, std::min(begin + most, field.end(unit))}, most);
+        append({unit, begin, std::min(begin + most, field.end(unit))}, most);
     }
   }
 
@@ -42,18 +42,19 @@ class UnitBlocks {
   struct Block {
     Index unit, begin, end;
   };
-  void add(const Block& block, Index most) {
+  struct Share {
+    std::size_t first, last;
+  };
+  void append(const Block& block, Index most) {
     blocks_.push_back(block);
     if (shares_.empty() || block.end - blocks_[shares_.back().first].begin > most)
       shares_.push_back({blocks_.size() - 1, blocks_.size()});
     else
       shares_.back().last = blocks_.size();
   }
+
   Units units_;
   std::vector<Block> blocks_;
-  struct Share {
-    std::size_t first, last;
-  };
   std::vector<Share> shares_;                 // blocks of one call on a thread, up to `most` slots
   mutable std::vector<double> parts_, sums_;  // scratch
 };

@@ -21,6 +21,12 @@ Index Grid::unknowns() const {
   return n;
 }
 
+Index Grid::first_unknown() const {
+  Index n = slab().first;
+  for (Index a = 1; a < dimension(); ++a) n *= axis(a).unknowns();
+  return n;
+}
+
 double Grid::coordinate(Index point, Index a) const {
   for (Index b = dimension() - 1; b > a; --b) point /= axis(b).unknowns();
   return axis(a).x(a == 0 ? slab().first + point : point % axis(a).unknowns());

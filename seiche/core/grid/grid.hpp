@@ -45,7 +45,8 @@ struct Grid {
   // is not cut.
   Rank here = {};
 
-  Slab slab() const;  // of axis 0
+  Slab slab() const;            // of axis 0
+  Index first_unknown() const;  // the number in the whole grid of the first one here
   Grid whole() const;
 
   Index dimension() const { return static_cast<Index>(axes.size()); }

@@ -12,18 +12,18 @@ Modes::Modes(const Grid& grid) : dimension_(grid.dimension()), pairs_(grid.is_pe
   }
   if (dimension_ > 1) {
     plane_ = (pairs_ ? 2 : 1) * sizes_[0] * sizes_[2];
-    whole_ = units_in_eights(sizes_[1], plane_);
-    const Slab slab = slab_of_rank(here_.index);
-    units_ = {slab.planes, whole_.size, whole_.planes};
-    sizes_[1] = slab.planes;
-    first_plane_ = slab.first;
+    units_ = units_of(units_in_eights(sizes_[1], plane_), here_);
+    sizes_[1] = units_.planes;
+    first_plane_ = slab_of_rank(here_.index).first;
   } else {
     plane_ = (pairs_ ? 2 : 1) * sizes_[0];
   }
   count_ = sizes_[0] * sizes_[1] * sizes_[2];
 }
 
-Slab Modes::slab_of_rank(int rank) const { return dimension_ > 1 ? slab_of(whole_, {rank, here_.count}) : Slab{0, 1}; }
+Slab Modes::slab_of_rank(int rank) const {
+  return dimension_ > 1 ? slab_of(units_.whole(), {rank, here_.count}) : Slab{0, 1};
+}
 
 Mode Modes::operator[](Index index) const {
   Mode mode = first_;

@@ -35,7 +35,7 @@ class Modes {
   Index dimension_;
   bool pairs_;
   Rank here_;
-  Units whole_, units_;
+  Units units_;
   Index plane_ = 1, first_plane_ = 0;
   Index count_ = 1;
 };

@@ -19,6 +19,7 @@ struct Units {
   Index count() const { return planes > 0 ? std::max<Index>(planes / size, 1) : 0; }
   Index begin(Index unit) const { return size * unit; }  // the first plane
   Index end(Index unit) const { return unit + 1 == count() ? planes : size * (unit + 1); }
+  Units whole() const { return {of, size, of}; }
 };
 
 // Planes side by side.
@@ -42,7 +43,7 @@ inline Slab slab_of(const Units& whole, const Rank& part) {
 
 // Those of one process of the units of all.
 inline Units units_of(const Units& units, const Rank& part) {
-  return {slab_of({units.of, units.size}, part).planes, units.size, units.of};
+  return {slab_of(units.whole(), part).planes, units.size, units.of};
 }
 
 // Units of so many numbers each that eight lie side by side from their first number on, whatever lies before them.

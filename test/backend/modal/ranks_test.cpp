@@ -55,8 +55,7 @@ Problem plane(Index points = 16) {
 
 // Physical values of all parts where they belong.
 void put(const Problem& part, const Vector& values, Vector& whole) {
-  const Index mine = part.grid.unknowns(), all = part.grid.whole().unknowns();
-  const Index first = all / part.grid.axis(0).unknowns() * part.grid.slab().first;
+  const Index mine = part.grid.unknowns(), all = part.grid.whole().unknowns(), first = part.grid.first_unknown();
   for (Index f = 0; f < part.field_count(); ++f) whole.segment(f * all + first, mine) = values.segment(f * mine, mine);
 }
 
@@ -151,7 +150,7 @@ TEST(Ranks, TransformsHaveTheBitsOfOneProcess) {
         const Grid grid = part_of(problem, ranks.here()).grid;
         const auto transform = modal_transform(grid, {.ranks = &ranks});
         const Modes modes(grid);
-        Vector mine = values.segment(values.size() / grid.axis(0).unknowns() * grid.slab().first, grid.unknowns());
+        Vector mine = values.segment(grid.first_unknown(), grid.unknowns());
         Vector found(transform->slots());
         transform->forward(span_of(mine), span_of(found));
         const Index first = modes.slab_of_rank(ranks.here().index).first * modes.plane();
