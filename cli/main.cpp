@@ -1,5 +1,6 @@
 // The program: subcommands, and one place that turns what went wrong into a sentence and an exit code.
 #include "command_line.hpp"
+#include "processes.hpp"
 #include "stop_signal.hpp"
 #include "versions.hpp"
 
@@ -118,7 +119,10 @@ ExitCode run_program(const std::vector<std::string>& given) {
                 is_of_command ? arguments[0] + " " : "");
   }
   const bool answers = app.got_subcommand("run") || app.got_subcommand("resume");  // as soon as they know how
-  if (!answers) let_signals_through();
+  if (!answers) {
+    let_signals_through();
+    require_one_process(arguments[0]);
+  }
   return action();
 }
 
@@ -130,21 +134,19 @@ int main(int count, char** values) {
   keep_signals_waiting();
   prepare_process();
   try {
-    return run_program({values + std::min(count, 1), values + count});
+    return leave(run_program({values + std::min(count, 1), values + count}));
   } catch (const seiche::Error& error) {
-    print_failure(error.what());
-    return wrong_usage;
+    return leave(wrong_usage, [&] { print_failure(error.what()); });
   } catch (const std::bad_alloc&) {
-    print_out_of_memory();
-    return computation_failed;
+    return leave(computation_failed, print_out_of_memory);
   } catch (const std::filesystem::filesystem_error& error) {
-    print_failure(fmt::format("{}: {}", seiche::shortened_path(error.path1().string()), error.code().message()));
-    return leads_nowhere(error.code()) ? wrong_usage : computation_failed;
+    return leave(leads_nowhere(error.code()) ? wrong_usage : computation_failed, [&] {
+      print_failure(fmt::format("{}: {}", seiche::shortened_path(error.path1().string()), error.code().message()));
+    });
   } catch (const nlohmann::json::exception&) {
-    print_note("a file in JSON, such as summary.json, does not hold what Seiche writes to it");
-    return wrong_usage;
+    return leave(wrong_usage,
+                 [] { print_note("a file in JSON, such as summary.json, does not hold what Seiche writes to it"); });
   } catch (const std::exception& error) {
-    print_failure(error.what());
-    return computation_failed;
+    return leave(computation_failed, [&] { print_failure(error.what()); });
   }
 }

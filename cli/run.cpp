@@ -1,6 +1,7 @@
 // seiche run: one case, one method, and the files that a run leaves. seiche resume: the same from a checkpoint.
 #include "command_line.hpp"
 #include "load_case.hpp"
+#include "processes.hpp"
 #include "stop_signal.hpp"
 #include "versions.hpp"
 
@@ -8,6 +9,7 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/base/shortened.hpp>
 #include <seiche/core/simd/thread_count.hpp>
+#include <seiche/driver/follow_case.hpp>
 #include <seiche/driver/going_on.hpp>
 #include <seiche/driver/run_ensemble_case.hpp>
 #include <seiche/output/hdf5/hdf5.hpp>
@@ -51,7 +53,7 @@ ExitCode exit_code(RunReport::Status status, bool is_law_violated) {
   return is_law_violated ? law_violated : success;
 }
 
-RunCaseOptions run_options(const RunArguments& arguments) {
+RunCaseOptions run_options(const RunArguments& arguments, const Ranks* ranks) {
   return {.threads = arguments.threads,
           .restart = arguments.restart,
           .max_hours = arguments.max_hours,
@@ -65,7 +67,24 @@ RunCaseOptions run_options(const RunArguments& arguments) {
               },
           .ends = [] { return &hold_signals(); },
           .warn = [](const std::string& note) { print_note(note); },
-          .versions = versions()};
+          .versions = versions(),
+          .ranks = ranks};
+}
+
+void require_single_run(const RunSpec& spec, const Ranks* ranks) {
+  if (spec.ensemble && ranks != nullptr)
+    throw Error("an ensemble runs on the threads of one process (--threads), and {} processes were started",
+                ranks->here().count);
+}
+
+// What processes do that are not the first, for either command.
+ExitCode follow(const RunArguments& arguments, const Ranks& ranks) {
+  answer_signals("");     // the first one says it
+  ranks.on_first([] {});  // reads the case, or the checkpoint
+  const CaseResult result =
+      follow_case({.threads = arguments.threads, .begins = [] { return &stop_on_signal(); }, .ranks = &ranks});
+  hold_signals();
+  return exit_code(result.report.status, result.report.law == LawVerdict::violated);
 }
 
 void print(const RunArguments& arguments, const std::string& directory, const CaseResult& result) {
@@ -123,12 +142,18 @@ ExitCode run_ensemble(const RunArguments& arguments, const std::string& director
 }
 
 ExitCode run(const NewRunArguments& arguments) {
+  const Ranks* const ranks = join_others();
+  if (!is_first(ranks)) return follow(arguments, *ranks);
   answer_signals("stopped before the first step");
   hdf5_without_cleanup_at_exit();
-  RunSpec spec = load_case(arguments.case_argument);
-  if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
-  if (arguments.directory_given) spec.output_directory = arguments.directory;
-  RunCaseOptions options = run_options(arguments);
+  RunSpec spec;
+  on_first(ranks, [&] {
+    spec = load_case(arguments.case_argument);
+    if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
+    if (arguments.directory_given) spec.output_directory = arguments.directory;
+    require_single_run(spec, ranks);
+  });
+  RunCaseOptions options = run_options(arguments, ranks);
   if (spec.ensemble)
     return run_ensemble(arguments, spec.output_directory,
                         [&] { return run_ensemble_case(spec, spec.output_directory, options); });
@@ -140,17 +165,23 @@ ExitCode run(const NewRunArguments& arguments) {
 }
 
 ExitCode resume(const ResumeArguments& arguments) {
+  const Ranks* const ranks = join_others();
+  if (!is_first(ranks)) return follow(arguments, *ranks);
   answer_signals("stopped before the run went on; its files and its checkpoint are as they were");
   hdf5_without_cleanup_at_exit();
   const std::string& directory = arguments.directory;
-  RunCaseOptions options = run_options(arguments);
+  RunCaseOptions options = run_options(arguments, ranks);
   Progress progress(stderr, 0);
   options.ends_at = [&progress](double t_end) { progress.end_at(t_end); };
-  GoingOn from = going_on(directory, arguments.until, options);
-  if (from.spec.ensemble)
-    return run_ensemble(arguments, directory, [&] { return resume_ensemble_case(std::move(from), options); });
+  std::optional<GoingOn> from;
+  on_first(ranks, [&] {
+    from = going_on(directory, arguments.until, options);
+    require_single_run(from->spec, ranks);
+  });
+  if (from->spec.ensemble)
+    return run_ensemble(arguments, directory, [&] { return resume_ensemble_case(std::move(*from), options); });
   if (ProgressBar::is_wanted(arguments.quiet)) options.observers.push_back(&progress);
-  const CaseResult result = resume_case(std::move(from), options);
+  const CaseResult result = resume_case(std::move(*from), options);
   print(arguments, directory, result);
   return exit_code(result.report.status, result.report.law == LawVerdict::violated);
 }

@@ -18,8 +18,10 @@ std::atomic<const char*> end_of_set_up = "";
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
 void end_set_up(int) {
-  for (const std::string_view text : {"seiche: ", end_of_set_up.load(std::memory_order_relaxed), "\n"})
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  const std::string_view sentence = end_of_set_up.load(std::memory_order_relaxed);
+  for (const std::string_view text : {std::string_view("seiche: "), sentence, std::string_view("\n")})
+    if (!sentence.empty()) [[maybe_unused]]
+      const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(interrupted);
 }
 

@@ -12,8 +12,8 @@ void keep_signals_waiting();
 void let_signals_through();  // of commands that answer none: they end the program
 
 // Of a run that is being set up: those that waited come now. USR1 asks for the first checkpoint; the others end the
-// program at once with exit code 130, since nothing is lost yet, and say so by `sentence`, a literal. A reader of our
-// messages that has gone ends no run.
+// program at once with exit code 130, since nothing is lost yet, and say so by `sentence`, a literal, if there is one.
+// A reader of our messages that has gone ends no run.
 void answer_signals(const char* sentence);
 
 // From now on; the flag is set by the first signal. HUP stays ignored where the program was started so (nohup).

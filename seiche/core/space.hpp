@@ -28,27 +28,18 @@ class Space {
   virtual void sum(std::span<double> /*local*/) const {}
   virtual void max(std::span<double> /*local*/) const {}
 
-  // The numbers of one field that are here, plane behind plane: slots of z, or physical values.
-  struct Field {
-    Index size = 0;
-    Units units = {};
-    Index first = 0, of = size;  // the number of the whole field that is the first here, and how many those are
-
-    Index plane() const { return units.planes > 0 ? size / units.planes : 0; }
-    Index begin(Index unit) const { return units.begin(unit) * plane(); }
-    Index end(Index unit) const { return units.end(unit) * plane(); }
-    // visit(begin, length) of the parts of a vector of so many numbers that belong to a unit.
-    template <class Visit>
-    void for_parts(Index numbers, Index unit, const Visit& visit) const {
-      if (units.whole().count() == 1) return visit(Index{0}, numbers);
-      for (Index at = 0; at < numbers; at += size) visit(at + begin(unit), end(unit) - begin(unit));
-    }
-  };
+  using Field = FieldPart;
   virtual Field slots() const { return {size()}; }
   virtual Field values() const { return {physical_size()}; }
   // Totals over all processes of sums over the units that this one holds, `totals.size()` side by side for each: added
   // in the order of units, they do not depend on how many processes there are.
   virtual void add_units(const Units& units, std::span<const double> sums, std::span<double> totals) const;
+  // The numbers of a vector in all processes, in the order that they have in one, piece by piece: on the first process.
+  // What `take` throws is thrown there when all pieces have passed, since the other processes do not know of it.
+  virtual void join(const Field& /*field*/, std::span<const double> mine,
+                    FunctionRef<void(std::span<const double> piece)> take) const {
+    take(mine);
+  }
 
   double sum(double local) const {
     sum({&local, 1});

@@ -26,10 +26,14 @@ CaseFolder::CaseFolder(const std::filesystem::path& path, RunKind kind, const Ru
 
 CaseFolder::CaseFolder(const std::filesystem::path& path) : folder_(path), lock_(folder_) {}
 
-const std::atomic<bool>* begin_run(const RunCaseOptions& options) {
+const std::atomic<bool>& never_stops() {
   static const std::atomic<bool> never = false;
+  return never;
+}
+
+const std::atomic<bool>* begin_run(const RunCaseOptions& options) {
   const std::atomic<bool>* stop = options.begins ? options.begins() : nullptr;
-  return stop != nullptr ? stop : &never;
+  return stop != nullptr ? stop : &never_stops();
 }
 
 FileHashes hashes_of(const RunSpec& spec, const std::string& case_text) {

@@ -30,6 +30,7 @@ class CaseFolder {
   FolderLock lock_;
 };
 
+const std::atomic<bool>& never_stops();  // a flag that is never set
 // Calls options.begins; returns its flag, or one that is never set.
 const std::atomic<bool>* begin_run(const RunCaseOptions& options);
 // Of the text of case.toml, and of the files that the case names.

@@ -57,17 +57,6 @@ double time_of_final_state(const fs::path& file) {
   return summary["t"].get<double>();
 }
 
-RunPlan plan(const RunSpec& spec, int threads) {
-  RunPlan plan{.simulation = simulation_options(spec),
-               .h = spec.h,
-               .tolerance = spec.tolerance,
-               .h_max = spec.h_max,
-               .t_start = spec.t_start,
-               .t_end = spec.t_end};
-  plan.simulation.backend_options.threads = threads;
-  return plan;
-}
-
 // Drawing takes longer than many runs: the pictures are left to `seiche plot`.
 void write_page(const fs::path& directory, bool ledger) {
   const EnergyHistory history = ledger ? read_energy_history(directory / "energy.csv") : EnergyHistory{};
@@ -109,6 +98,33 @@ std::string write_for_readers(const Folder& folder, const RunSpec& spec, const S
 
 }  // namespace
 
+Problem problem_here(const RunSpec& spec, const RunCaseOptions& options) {
+  Problem problem = make_problem(spec);
+  return options.ranks != nullptr ? part_of(problem, options.ranks->here()) : problem;
+}
+
+RunPlan run_plan(const RunSpec& spec, const RunCaseOptions& options) {
+  RunPlan plan{.simulation = simulation_options(spec),
+               .h = spec.h,
+               .tolerance = spec.tolerance,
+               .h_max = spec.h_max,
+               .t_start = spec.t_start,
+               .t_end = spec.t_end};
+  plan.simulation.backend_options.threads = options.threads;
+  plan.simulation.backend_options.ranks = options.ranks;
+  return plan;
+}
+
+SnapshotTimes snapshot_times(const RunSpec& spec) {
+  return {.schedule = {.every_steps = spec.snapshot_every}, .interval = spec.snapshot_interval};
+}
+
+void join_values(Simulation& simulation, FunctionRef<void(std::span<const double> piece)> take) {
+  const Space& space = *simulation.system().space;
+  const Vector values = simulation.physical();
+  space.join(space.values(), {values.data(), static_cast<std::size_t>(values.size())}, take);
+}
+
 CaseRecord CaseRun::make_record(RunSpec& spec, const Problem& problem, PreparedRun& run, const RunCaseOptions& options,
                                 GoingOn* from) {
   if (from != nullptr) return {*from, headline(spec, run.simulation()), options};
@@ -121,22 +137,23 @@ CaseRecord CaseRun::make_record(RunSpec& spec, const Problem& problem, PreparedR
 }
 
 CaseRun::CaseRun(RunSpec spec, const Problem& problem, const RunCaseOptions& options, GoingOn* from)
-    : spec_(std::move(spec)),
-      options_(options),
-      problem_(problem.name),
-      run_(problem, plan(spec_, options.threads)),
-      record_(make_record(spec_, problem, run_, options, from)) {
-  if (from == nullptr && spec_.measure_plans) write_file(record_.folder(), wisdom_name, planning_wisdom());
+    : spec_(std::move(spec)), options_(options), problem_(problem.name), run_(problem, run_plan(spec_, options)) {
+  on_first(options_.ranks, [&] {
+    record_ = std::unique_ptr<CaseRecord>(new CaseRecord(make_record(spec_, problem, run_, options, from)));
+    if (from == nullptr && spec_.measure_plans) write_file(record_->folder(), wisdom_name, planning_wisdom());
+  });
 }
 
 CaseResult CaseRun::result() {
-  const Folder& folder = record_.folder();
+  const Folder& folder = record_->folder();
   Simulation& simulation = run_.simulation();
   const auto summary = [this](const RunReport& report) { return this->summary(report); };
   LastWords last_words(folder, simulation, summary);
-  record_.put_new_end();
-  make_files();
-  record_.take_over();
+  on_first(options_.ranks, [&] {
+    record_->put_new_end();
+    make_files();
+    record_->take_over();
+  });
   if (spec_.ledger) simulation.stepper().keep_ledger();
   const auto warn = [this](const std::string& note) { this->warn(note); };
   keeper_.emplace(folder,
@@ -146,7 +163,7 @@ CaseResult CaseRun::result() {
                                             .stops_at_once = options_.stops_at_once,
                                             .now = [this](std::int64_t n, double t) { return now(n, t); },
                                             .warn = warn},
-                  record_.saved());
+                  record_->saved());
   const std::atomic<bool>* leave = nullptr;
   AtTheEnd hold([&](const RunReport& report) {
     said_by_loop_ = report.message;
@@ -157,8 +174,10 @@ CaseResult CaseRun::result() {
   std::vector<Observer*> observers = {&hold, &*trace_, &*solution_, &words};
   observers.insert(observers.end(), options_.observers.begin(), options_.observers.end());
 
-  const Resumption resumption{.checkpoints = &*keeper_, .from = record_.rest()};
-  const RunReport ended = run_.integrate(record_.stop(), observers, resumption);
+  if (options_.ranks != nullptr) joint_.emplace(*options_.ranks, &*keeper_, record_->stop());
+  const Resumption resumption{.checkpoints = joint_ ? static_cast<Checkpoints*>(&*joint_) : &*keeper_,
+                              .from = record_->rest()};
+  const RunReport ended = run_.integrate(joint_ ? never_stops() : record_->stop(), observers, resumption);
   RunReport report = with_way_on(ended);
   last_words.correct(report);
   // From here on nothing is lost: it can all be had again from the files that are there.
@@ -188,25 +207,24 @@ void CaseRun::warn(const std::string& note) const {
 }
 
 void CaseRun::make_files() {
-  const Folder& folder = record_.folder();
+  const Folder& folder = record_->folder();
   const Simulation& simulation = run_.simulation();
   const bool is_modified = run_.simulation().stepper().has_modified_energy();
   const Schedule energy_steps{.every_steps = spec_.energy_every};
-  const SnapshotTimes times{.schedule = {.every_steps = spec_.snapshot_every}, .interval = spec_.snapshot_interval};
-  const SavedRun* saved = record_.saved();
+  const SavedRun* saved = record_->saved();
   if (saved != nullptr) {
     trace_.emplace(folder, saved->energies, is_modified, energy_steps, spec_.ledger);
   } else {
     trace_.emplace(folder, is_modified, energy_steps, spec_.ledger);
   }
-  solution_.emplace(folder, simulation.problem(), *simulation.system().space, times, is_modified,
-                    description(spec_, simulation, record_.versions()),
+  solution_.emplace(folder, simulation.problem(), *simulation.system().space, snapshot_times(spec_), is_modified,
+                    description(spec_, simulation, record_->versions()),
                     saved != nullptr && saved->solution ? &*saved->solution : nullptr, bytes_per_GB * spec_.join_below);
 }
 
 // The order matters: what a checkpoint vouches for is on the disk before it is.
 SavedRun CaseRun::now(std::int64_t n, double t) {
-  SavedRun saved = record_.now(n, t);
+  SavedRun saved = record_->now(n, t);
   saved.solution = solution_->mark();
   saved.energies = trace_->mark();
   return saved;
@@ -224,7 +242,7 @@ RunReport CaseRun::with_way_on(RunReport report) const {
   if (report.step_failed && report.t > spec_.t_start)
     report.say(fmt::format(
         "another run goes on from there, with other settings, by initial = {{ file = \"{}\" }} and start = {} in [time]",
-        (record_.folder().path() / "final.txt").string(), report.t));
+        (record_->folder().path() / "final.txt").string(), report.t));
   if (over) return report;
   if (report.status == RunReport::Status::interrupted) report.message += keeper_->why_stopped();
   report.say(keeper_->way_on(report.t));
@@ -232,7 +250,7 @@ RunReport CaseRun::with_way_on(RunReport report) const {
 }
 
 RunReport CaseRun::with_notes(RunReport report) const {
-  for (const std::string& note : record_.notes()) report.say(note);
+  for (const std::string& note : record_->notes()) report.say(note);
   return report;
 }
 
@@ -245,10 +263,11 @@ std::string CaseRun::summary(const RunReport& report) {
                        .h = spec_.tolerance ? std::numeric_limits<double>::quiet_NaN() : spec_.h,
                        .tolerance = spec_.tolerance,
                        .certificate = certificate_json(run_.certificate_after(report)),
-                       .versions = record_.versions(),
-                       .resumed_with = record_.resumed_with(),
+                       .versions = record_->versions(),
+                       .resumed_with = record_->resumed_with(),
                        .threads = options_.threads,
-                       .hashes = record_.hashes(),
+                       .processes = options_.ranks != nullptr ? options_.ranks->here().count : 1,
+                       .hashes = record_->hashes(),
                        .finished = *finished_},
                       with_notes(report));
 }

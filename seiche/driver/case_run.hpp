@@ -4,16 +4,26 @@
 #include <seiche/config/case/run_spec.hpp>
 #include <seiche/driver/case_record.hpp>
 #include <seiche/driver/checkpoint_keeper.hpp>
+#include <seiche/driver/joint_checkpoints.hpp>
 #include <seiche/driver/run_case.hpp>
 #include <seiche/output/energy_trace.hpp>
 #include <seiche/record/solution_file.hpp>
 #include <seiche/simulation/prepared_run.hpp>
 
 #include <ctime>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace seiche {
+
+// What all processes of a run do alike.
+Problem problem_here(const RunSpec& spec, const RunCaseOptions& options);  // what this one holds of it
+RunPlan run_plan(const RunSpec& spec, const RunCaseOptions& options);
+SnapshotTimes snapshot_times(const RunSpec& spec);
+// The physical values of the state: of several processes those of all, which the first one gets.
+void join_values(Simulation& simulation, FunctionRef<void(std::span<const double> piece)> take);
 
 class CaseRun {
  public:
@@ -43,12 +53,13 @@ class CaseRun {
   const RunCaseOptions& options_;
   std::string problem_;
   PreparedRun run_;
-  CaseRecord record_;
+  std::unique_ptr<CaseRecord> record_;
   std::optional<std::time_t> finished_;
   std::string said_by_loop_;  // the message, before files were finished
   std::optional<EnergyTrace> trace_;
   std::optional<SolutionFile> solution_;
   std::optional<CheckpointKeeper> keeper_;
+  std::optional<JointCheckpoints> joint_;  // where there are several processes
 };
 
 }  // namespace seiche

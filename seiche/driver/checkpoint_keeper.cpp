@@ -70,9 +70,12 @@ void CheckpointKeeper::plan_next_save(double began) {
   }
 }
 
-void CheckpointKeeper::save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) {
-  const double began = passed();
-  SavedRun saved = options_.now(n, t);  // brings the rows so far to the disk: where that fails, the run does
+SavedRun CheckpointKeeper::now(std::int64_t n, double t) {
+  began_ = passed();
+  return options_.now(n, t);
+}
+
+void CheckpointKeeper::commit(SavedRun saved, FunctionRef<void(Archive&)> run) {
   try {
     commit_checkpoint(folder_, options_.when.keep > 1, [&](Archive& archive) {
       archive(saved);
@@ -87,7 +90,7 @@ void CheckpointKeeper::save(std::int64_t n, double t, FunctionRef<void(Archive&)
                       saved_t_ ? fmt::format("the newest is that of t = {:.9g}", *saved_t_) : "there is no earlier one",
                       error.what()));
   }
-  plan_next_save(began);
+  plan_next_save(began_);
 }
 
 std::string CheckpointKeeper::way_on(double t) const {

@@ -30,7 +30,10 @@ class CheckpointKeeper : public Checkpoints {
   CheckpointKeeper(Folder folder, Options options, const SavedRun* from);
 
   // A checkpoint that cannot be written ends no run: that is said once.
-  void save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) override;
+  void save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) override { commit(now(n, t), run); }
+  // The same in two steps. The first brings the rows so far to the disk: where that fails, the run does.
+  SavedRun now(std::int64_t n, double t);
+  void commit(SavedRun saved, FunctionRef<void(Archive&)> run);
   // What to say of a run that has not come to its end, but to t: "; `seiche resume out` goes on from there"; "" where
   // no checkpoint was written.
   std::string way_on(double t) const;
@@ -48,7 +51,7 @@ class CheckpointKeeper : public Checkpoints {
   Folder folder_;
   Options options_;
   Clock::time_point begin_, last_look_;
-  double next_save_, spent_ = 0;                     // seconds: since the run began, and on checkpoints so far
+  double next_save_, began_ = 0, spent_ = 0;         // seconds: since the run began, and on checkpoints so far
   std::int64_t last_n_, last_saved_n_, stride_ = 1;  // steps
   std::optional<double> saved_t_;                    // of the newest checkpoint
   bool has_warned_ = false, out_of_time_ = false;

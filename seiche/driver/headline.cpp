@@ -45,7 +45,8 @@ std::string headline(const RunSpec& spec, const Simulation& simulation) {
   const std::string members = spec.ensemble ? fmt::format("{} members, each ", spec.ensemble->count()) : "";
   const std::string from = spec.t_start == 0 ? "" : fmt::format("from t = {:.9g} ", spec.t_start);
   return fmt::format("{}: {}{}{}, {} unknowns; {}, {}, backend {}, {}to t = {:.9g}", spec.problem, members,
-                     fields_text(problem.fields), points_text(problem.grid), problem.size(), spec.method, steps,
+                     fields_text(problem.fields), points_text(problem.grid.whole()),
+                     problem.field_count() * problem.grid.whole().unknowns(), spec.method, steps,
                      simulation.backend().name, from, spec.t_end);
 }
 

@@ -1,6 +1,7 @@
 #include <seiche/driver/last_words.hpp>
 
 #include <seiche/core/base/error.hpp>
+#include <seiche/driver/case_run.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/final_state.hpp>
 
@@ -8,13 +9,13 @@
 
 namespace seiche {
 
-LastWords::LastWords(Folder folder, const Simulation& simulation, Summary summary)
+LastWords::LastWords(Folder folder, Simulation& simulation, Summary summary)
     : folder_(std::move(folder)), simulation_(simulation), summary_(std::move(summary)) {}
 
 void LastWords::write(const RunReport& report) {
   std::string failure;
   try {
-    write_final_state(folder_, simulation_.physical());
+    write_final_state(folder_, [this](const auto& take) { join_values(simulation_, take); });
   } catch (const Error& error) {
     failure = error.what();
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/config/case/run_spec.hpp>
+#include <seiche/core/grid/ranks.hpp>
 #include <seiche/core/observer.hpp>
 #include <seiche/simulation/certificate.hpp>
 
@@ -36,6 +37,8 @@ struct RunCaseOptions {
   // Of a single run, behind those that write its files. Of an ensemble they are told by `pass` where its records lie.
   std::vector<Observer*> observers = {};
   std::map<std::string, std::string> versions = {};  // of the caller, for summary.json
+  // The processes that run the case together, each of which calls for it; they outlive the call. Null: this one alone.
+  const Ranks* ranks = nullptr;
 };
 
 struct GoingOn;
@@ -51,7 +54,8 @@ struct CaseResult {
 
 // Leaves case.toml, energy.csv, solution.h5 with solution.xdmf, final.txt, summary.json and report.html in `folder`,
 // which replaces spec.output_directory. Throws Error for set-up mistakes, and where the folder is in use or not its
-// own; a computation that fails is a status of the report, with what was computed before on disk.
+// own; a computation that fails is a status of the report, with what was computed before on disk. Of several processes
+// the first one calls it and writes the files, while the others call follow_case.
 CaseResult run_case(RunSpec spec, const std::filesystem::path& folder, const RunCaseOptions& options = {});
 
 // Leaves the same files with the same numbers as a run that was never stopped.

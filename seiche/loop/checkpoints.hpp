@@ -19,6 +19,7 @@ class Checkpoints {
   Wish wish(std::int64_t n) { return n < next_look_ ? Wish::none : look(n); }
   // After n steps, at t: run(archive) writes the run, behind whatever is in the archive.
   virtual void save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) = 0;
+  std::int64_t next_look() const { return next_look_; }  // no wish comes before so many steps
 
  protected:
   virtual Wish look(std::int64_t n) = 0;

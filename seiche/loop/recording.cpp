@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace seiche {
 namespace {
@@ -14,11 +15,28 @@ bool is_finite(const EnergyReading& reading) { return std::isfinite(reading.H) &
 
 }  // namespace
 
+Index JointStates::size_of_all(const Vector& mine) const {
+  return static_cast<Index>(space_.sum(static_cast<double>(mine.size())));
+}
+
+void JointStates::join(const Vector& mine, FunctionRef<void(std::span<const double> piece)> write) const {
+  space_.join(space_.slots(), {mine.data(), static_cast<std::size_t>(mine.size())}, write);
+}
+
+void JointStates::part(Index all, FunctionRef<void(Index from, std::span<double> to)> read, Vector& mine) const {
+  const Space::Field field = space_.slots();
+  const Index fields = all % field.of == 0 ? all / field.of : 0;  // none: of another grid
+  mine.resize(fields * field.size);
+  for (Index f = 0; f < fields; ++f)
+    read(f * field.of + field.first, {mine.data() + f * field.size, static_cast<std::size_t>(field.size)});
+}
+
 Recording::Recording(const System& system, const Stepper& stepper, State& state, const LawPromise& law,
                      const std::function<std::string()>& explanation, std::span<Observer* const> observers)
     : system_(system),
       stepper_(stepper),
       state_(state),
+      joint_(*system.space),
       observers_(observers),
       explanation_(explanation),
       book_(law, stepper.has_modified_energy()),
@@ -56,13 +74,11 @@ bool Recording::record(bool last) {
     return false;
   }
   book_.add(reading, state_.t, state_.n);
-  for (Observer* observer : observers_) {
-    if (observer->is_due(state_, last)) {
-      observer->observe(state_, reading);
-    } else {
-      observer->pass(state_);
-    }
-  }
+  show(state_, reading, [&](Observer& observer) {
+    const bool due = observer.is_due(state_, last);
+    if (!due) observer.pass(state_);
+    return due;
+  });
   keep_good();
   return true;
 }
@@ -95,8 +111,21 @@ double Recording::next_time() const {
 
 void Recording::show(const State& between) {
   const EnergyReading reading = stepper_.energy(between);
-  for (Observer* observer : observers_)
-    if (observer->next_time() <= between.t) observer->observe(between, reading);
+  show(between, reading, [&](const Observer& observer) { return observer.next_time() <= between.t; });
+}
+
+void Recording::show(const State& state, const EnergyReading& reading, FunctionRef<bool(Observer&)> is_meant) {
+  std::optional<Error> failure;
+  for (Observer* observer : observers_) {
+    if (!is_meant(*observer)) continue;
+    try {
+      observer->observe(state, reading);
+    } catch (const Error& error) {
+      if (!failure) failure = error;
+    }
+  }
+  if (!system_.space->any(failure.has_value())) return;
+  throw failure ? Error(*failure) : Error("another process could not record the state");
 }
 
 // The last good state of a run that ended early, for those who have not seen it.
@@ -108,9 +137,8 @@ void Recording::record_rest() {
     return;
   }
   if (!book_.has(state_.n)) book_.add(reading, state_.t, state_.n);
-  for (Observer* observer : observers_) {
-    if (!observer->is_due(state_, false) && observer->is_due(state_, true)) observer->observe(state_, reading);
-  }
+  show(state_, reading,
+       [&](const Observer& observer) { return !observer.is_due(state_, false) && observer.is_due(state_, true); });
 }
 
 void Recording::fail(std::string message) {
@@ -209,6 +237,7 @@ void Recording::archive(Archive& a, const std::function<std::string()>& objectio
   Potential::Counts counts_so_far = counts();
   double seconds_so_far = seconds();
   std::string met = met_by(objection);
+  a.join_vectors(joint_);
   a(state_, first_n_, book_, ledger_);
   a(report_.scalar_iterations, report_.fallbacks, report_.unresolved, report_.replaced, report_.widened, report_.halved,
     report_.rejected, report_.events, met, seconds_so_far);

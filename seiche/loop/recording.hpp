@@ -16,6 +16,18 @@
 
 namespace seiche {
 
+// Vectors in the coordinates of the state.
+class JointStates final : public JointVectors {
+ public:
+  explicit JointStates(const Space& space) : space_(space) {}
+  Index size_of_all(const Vector& mine) const override;
+  void join(const Vector& mine, FunctionRef<void(std::span<const double> piece)> write) const override;
+  void part(Index all, FunctionRef<void(Index from, std::span<double> to)> read, Vector& mine) const override;
+
+ private:
+  const Space& space_;
+};
+
 class Recording {
  public:
   // All outlive the recording. `explanation`: why no step goes on from the state, or ""; null if no one knows. It is
@@ -65,6 +77,8 @@ class Recording {
   void keep_good();  // the state and what has been entered up to it
   void go_back();    // to the state of the last record, and the ledger up to there
   void record_rest();
+  // Each of these observers sees the state, also where one before has failed; then all processes throw Error.
+  void show(const State& state, const EnergyReading& reading, FunctionRef<bool(Observer&)> is_meant);
   std::string met_by(const std::function<std::string()>& objection) const;  // or before a resume
   void complete_message(const std::string& remark);
   void finish_observers();
@@ -74,6 +88,7 @@ class Recording {
   const System& system_;
   const Stepper& stepper_;
   State& state_;
+  JointStates joint_;
   std::span<Observer* const> observers_;
   const std::function<std::string()>& explanation_;
   EnergyBook book_;

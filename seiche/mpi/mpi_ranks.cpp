@@ -3,9 +3,8 @@
 
 #include <mpi.h>
 
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace seiche {
@@ -96,13 +95,6 @@ std::unique_ptr<Ranks> mpi_ranks() { return std::make_unique<MpiRanks>(MPI_COMM_
 
 std::unique_ptr<Ranks> mpi_ranks(int fortran_handle) {
   return std::make_unique<MpiRanks>(MPI_Comm_f2c(fortran_handle));
-}
-
-void abort_all(const std::string& message, int exit_code) {
-  std::fprintf(stderr, "%s\n", message.c_str());
-  std::fflush(stderr);
-  MPI_Abort(MPI_COMM_WORLD, exit_code);
-  std::abort();
 }
 
 }  // namespace seiche

@@ -4,7 +4,6 @@
 #include <seiche/core/grid/ranks.hpp>
 
 #include <memory>
-#include <string>
 
 namespace seiche {
 
@@ -24,9 +23,5 @@ class MpiSession {
 std::unique_ptr<Ranks> mpi_ranks();
 // Those of a communicator that is given as Fortran's handle (MPI_Comm_c2f, mpi4py's Comm.py2f).
 std::unique_ptr<Ranks> mpi_ranks(int fortran_handle);
-
-// Ends all processes of MPI_COMM_WORLD with this message on standard error, and with this exit code: for what one of
-// them has met, while others may wait for it.
-[[noreturn]] void abort_all(const std::string& message, int exit_code);
 
 }  // namespace seiche

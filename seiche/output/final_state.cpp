@@ -2,17 +2,28 @@
 #include <seiche/output/file/atomic_file.hpp>
 #include <seiche/output/final_state.hpp>
 
+#include <optional>
+
 namespace seiche {
 
-void write_final_state(const Folder& folder, const Vector& physical_values) {
-  AtomicFile file(folder, "final.txt");
+void write_final_state(const Folder& folder, FunctionRef<void(FunctionRef<void(std::span<const double> piece)>)> join) {
+  std::optional<AtomicFile> file;
   CsvRow row;
-  for (const double value : physical_values) {
-    row.clear();
-    row.add(value);
-    file.write(row.line());
-  }
-  file.commit();
+  join([&](std::span<const double> piece) {
+    if (!file) file.emplace(folder, "final.txt");
+    for (const double value : piece) {
+      row.clear();
+      row.add(value);
+      file->write(row.line());
+    }
+  });
+  if (file) file->commit();
+}
+
+void write_final_state(const Folder& folder, const Vector& physical_values) {
+  write_final_state(folder, [&](FunctionRef<void(std::span<const double> piece)> take) {
+    take({physical_values.data(), static_cast<std::size_t>(physical_values.size())});
+  });
 }
 
 }  // namespace seiche

@@ -60,7 +60,7 @@ Hdf5Shape SolutionLayout::chunk() const {
 
 SolutionLayout solution_layout(const Problem& problem) {
   SolutionLayout layout;
-  const Grid& grid = problem.grid;
+  const Grid grid = problem.grid.whole();
   if (grid.unknowns() > 1 && grid.only_numbers) {
     layout.axes.push_back(numbers(grid.unknowns()));
     layout.nodes = grid.nodes;

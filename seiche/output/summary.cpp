@@ -61,6 +61,7 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                   {"finished", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(run.finished))},
                   {"versions", versions}};
   if (run.threads > 0) summary["threads"] = run.threads;
+  if (run.processes > 1) summary["processes"] = run.processes;
   if (!run.hashes.empty()) summary["sha256"] = run.hashes;
   if (!run.resumed_with.empty()) summary.update(Json::parse(resumed_json(run.resumed_with)));
   if (!run.certificate.empty()) summary["certificate"] = Json::parse(run.certificate);

@@ -31,7 +31,8 @@ struct RunIdentity {
   std::map<std::string, std::string> versions = {};
   std::vector<ResumedWith> resumed_with = {};  // in the order of the resumes
   int threads = 0;                             // 0: not told
-  FileHashes hashes = {};                      // of case.toml, and of the files that it names
+  int processes = 1;
+  FileHashes hashes = {};  // of case.toml, and of the files that it names
   std::time_t finished = std::time(nullptr);
 };
 

@@ -11,7 +11,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <fstream>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -66,14 +70,18 @@ class PlainFile {
   // Fewer than `most` where the file ends.
   std::string read(std::uint64_t at, std::uint64_t most) const {
     std::string bytes(std::min(most, size_ - std::min(at, size_)), '\0');
+    bytes.resize(read(at, std::span<char>(bytes)));
+    return bytes;
+  }
+  // Returns how many there were.
+  std::size_t read(std::uint64_t at, std::span<char> bytes) const {
     std::size_t done = 0;
     while (done < bytes.size()) {
       const ::ssize_t size = ::pread(file_, bytes.data() + done, bytes.size() - done, static_cast<::off_t>(at + done));
       if (size == 0 || (size < 0 && errno != EINTR)) break;
       done += size < 0 ? 0 : static_cast<std::size_t>(size);
     }
-    bytes.resize(done);
-    return bytes;
+    return done;
   }
 
  private:
@@ -92,19 +100,31 @@ std::uint32_t checksum_of(const PlainFile& file, std::uint64_t begin, std::uint6
 }  // namespace
 
 void commit_checkpoint(const Folder& folder, bool keeps_earlier, FunctionRef<void(Archive&)> contents) {
-  AtomicFile file(folder, checkpoint_name);
-  Body body(file);
-  Archive archive([&body](std::string_view bytes) { body.write(bytes); });
+  std::optional<AtomicFile> file;
+  std::optional<Body> body;
+  std::exception_ptr failure;
+  const auto attempt = [&failure](const auto& action) {
+    if (failure) return;
+    try {
+      action();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  attempt([&] { body.emplace(file.emplace(folder, checkpoint_name)); });
+  Archive archive([&](std::string_view bytes) { attempt([&] { body->write(bytes); }); });
   contents(archive);
-  body.close();
-  file.sync();  // before the one that it replaces loses its name
+  if (failure) std::rethrow_exception(failure);
+  body->close();
+  file->sync();  // before the one that it replaces loses its name
   if (keeps_earlier) rename_file(folder, checkpoint_name, earlier_checkpoint_name);
-  file.commit();
+  file->commit();
 }
 
 // The length at its end is compared before anything else is read: what has grown, or has a hole, has another one.
-Archive read_checkpoint_file(const std::filesystem::path& file) {
-  const PlainFile in(file);
+Archive read_checkpoint_file(const std::filesystem::path& file, bool is_checked) {
+  const auto held = std::make_shared<const PlainFile>(file);
+  const PlainFile& in = *held;
   if (in.read(0, format.size()) != format) throw Error("{} is no checkpoint of this version of Seiche", file.string());
   Tail tail{};
   if (in.size() < format.size() + sizeof(tail))
@@ -114,9 +134,11 @@ Archive read_checkpoint_file(const std::filesystem::path& file) {
   if (last.size() == sizeof(tail)) std::memcpy(&tail, last.data(), sizeof(tail));
   if (last.size() != sizeof(tail) || tail.length != length)
     throw Error("{} is damaged: its last bytes are missing, or belong to another", file.string());
-  if (checksum_of(in, format.size(), length) != tail.checksum)
+  if (!is_checked && checksum_of(in, format.size(), length) != tail.checksum)
     throw Error("{} is damaged: its checksum is another", file.string());
-  return Archive(in.read(format.size(), length));
+  return Archive(length, [held, file](std::uint64_t at, std::span<char> to) {
+    if (held->read(format.size() + at, to) != to.size()) throw Error("{} cannot be read", file.string());
+  });
 }
 
 void replace_beginning(const Folder& folder, const std::string& name, std::uint64_t bytes,

@@ -17,11 +17,13 @@ inline constexpr const char* checkpoint_name = "checkpoint.seiche";
 inline constexpr const char* earlier_checkpoint_name = "checkpoint_prev.seiche";
 
 // What `contents` writes becomes the newest checkpoint of the folder once it is on the disk; with `keeps_earlier` the
-// newest so far stays as the earlier one. Throws Error where it cannot be written; the newest so far is there all the
-// same, at the latest as the earlier one.
+// newest so far stays as the earlier one. Throws Error where it cannot be written, when `contents` has come to its end,
+// since it may be a work of several processes; the newest so far is there all the same, at the latest as the earlier
+// one.
 void commit_checkpoint(const Folder& folder, bool keeps_earlier, FunctionRef<void(Archive&)> contents);
-// Throws Error where it cannot be read, is damaged, or is of another format.
-Archive read_checkpoint_file(const std::filesystem::path& file);
+// Throws Error where it cannot be read, is damaged, or is of another format. `is_checked`: another process has found
+// its checksum right.
+Archive read_checkpoint_file(const std::filesystem::path& file, bool is_checked = false);
 // The first bytes of the contents of a whole checkpoint, so many, become what `contents` writes; all else stays as it
 // is. Throws Error where it cannot be read to its end, or written.
 void replace_beginning(const Folder& folder, const std::string& name, std::uint64_t bytes,

@@ -26,8 +26,8 @@ void SavedRun::archive(Archive& a) {
   a(versions, case_text, hashes, notes, resumed_with, new_end, t, steps, energies, solution);
 }
 
-Checkpoint read_checkpoint(const std::filesystem::path& file) {
-  Checkpoint found{.name = file.filename().string(), .run = {}, .rest = read_checkpoint_file(file)};
+Checkpoint read_checkpoint(const std::filesystem::path& file, bool is_checked) {
+  Checkpoint found{.name = file.filename().string(), .run = {}, .rest = read_checkpoint_file(file, is_checked)};
   found.rest(found.run);
   return found;
 }

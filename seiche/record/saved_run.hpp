@@ -43,7 +43,7 @@ struct Checkpoint {
 // Error where one cannot be written; since the newest comes last, a run then goes on to the end of before.
 void write_new_end(const Folder& folder, const std::string& case_text, double t_end);
 // Throws Error where it cannot be read, is damaged, or is of another format.
-Checkpoint read_checkpoint(const std::filesystem::path& file);
+Checkpoint read_checkpoint(const std::filesystem::path& file, bool is_checked = false);
 
 // The case in the newest checkpoint of a folder that can be read; "" where there is no such checkpoint.
 std::string case_of_checkpoint(const std::filesystem::path& directory);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string_view>
@@ -120,21 +121,60 @@ void Segments::attempt(const Action& action) {
   is_broken_ = false;
 }
 
-void Segments::append(std::span<const double> fields, std::span<const double> numbers) {
+// visit(field, values) of a piece that comes behind so many others.
+template <class Visit>
+void Segments::by_fields(std::uint64_t at, std::span<const double> piece, const Visit& visit) const {
+  for (const std::uint64_t points = layout_.points(); !piece.empty();) {
+    const std::size_t length = std::min<std::uint64_t>(piece.size(), points - at % points);
+    visit(static_cast<std::size_t>(at / points), piece.first(length));
+    piece = piece.subspan(length);
+    at += length;
+  }
+}
+
+void Segments::append(FunctionRef<void(Take)> join, std::span<const double> numbers) {
   attempt([&] {
-    const std::uint64_t points = layout_.points();
     const std::size_t count = layout_.fields.size();
-    const bool is_large = chunk_ == 1;  // large rows are not kept twice
-    for (std::size_t f = 0; f < count; ++f) {
-      const std::span<const double> row = fields.subspan(f * points, points);
-      if (is_large) {
-        open().columns[f].append(row);
-      } else {
-        mark_.unfinished[f].insert(mark_.unfinished[f].end(), row.begin(), row.end());
-      }
+    if (chunk_ == 1) {
+      append_large(join);
+    } else {
+      std::uint64_t at = 0;
+      join([&](std::span<const double> piece) {
+        by_fields(at, piece, [&](std::size_t f, std::span<const double> values) {
+          mark_.unfinished[f].insert(mark_.unfinished[f].end(), values.begin(), values.end());
+        });
+        at += piece.size();
+      });
     }
     for (std::size_t i = 0; i < numbers.size(); ++i) mark_.unfinished[count + i].push_back(numbers[i]);
     if (mark_.unfinished.back().size() == chunk_) write_rows(open());
+  });
+}
+
+// Rows that fill chunks are not kept twice: some planes at a time, which fill chunks, go to the disk.
+void Segments::append_large(FunctionRef<void(Take)> join) {
+  constexpr std::uint64_t enough = std::uint64_t{1} << 20U;  // numbers
+  const std::uint64_t points = layout_.points(), planes = layout_.shape().front(), plane = points / planes;
+  const std::uint64_t height = layout_.chunk()[1];
+  const std::uint64_t most = plane * height * std::max<std::uint64_t>(enough / (plane * height), 1);
+  std::uint64_t at = 0, written = 0;  // in all fields, and in this one
+  std::vector<double> block;
+  join([&](std::span<const double> piece) {
+    by_fields(at, piece, [&](std::size_t f, std::span<const double> values) {
+      Hdf5Dataset& column = open().columns[f];
+      if (written == 0 && block.empty()) column.begin_row();
+      while (!values.empty()) {
+        const std::uint64_t full = std::min(most, points - written);
+        const std::size_t length = std::min<std::uint64_t>(values.size(), full - block.size());
+        block.insert(block.end(), values.begin(), values.begin() + static_cast<std::ptrdiff_t>(length));
+        values = values.subspan(length);
+        if (block.size() < full) continue;
+        column.continue_row(written / plane, block);
+        written = (written + full) % points;
+        block.clear();
+      }
+    });
+    at += piece.size();
   });
 }
 

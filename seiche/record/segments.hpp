@@ -3,6 +3,7 @@
 // never opened for writing again. The rows behind the last whole chunk are kept by the checkpoint.
 #pragma once
 
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/control/archive.hpp>
 #include <seiche/core/run_report.hpp>
 #include <seiche/output/file/atomic_file.hpp>
@@ -57,9 +58,14 @@ class Segments {
   Segments(const Segments&) = delete;
   Segments& operator=(const Segments&) = delete;
 
-  // A row: all fields one after the other, and H, H_modified if there is one, t. Throws Error where a chunk cannot be
-  // written; from then on everything does, and what is not sealed is gone, which makes room.
-  void append(std::span<const double> fields, std::span<const double> numbers);
+  // A row: all fields one after the other, which `join` passes on piece by piece, and H, H_modified if there is one, t.
+  // Throws Error where a chunk cannot be written; from then on everything does, and what is not sealed is gone, which
+  // makes room.
+  using Take = FunctionRef<void(std::span<const double> piece)>;
+  void append(FunctionRef<void(Take)> join, std::span<const double> numbers);
+  void append(std::span<const double> fields, std::span<const double> numbers) {
+    append([&](Take take) { take(fields); }, numbers);
+  }
   // What was appended is on the disk under its final name, but for the rows that the mark holds. Throws Error where it
   // cannot be; the mark before this one still holds then.
   SegmentsMark seal();
@@ -72,6 +78,9 @@ class Segments {
 
  private:
   OpenSolution& open();  // the segment that is being written
+  void append_large(FunctionRef<void(Take)> join);
+  template <class Visit>
+  void by_fields(std::uint64_t at, std::span<const double> piece, const Visit& visit) const;
   void write_rows(OpenSolution& to);
   void require_writable() const;
   template <class Action>

@@ -11,7 +11,9 @@
 
 #include <atomic>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace seiche {
 
@@ -38,24 +40,37 @@ class SolutionFile : public Observer {
                bool has_modified_energy, const SolutionDescription& description = {}, const Mark* from = nullptr,
                double join_below = std::numeric_limits<double>::infinity());
 
+  // Of another process than the first, which has the file: takes part in what is to come together there.
+  SolutionFile(const Space& space, const SnapshotTimes& times, const Mark* from = nullptr);
+
   bool is_due(const State& state, bool last) const override;
   double next_time() const override;
   void observe(const State& state, const EnergyReading& energy) override;
   void finish(const RunReport& report) override;  // solution.h5, unless a row could not be written
-  bool is_finished() const { return segments_.is_finished(); }
-  bool is_joined() const { return segments_.is_joined(); }
+  bool is_finished() const { return file_->segments.is_finished(); }
+  bool is_joined() const { return file_->segments.is_joined(); }
   Mark mark();  // with its rows on the disk
   // solution.xdmf, after finish, for which ParaView asks; not where `stop` is set meanwhile. It shows every n-th time:
   // returns n.
   std::uint64_t describe(const std::atomic<bool>* stop = nullptr) const;
 
  private:
-  Folder folder_;
-  SolutionLayout layout_;
-  Segments segments_;
+  struct File {
+    File(Folder in, const SolutionLayout& of, const SolutionDescription& description, bool has_modified_energy,
+         SegmentsMark mark, double join_below)
+        : folder(std::move(in)),
+          layout(of),
+          has_modified(has_modified_energy),
+          segments(folder, layout, description, has_modified, std::move(mark), join_below) {}
+
+    Folder folder;
+    SolutionLayout layout;
+    bool has_modified;
+    Segments segments;
+  };
+  std::optional<File> file_;
   const Space& space_;
   SnapshotTimes times_;
-  bool has_modified_;
   std::int64_t shown_;  // multiples of the interval
   double last_t_;
   Vector values_;

@@ -3,7 +3,7 @@
 //                              --fail: the first process fails
 #include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
-#include <seiche/mpi/mpi_ranks.hpp>
+#include <seiche/mpi/mpi_processes.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/simulation/simulation.hpp>
 
@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -65,9 +67,9 @@ double milliseconds_of_a_step(const std::string& method, long points, const Rank
 }  // namespace
 
 int main(int count, char** arguments) {
-  const MpiSession session;
+  const std::unique_ptr<Processes> processes(seiche_mpi_processes());
   try {
-    const auto ranks = mpi_ranks();
+    const Ranks* const ranks = &processes->ranks();
     const std::vector<std::string> words(arguments + 1, arguments + count);
     if (words.size() == 3 && words[0] == "--time") {
       const double time = milliseconds_of_a_step(words[1], std::stol(words[2]), *ranks);
@@ -87,6 +89,7 @@ int main(int count, char** arguments) {
     }
     if (ranks->here().index == 0) fmt::print("the same bits on {} processes\n", ranks->here().count);
   } catch (const Error& error) {
-    abort_all(error.what(), 1);
+    fmt::print(stderr, "{}\n", error.what());
+    processes->end_all(1);
   }
 }

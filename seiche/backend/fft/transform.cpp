@@ -45,13 +45,12 @@ class ModalTransform final : public FieldTransform {
  public:
   ModalTransform(const Grid& grid, const TransformOptions& options)
       : n_(grid.unknowns()),
-        all_(grid.whole().unknowns()),
-        first_(grid.first_unknown()),
+        field_(grid.field()),
         threads_(options.threads),
         row_count_(n_ / grid.axes.back().unknowns()),
         pairs_(grid.is_periodic()),
         modes_(grid),
-        units_(grid.dimension() > 1 ? Units{.planes = grid.slab().planes, .of = grid.axis(0).unknowns()} : Units{}),
+        units_(field_.units),
         rows_of_plane_(grid.dimension() == 3 ? grid.axis(1).unknowns() : 1),
         batches_(rows_of_plane_ == 1 ? row_count_ : rows_of_plane_, rows_of_batch(grid.axes.back().unknowns())),
         batch_count_(rows_of_plane_ == 1 ? batches_.count() : units_.planes * batches_.count()) {
@@ -92,10 +91,8 @@ class ModalTransform final : public FieldTransform {
   Index slots() const override { return slots_; }
   double slot_scale() const override { return slot_scale_; }
   double value_scale() const override { return value_scale_; }
-  Units value_units() const override { return units_; }
-  Index first_unknown() const override { return first_; }
-  Index all_unknowns() const override { return all_; }
-  Units slot_units() const override { return modes_.units(); }
+  FieldPart value_field() const override { return field_; }
+  FieldPart slot_field() const override { return modes_.field(); }
 
   void to_slots(std::span<const double> values, std::span<double> slots) const override {
     double* const rows = turned_ ? between_.get() : slots.data();
@@ -188,7 +185,8 @@ class ModalTransform final : public FieldTransform {
     return between_.get();
   }
 
-  Index n_, all_, first_;
+  Index n_;  // values
+  FieldPart field_;
   int threads_;
   Index row_count_;
   bool pairs_;

@@ -28,14 +28,12 @@ class FieldTransform {
   virtual void to_slots(std::span<const double> values, std::span<double> slots) const = 0;
   virtual void to_values(std::span<double> slots, std::span<double> values) const = 0;
 
-  // Of the planes along axis 0 of the values, and along axis 1 of the slots.
-  virtual Units value_units() const { return {}; }   // those that are here
-  virtual Index first_unknown() const { return 0; }  // of all, the first that is here
-  virtual Index all_unknowns() const { return unknowns(); }
-  virtual Units slot_units() const { return {}; }
+  // In planes along axis 0 of the values, and along axis 1 of the slots.
+  virtual FieldPart value_field() const { return {unknowns()}; }
+  virtual FieldPart slot_field() const { return {slots()}; }
 
   // slots ← to_slots(f(to_values(from))), where f overwrites the values of some points and returns a number: the sums
-  // of these over each of value_units(). f must treat every point alike and alone. Blocks of points pass through the
+  // of these over each unit of values. f must treat every point alike and alone. Blocks of points pass through the
   // cache, on several threads. `from` has as many coordinates as `slots`, and is the same array or apart from it; then
   // it is kept.
   using Pointwise = std::function<double(std::span<double> values)>;

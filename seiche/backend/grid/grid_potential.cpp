@@ -87,7 +87,7 @@ double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) cons
   };
   if (pointwise_->is_local()) {
     double value = 0;
-    space_.add_units(transform_->value_units(),
+    space_.add_units(transform_->value_field().units,
                      transform_->through_values(segment(z, support_.begin, support_.size),
                                                 segment(gradient, support_.begin, support_.size), slopes),
                      {&value, 1});

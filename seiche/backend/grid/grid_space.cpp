@@ -29,6 +29,12 @@ void GridSpace::add_units(const Units& units, std::span<const double> sums, std:
   Space::add_units(units, all, totals);
 }
 
+void GridSpace::join(const Field& field, std::span<const double> mine,
+                     FunctionRef<void(std::span<const double> piece)> take) const {
+  if (ranks_ == nullptr) return Space::join(field, mine, take);
+  ranks_->join(field, mine, take);
+}
+
 void GridSpace::to_physical(const Vector& z, Vector& values) const {
   const Index n = transform_->unknowns();
   const Index slots = transform_->slots();

@@ -19,10 +19,10 @@ class GridSpace final : public Space {
   void add_units(const Units& units, std::span<const double> sums, std::span<double> totals) const override;
   Index size() const override { return fields_ * transform_->slots(); }
   Index physical_size() const override { return fields_ * transform_->unknowns(); }
-  Field slots() const override { return {transform_->slots(), transform_->slot_units()}; }
-  Field values() const override {
-    return {transform_->unknowns(), transform_->value_units(), transform_->first_unknown(), transform_->all_unknowns()};
-  }
+  void join(const Field& field, std::span<const double> mine,
+            FunctionRef<void(std::span<const double> piece)> take) const override;
+  Field slots() const override { return transform_->slot_field(); }
+  Field values() const override { return transform_->value_field(); }
   void to_physical(const Vector& z, Vector& values) const override;
   void from_physical(const Vector& values, Vector& z) const override;
 

@@ -175,8 +175,9 @@ void settle_method(RunSpec& spec) {
 void settle_snapshots(RunSpec& spec, const Problem& problem) {
   if (!spec.tolerance || spec.snapshots_given) return;
   constexpr Index most_numbers = Index{1} << 24U;
-  Index count = problem.size() <= 16 ? 1024 : 512;
-  while (count > 16 && count * problem.size() > most_numbers) count /= 2;
+  const Index numbers = problem.field_count() * problem.grid.whole().unknowns();
+  Index count = numbers <= 16 ? 1024 : 512;
+  while (count > 16 && count * numbers > most_numbers) count /= 2;
   spec.snapshot_interval = spec.duration() / static_cast<double>(count);  // exact, for a power of two
 }
 

@@ -14,7 +14,7 @@ template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:
   template <class F>
-    requires(!std::is_same_v<F, FunctionRef>)
+    requires(!std::is_same_v<F, FunctionRef> && std::is_invocable_r_v<Result, const F&, Arguments...>)
   FunctionRef(const F& f)  // NOLINT(google-explicit-constructor): a lambda passes for it
       : object_(std::addressof(f)), call_([](const void* object, Arguments... arguments) -> Result {
           return (*static_cast<const F*>(object))(std::forward<Arguments>(arguments)...);

@@ -16,17 +16,22 @@ std::string_view kept(std::string text) {
 
 }  // namespace
 
+Archive::Archive(std::string bytes)
+    : Archive(bytes.size(),
+              [bytes](std::uint64_t at, std::span<char> to) { std::memcpy(to.data(), bytes.data() + at, to.size()); }) {
+}
+
 void Archive::raw(void* data, std::size_t size) {
   if (!reads()) return sink_({static_cast<const char*>(data), size});
-  if (size > bytes_.size() - at_) throw damaged();
-  std::memcpy(data, bytes_.data() + at_, size);
+  if (size > size_ - at_) throw damaged();
+  source_(at_, {static_cast<char*>(data), size});
   at_ += size;
 }
 
 std::size_t Archive::count(std::size_t size) {
   auto written = static_cast<std::uint64_t>(size);
   (*this)(written);
-  if (reads() && written > bytes_.size() - at_) throw damaged();
+  if (reads() && written > size_ - at_) throw damaged();
   return static_cast<std::size_t>(written);
 }
 
@@ -42,15 +47,31 @@ void Archive::require(bool is_possible) const {
 }
 
 void Archive::operator()(Vector& vector) {
-  const std::size_t size = count(static_cast<std::size_t>(vector.size()));
-  if (reads() && size > (bytes_.size() - at_) / sizeof(double)) throw damaged();
-  vector.resize(static_cast<Index>(size));
-  if (size > 0) raw(vector.data(), size * sizeof(double));
+  const std::size_t size =
+      count(static_cast<std::size_t>(joint_ != nullptr ? joint_->size_of_all(vector) : vector.size()));
+  if (reads() && size > (size_ - at_) / sizeof(double)) throw damaged();
+  if (joint_ == nullptr) {
+    vector.resize(static_cast<Index>(size));
+    if (size > 0) raw(vector.data(), size * sizeof(double));
+  } else if (!reads()) {
+    joint_->join(vector, [&](std::span<const double> piece) {
+      sink_({reinterpret_cast<const char*>(piece.data()), piece.size_bytes()});
+    });
+  } else {
+    joint_->part(
+        static_cast<Index>(size),
+        [&](Index from, std::span<double> to) {
+          source_(at_ + sizeof(double) * static_cast<std::uint64_t>(from),
+                  {reinterpret_cast<char*>(to.data()), to.size_bytes()});
+        },
+        vector);
+    at_ += sizeof(double) * size;
+  }
 }
 
 void Archive::operator()(std::vector<double>& list) {
   const std::size_t size = count(list.size());
-  if (reads() && size > (bytes_.size() - at_) / sizeof(double)) throw damaged();
+  if (reads() && size > (size_ - at_) / sizeof(double)) throw damaged();
   list.resize(size);
   if (size > 0) raw(list.data(), size * sizeof(double));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/base/error.hpp>
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/base/vector.hpp>
 
 #include <concepts>
@@ -11,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -26,15 +28,31 @@ concept Archived = requires(T& object, Archive& archive) {
   object.archive(archive);
 };
 
+// How processes that hold the parts of vectors write and read each as one.
+class JointVectors {
+ public:
+  virtual ~JointVectors() = default;
+  virtual Index size_of_all(const Vector& mine) const = 0;
+  // All of its numbers, in their order, on the process that writes.
+  virtual void join(const Vector& mine, FunctionRef<void(std::span<const double> piece)> write) const = 0;
+  // mine ← what is here of one of so many numbers, some of which `read` gets.
+  virtual void part(Index all, FunctionRef<void(Index from, std::span<double> to)> read, Vector& mine) const = 0;
+};
+
 // Numbers lie as they do in memory: bits come back as they were, on a machine of the same kind.
 class Archive {
  public:
   // To be written: `sink` gets the bytes one piece after the other, and a vector whole, so that none is copied.
   explicit Archive(std::function<void(std::string_view)> sink) : sink_(std::move(sink)) {}
-  explicit Archive(std::string bytes) : bytes_(std::move(bytes)) {}  // to be read
+  // To be read: so many bytes, which `source` gets wherever they lie, or throws Error.
+  using Source = std::function<void(std::uint64_t at, std::span<char> bytes)>;
+  Archive(std::uint64_t size, Source source) : source_(std::move(source)), size_(size) {}
+  explicit Archive(std::string bytes);
 
   bool reads() const { return !sink_; }
-  bool is_at_end() const { return at_ == bytes_.size(); }
+  bool is_at_end() const { return at_ == size_; }
+  // From here on vectors are those of several processes. `how` outlives the archive.
+  void join_vectors(const JointVectors& how) { joint_ = &how; }
 
   // archive(a, b, c), each in turn. Reading throws Error where the bytes end, or were not written by this list.
   template <class... Values>
@@ -91,8 +109,9 @@ class Archive {
   std::size_t count(std::size_t size);  // of what follows, one byte each at least
 
   std::function<void(std::string_view)> sink_ = {};
-  std::string bytes_ = {};
-  std::size_t at_ = 0;
+  Source source_ = {};
+  std::uint64_t size_ = 0, at_ = 0;
+  const JointVectors* joint_ = nullptr;
 };
 
 }  // namespace seiche

@@ -9,6 +9,11 @@ Slab Grid::slab() const {
   return dimension() > 1 ? slab_of({planes}, here) : Slab{0, planes};
 }
 
+FieldPart Grid::field() const {
+  const Units planes = dimension() > 1 ? Units{.planes = slab().planes, .of = axis(0).unknowns()} : Units{};
+  return {unknowns(), planes, first_unknown(), whole().unknowns()};
+}
+
 Grid Grid::whole() const {
   Grid grid = *this;
   grid.here = {};

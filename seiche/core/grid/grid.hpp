@@ -48,6 +48,7 @@ struct Grid {
   Slab slab() const;            // of axis 0
   Index first_unknown() const;  // the number in the whole grid of the first one here
   Grid whole() const;
+  FieldPart field() const;  // the values of a field: planes along axis 0
 
   Index dimension() const { return static_cast<Index>(axes.size()); }
   const GridAxis& axis(Index a) const { return axes[static_cast<std::size_t>(a)]; }

@@ -27,6 +27,7 @@ class Modes {
   const Units& units() const { return units_; }  // here
   Slab slab_of_rank(int rank) const;             // of any process
   Index plane() const { return plane_; }         // slots
+  FieldPart field() const { return {slots(), units_, first_plane_ * plane_, units_.of * plane_}; }
 
  private:
   Mode first_;  // periods

@@ -1,6 +1,10 @@
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/grid/ranks.hpp>
 
 #include <algorithm>
+#include <cstring>
+#include <exception>
+#include <optional>
 #include <vector>
 
 namespace seiche {
@@ -27,6 +31,83 @@ void Ranks::sum(std::span<double> numbers) const {
 
 void Ranks::max(std::span<double> numbers) const {
   reduce(*this, numbers, [](double a, double b) { return b <= a ? a : b; });
+}
+
+void Ranks::join(const FieldPart& field, std::span<const double> mine,
+                 FunctionRef<void(std::span<const double> piece)> take) const {
+  constexpr Index longest = Index{1} << 20;
+  const auto [index, count] = here();
+  std::exception_ptr failure;
+  const auto passes = [&](std::span<const double> piece) {
+    if (failure) return;
+    try {
+      take(piece);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  double all = static_cast<double>(mine.size());
+  sum({&all, 1});
+  const Index fields = static_cast<Index>(all) / field.of;
+  std::vector<Index> sent(static_cast<std::size_t>(count)), received(sent);
+  std::vector<double> piece;
+  for (Index f = 0; f < fields; ++f) {
+    for (int rank = 0; rank < count; ++rank) {
+      const Index numbers = slab_of(field.units.whole(), {rank, count}).planes * field.plane();
+      for (Index at = 0; at < numbers; at += longest) {
+        const Index length = std::min(longest, numbers - at);
+        const auto part =
+            rank == index ? mine.subspan(static_cast<std::size_t>(f * numbers + at), static_cast<std::size_t>(length))
+                          : std::span<const double>();
+        if (rank == 0) {
+          if (index == 0) passes(part);
+          continue;
+        }
+        sent.front() = std::ssize(part);
+        received[static_cast<std::size_t>(rank)] = index == 0 ? length : 0;
+        piece.resize(static_cast<std::size_t>(index == 0 ? length : 0));
+        exchange(part, sent, piece, received);
+        received[static_cast<std::size_t>(rank)] = 0;
+        if (index == 0) passes(piece);
+      }
+    }
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+std::string Ranks::from_first(const std::string& text) const {
+  double size = here().index == 0 ? static_cast<double>(text.size()) : 0;
+  max({&size, 1});
+  const auto length = static_cast<std::size_t>(size);
+  std::vector<double> packed((length + sizeof(double) - 1) / sizeof(double));  // bits that no one computes with
+  std::vector<Index> counts(static_cast<std::size_t>(here().count), 0);
+  counts.front() = std::ssize(packed);
+  std::vector<double> mine;
+  if (here().index == 0) {
+    mine = packed;
+    std::memcpy(mine.data(), text.data(), length);
+  }
+  gather(mine, counts, packed);
+  std::string received(length, '\0');
+  std::memcpy(received.data(), packed.data(), length);
+  return received;
+}
+
+void Ranks::on_first(FunctionRef<void()> action) const {
+  std::optional<Error> failure;
+  if (here().index == 0) {
+    try {
+      action();
+    } catch (const Error& error) {
+      failure = error;
+    }
+  }
+  double failed = failure ? 1 : 0;
+  max({&failed, 1});
+  if (failed == 0) return;
+  const std::string sentence = from_first(failure ? failure->what() : "");
+  if (failure) throw Error(*failure);
+  throw Error(std::string_view(sentence));
 }
 
 }  // namespace seiche

@@ -1,9 +1,11 @@
 // The processes that hold one state together.
 #pragma once
 
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/grid/units.hpp>
 
 #include <span>
+#include <string>
 
 namespace seiche {
 
@@ -22,6 +24,30 @@ class Ranks {
   // Of what each process holds, as many numbers on all of them.
   void sum(std::span<double> numbers) const;  // in the order of ranks
   void max(std::span<double> numbers) const;  // NaN is the largest
+
+  // The numbers of one or more fields, in the order that they have in one process, piece by piece: on the first
+  // process. What `take` throws is thrown when all pieces have passed, since the other processes do not know of it.
+  void join(const FieldPart& field, std::span<const double> mine,
+            FunctionRef<void(std::span<const double> piece)> take) const;
+
+  // The first process acts. Where it throws Error, all throw one of the same sentence.
+  void on_first(FunctionRef<void()> action) const;
+  std::string from_first(const std::string& text) const;  // that of the first process
+};
+
+// The same where `ranks` may be null: of a process that is alone.
+inline void on_first(const Ranks* ranks, FunctionRef<void()> action) {
+  ranks != nullptr ? ranks->on_first(action) : action();
+}
+
+// Processes that were started together, and end together.
+class Processes {
+ public:
+  virtual ~Processes() = default;
+  virtual const Ranks& ranks() const = 0;  // those of all
+  // Waits until all have made this call, but no longer than so many seconds: true where they have.
+  virtual bool come_to_end(double patience) = 0;
+  [[noreturn]] virtual void end_all(int exit_code) = 0;  // at once, while others may wait for this one
 };
 
 }  // namespace seiche

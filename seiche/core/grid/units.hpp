@@ -46,6 +46,23 @@ inline Units units_of(const Units& units, const Rank& part) {
   return {slab_of(units.whole(), part).planes, units.size, units.of};
 }
 
+// The numbers of one field that are here, plane behind plane.
+struct FieldPart {
+  Index size = 0;
+  Units units = {};
+  Index first = 0, of = size;  // the number of the whole field that is the first here, and how many those are
+
+  Index plane() const { return of / units.of; }
+  Index begin(Index unit) const { return units.begin(unit) * plane(); }
+  Index end(Index unit) const { return units.end(unit) * plane(); }
+  // visit(begin, length) of the parts of a vector of so many numbers that belong to a unit.
+  template <class Visit>
+  void for_parts(Index numbers, Index unit, const Visit& visit) const {
+    if (units.whole().count() == 1) return visit(Index{0}, numbers);
+    for (Index at = 0; at < numbers; at += size) visit(at + begin(unit), end(unit) - begin(unit));
+  }
+};
+
 // Units of so many numbers each that eight lie side by side from their first number on, whatever lies before them.
 inline Units units_in_eights(Index planes, Index plane) {
   constexpr Index eight = 8;

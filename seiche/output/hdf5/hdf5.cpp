@@ -98,6 +98,26 @@ void Hdf5Dataset::append(std::span<const double> rows) {
   hdf5_check(H5Dwrite(id(), H5T_NATIVE_DOUBLE, memory.id(), place.id(), H5P_DEFAULT, rows.data()), what);
 }
 
+void Hdf5Dataset::begin_row() {
+  const Hdf5Quiet quiet;
+  ++shape_[0];
+  hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), fmt::format("cannot write a row of {}", name_));
+}
+
+void Hdf5Dataset::continue_row(std::uint64_t first_plane, std::span<const double> planes) {
+  const Hdf5Quiet quiet;
+  const std::string what = fmt::format("cannot write a row of {}", name_);
+  std::vector<hsize_t> corner(shape_.size(), 0), size(sizes(shape_));
+  corner[0] = shape_[0] - 1;
+  corner[1] = first_plane;
+  size[0] = 1;
+  size[1] = planes.size() / (row_size() / shape_[1]);
+  const Hdf5Handle place = hdf5_handle(H5Dget_space(id()), H5Sclose, what);
+  hdf5_check(H5Sselect_hyperslab(place.id(), H5S_SELECT_SET, corner.data(), nullptr, size.data(), nullptr), what);
+  const Hdf5Handle memory = flat_space(planes.size());
+  hdf5_check(H5Dwrite(id(), H5T_NATIVE_DOUBLE, memory.id(), place.id(), H5P_DEFAULT, planes.data()), what);
+}
+
 Hdf5Shape Hdf5Dataset::chunk() const {
   const std::string what = fmt::format("{} has no chunks", name_);
   const Hdf5Handle options = hdf5_handle(H5Dget_create_plist(id()), H5Pclose, what);

@@ -1,0 +1,7 @@
+// What programs load where mpiexec has started them.
+#pragma once
+
+#include <seiche/core/grid/ranks.hpp>
+
+// All processes of MPI_COMM_WORLD. MPI begins here, and ends with the object, which belongs to the caller.
+extern "C" seiche::Processes* seiche_mpi_processes();
