@@ -104,6 +104,10 @@ ExitCode run_program(const std::vector<std::string>& given) {
   if (!arguments[0].starts_with("-") && std::find(names.begin(), names.end(), arguments[0]) == names.end()) {
     throw unknown_name("command", arguments[0], names);
   }
+  if (arguments[0] == "run" || arguments[0] == "resume") {
+    join_others();
+    require_same(arguments);
+  }
   std::vector<std::string> reversed = with_set_repeated(arguments);
   std::reverse(reversed.begin(), reversed.end());  // the order in which CLI11 wants them
   try {
@@ -119,10 +123,7 @@ ExitCode run_program(const std::vector<std::string>& given) {
                 is_of_command ? arguments[0] + " " : "");
   }
   const bool answers = app.got_subcommand("run") || app.got_subcommand("resume");  // as soon as they know how
-  if (!answers) {
-    let_signals_through();
-    require_one_process(arguments[0]);
-  }
+  if (!answers) let_signals_through();
   return action();
 }
 

@@ -1,5 +1,7 @@
 #include "processes.hpp"
 
+#include "stop_signal.hpp"
+
 #include <seiche/core/base/error.hpp>
 #include <seiche/driver/processes.hpp>
 
@@ -9,33 +11,44 @@
 namespace seiche::cli {
 namespace {
 
-std::unique_ptr<Processes> processes;
+std::unique_ptr<Processes> joined;
 
 // How long a process that has failed waits for others, which fail at the same place.
 constexpr double patience = 2;  // seconds
 
 }  // namespace
 
-const Ranks* join_others() {
-  if (started_processes() < 2) return nullptr;
-  processes = join_processes();
-  return &processes->ranks();
+void join_others() {
+  const int started = started_processes();
+  if (started < 2) return;
+  joined = join_processes();
+  if (const int found = processes()->here().count; found != started)
+    throw Error(
+        "{} processes were started, and MPI knows of {}: this mpiexec is not that of the MPI that Seiche was built with; "
+        "SEICHE_ALONE=1 lets each process run alone",
+        started, found);
 }
 
-void require_one_process(const std::string& command) {
-  if (const Ranks* const ranks = join_others(); ranks != nullptr)
-    throw Error("seiche {} runs on one process, and {} were started; those that share a work are run and resume",
-                command, ranks->here().count);
-}
+const Ranks* processes() { return joined ? &joined->ranks() : nullptr; }
+bool is_first() { return !joined || joined->ranks().here().index == 0; }
 
-bool is_first(const Ranks* ranks) { return ranks == nullptr || ranks->here().index == 0; }
+void require_same(const std::vector<std::string>& arguments) {
+  if (!joined) return;
+  std::string text;
+  for (const std::string& argument : arguments) text += argument + '\0';
+  const bool differs = processes()->from_first(text) != text;
+  if (processes()->any(differs ? "differs" : "").empty()) return;
+  throw Error(
+      "the processes were given different commands, and share one run; SEICHE_ALONE=1 lets each process run alone");
+}
 
 int leave(ExitCode code, const std::function<void()>& say) {
   const bool failed = say != nullptr;
-  const bool all = !processes || processes->come_to_end(failed ? patience : std::numeric_limits<double>::infinity());
-  if (failed && (!all || is_first(processes ? &processes->ranks() : nullptr))) say();
-  if (!all) processes->end_all(code);
-  processes.reset();
+  if (joined) keep_signals_waiting();  // mpiexec sends one to those that are left, who have nothing to say any more
+  const bool all = !joined || joined->come_to_end(failed ? patience : std::numeric_limits<double>::infinity());
+  if (failed && (!all || is_first())) say();
+  if (!all) joined->end_all(code);
+  joined.reset();
   return code;
 }
 

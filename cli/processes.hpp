@@ -7,14 +7,16 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace seiche::cli {
 
-// Of commands that several processes carry out together: who they are; null where this one is alone.
-const Ranks* join_others();
-// Of all other commands. Throws Error where there are others.
-void require_one_process(const std::string& command);
-bool is_first(const Ranks* ranks);
+// Before a command that several processes carry out together, given the same arguments.
+void join_others();
+const Ranks* processes();  // those that have joined; null where this one is alone
+bool is_first();
+// Throws Error where others were given other arguments, which are no work for all of them together.
+void require_same(const std::vector<std::string>& arguments);
 
 // The end of the program. Where it failed, `say` says why: once for all processes, the first of which says it where all
 // of them have come to their end. Where one of them fails alone, it says so, and ends the others.

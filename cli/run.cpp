@@ -142,9 +142,9 @@ ExitCode run_ensemble(const RunArguments& arguments, const std::string& director
 }
 
 ExitCode run(const NewRunArguments& arguments) {
-  const Ranks* const ranks = join_others();
-  if (!is_first(ranks)) return follow(arguments, *ranks);
-  answer_signals("stopped before the first step");
+  const Ranks* const ranks = processes();
+  if (!is_first()) return follow(arguments, *ranks);
+  answer_signals(ranks != nullptr ? "" : "stopped before the first step");
   hdf5_without_cleanup_at_exit();
   RunSpec spec;
   on_first(ranks, [&] {
@@ -165,9 +165,10 @@ ExitCode run(const NewRunArguments& arguments) {
 }
 
 ExitCode resume(const ResumeArguments& arguments) {
-  const Ranks* const ranks = join_others();
-  if (!is_first(ranks)) return follow(arguments, *ranks);
-  answer_signals("stopped before the run went on; its files and its checkpoint are as they were");
+  const Ranks* const ranks = processes();
+  if (!is_first()) return follow(arguments, *ranks);
+  answer_signals(ranks != nullptr ? ""
+                                  : "stopped before the run went on; its files and its checkpoint are as they were");
   hdf5_without_cleanup_at_exit();
   const std::string& directory = arguments.directory;
   RunCaseOptions options = run_options(arguments, ranks);

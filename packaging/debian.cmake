@@ -37,7 +37,7 @@ if(TARGET seiche_mpi_module)
   list(APPEND CPACK_COMPONENTS_ALL seiche-mpi)
   set(CPACK_COMPONENT_SEICHE-MPI_DESCRIPTION "${about}What the program loads where mpiexec starts it on several processes.")
   set(${seiche-mpi}_SECTION science)
-  set(${seiche-mpi}_DEPENDS "seiche, openmpi-bin")
+  set(${seiche-mpi}_DEPENDS "seiche (= ${PROJECT_VERSION}), openmpi-bin")
 endif()
 
 if(TARGET seiche_python)

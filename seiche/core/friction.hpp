@@ -19,7 +19,8 @@ class Friction {
   // where v·R ≥ 0. NaN where there is no such value.
   virtual void flow(double t, double h, double w, std::span<const double> q, std::span<double> v) const = 0;
   virtual bool uses_coordinates() const = 0;  // q; else it is not looked at
-  virtual bool is_dissipative() const = 0;    // v·R ≥ 0 everywhere, by the form of R
+  virtual bool uses_place() const { return false; }
+  virtual bool is_dissipative() const = 0;  // v·R ≥ 0 everywhere, by the form of R
   // How smooth R is at v = 0, as far as its form tells: with a kink in the first derivative no method is of more than
   // some order three; what turns sharply there, or jumps, is for exact flows; and where it jumps, errors of a step are
   // of the size of the step while a velocity stays at 0, so that no tolerance can be asked for.

@@ -22,6 +22,8 @@ class Observer {
   virtual bool is_due(const State& state, bool last) const = 0;
   // `energy` was read at this state. Called for the initial state, after due steps, and for the last good state.
   virtual void observe(const State& state, const EnergyReading& energy) = 0;
+  // In the place of `observe` where one before it has failed: takes part in what processes do there together.
+  virtual void skip(const State&) {}
   // After every step for which it is not due: for what has to happen by the clock.
   virtual void pass(const State&) {}
   // The next time at which it wants to be shown the solution wherever steps end, or infinity. Runs with variable steps

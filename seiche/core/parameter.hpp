@@ -35,6 +35,8 @@ using ParameterValue = std::variant<double, long, RatePointer, SpaceRatePointer,
 // Checked values, one for every Parameter of a problem. get<T> throws Error on a name the problem did not declare.
 class ParameterValues {
  public:
+  Rank here = {};  // of several processes that share a grid: whose part of it is to be made
+
   void set(const std::string& name, ParameterValue value);
   template <class T>
   const T& get(const std::string& name) const {

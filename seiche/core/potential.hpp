@@ -36,6 +36,12 @@ class PointwisePotential {
   virtual Index fields() const { return 1; }  // how many consecutive fields u holds
   // True if V = Σ_j W(u_j): then parts of u may be given one at a time, on several threads.
   virtual bool is_local() const { return false; }
+  // True if V = Σ_j W_j(u_j, v_j, …), with the values of all fields at point j.
+  virtual bool is_pointwise() const { return is_local(); }
+  // Such a V of so many points from `first` on; null where all points are alike, and it is this one.
+  virtual std::shared_ptr<const PointwisePotential> at_points(Index /*first*/, Index /*count*/) const {
+    return nullptr;
+  }
   // What speaks against V, or "": a gradient that is not its own where it begins, at u, or nearby. Asked before a run.
   virtual std::string complaint(std::span<const double> /*u*/) const { return ""; }
   virtual double value(std::span<const double> u) const = 0;

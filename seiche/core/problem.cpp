@@ -2,6 +2,9 @@
 #include <seiche/core/problem.hpp>
 
 #include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace seiche {
 namespace {
@@ -54,6 +57,34 @@ Problem with_matrix_merged(const Problem& problem) {
   return merged;
 }
 
+// At some of the points of a rate on a whole grid.
+class RateAtPoints final : public FieldRate {
+ public:
+  RateAtPoints(FieldRatePointer whole, const Grid& grid)
+      : whole_(std::move(whole)), first_(grid.first_unknown()), all_(grid.whole().unknowns()) {}
+  void values(double t, std::span<double> gamma) const override {
+    copy(gamma, [&](std::span<double> all) { whole_->values(t, all); });
+  }
+  void integrals(double t, double h, std::span<double> out) const override {
+    copy(out, [&](std::span<double> all) { whole_->integrals(t, h, all); });
+  }
+  bool is_constant() const override { return whole_->is_constant(); }
+  double first_negative_time(double t_end) const override { return whole_->first_negative_time(t_end); }
+  double negative_seen() const override { return whole_->negative_seen(); }
+  std::string text() const override { return whole_->text(); }
+
+ private:
+  template <class Fill>
+  void copy(std::span<double> out, const Fill& fill) const {
+    std::vector<double> all(static_cast<std::size_t>(all_));
+    fill(std::span(all));
+    std::copy_n(all.begin() + first_, out.size(), out.begin());
+  }
+
+  FieldRatePointer whole_;
+  Index first_, all_;
+};
+
 }  // namespace
 
 bool Problem::potential_depends_on(Index field) const {
@@ -90,6 +121,15 @@ Problem part_of(const Problem& whole, const Rank& here) {
   part.initial.resize(part.size());
   for (Index f = 0; f < whole.field_count(); ++f)
     part.initial.segment(f * mine, mine) = whole.initial.segment(f * all + first, mine);
+  if (whole.potential)
+    if (auto there = whole.potential->at_points(first, mine)) part.potential = std::move(there);
+  const auto divide = [&part](FieldRatePointer& rate) {
+    if (rate) rate = std::make_shared<RateAtPoints>(rate, part.grid);
+  };
+  divide(part.damping.field_rate);
+  for (FieldRatePointer& force : part.forces) divide(force);
+  if (whole.friction && whole.friction->uses_place())
+    throw Error("the friction {} depends on the place: make it for the part of the grid", whole.friction->text());
   return part;
 }
 
@@ -110,6 +150,7 @@ Eigen::MatrixXcd rate_symbol(const Problem& problem) {
 double rate_of_D0(const Problem& problem) {
   double rate = problem.damping.rate ? problem.damping.rate->value(0) : 0.0;
   if (!problem.damping.field_rate) return rate;
+  if (problem.damping.mean_field_rate) return rate + *problem.damping.mean_field_rate;
   Vector gamma(problem.grid.unknowns());
   problem.damping.field_rate->values(0, {gamma.data(), static_cast<std::size_t>(gamma.size())});
   return rate + gamma.mean();

@@ -11,6 +11,7 @@
 #include <seiche/core/structure.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct LinearDamping {
   RatePointer rate = nullptr;             // γ(t); null: no such part
   FieldRatePointer field_rate = nullptr;  // γ(x, t); null: no such part
   std::vector<bool> rate_fields = {};
+  // Of γ(x, 0) at the points of all processes; none: of those here.
+  std::optional<double> mean_field_rate = {};
 };
 
 struct Problem {
@@ -52,7 +55,8 @@ struct Problem {
   bool damping_moves_potential() const;   // true if V does
 };
 
-// What one of several processes holds of a problem on a whole grid of two or three axes.
+// What one of several processes holds of a problem on a whole grid of two or three axes. Throws Error where there is
+// friction that depends on the place: that is to be made for the part of the grid.
 Problem part_of(const Problem& whole, const Rank& here);
 
 // P of LinearDamping, ones on the diagonal in the rows of `rate_fields`: as a matrix of all unknowns, and as the block

@@ -41,11 +41,19 @@ bool is_kept(const Mode& mode) {
 TruncatedPotential::TruncatedPotential(std::shared_ptr<const PointwisePotential> potential, const Grid& grid)
     : potential_(std::move(potential)) {
   if (!grid.is_periodic()) throw Error("the two-thirds rule needs a grid that is periodic along every axis");
-  Index stride = grid.unknowns();
+  Index stride = grid.whole().unknowns();
   for (const GridAxis& axis : grid.axes) {
     stride /= axis.unknowns();
     lines_.push_back({kernel(axis.unknowns()), static_cast<std::size_t>(stride)});
   }
+}
+
+std::shared_ptr<const PointwisePotential> TruncatedPotential::at_points(Index first, Index count) const {
+  auto there = potential_->at_points(first, count);
+  if (!there) return nullptr;
+  auto truncated = std::make_shared<TruncatedPotential>(*this);
+  truncated->potential_ = std::move(there);
+  return truncated;
 }
 
 // One field after the other and line after line: out_i = Σ_j c_{i−j} u_j.

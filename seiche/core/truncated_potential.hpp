@@ -23,6 +23,7 @@ class TruncatedPotential final : public PointwisePotential {
   const std::shared_ptr<const PointwisePotential>& whole() const { return potential_; }  // V
 
   Index fields() const override { return potential_->fields(); }
+  std::shared_ptr<const PointwisePotential> at_points(Index first, Index count) const override;  // with all of P
   double value(std::span<const double> u) const override;
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override;
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override;

@@ -64,6 +64,7 @@ class FormulaFriction : public Friction {
     }
   }
   bool uses_coordinates() const override { return f_.uses_u; }
+  bool uses_place() const override { return f_.uses_place; }
   bool is_dissipative() const override { return false; }  // a formula has no form to judge by
   std::string fed_at() const override {
     const double t = fed_.load(std::memory_order_relaxed);
@@ -73,6 +74,7 @@ class FormulaFriction : public Friction {
   void forget_fed() const override { fed_.store(nan, std::memory_order_relaxed); }
 
   std::string feeds_at(double t_end) const override {
+    if (places_.empty()) return "";
     constexpr std::size_t most_places = 16, most_tries = 1U << 21U, least_times = 64;
     constexpr int fine = 128, coarse = 8;  // places in a decade, of one variable or of each of two
     const std::size_t stride = f_.uses_place ? std::max<std::size_t>(1, places_.size() / most_places) : places_.size();

@@ -143,7 +143,8 @@ class FormulaFieldRate final : public FieldRate {
   bool is_constant() const override { return false; }
 
   double first_negative_time(double t_end) const override {
-    const std::size_t samples = std::clamp<std::size_t>((1U << 20U) / places_.size(), 64, 4096);
+    const std::size_t samples =
+        std::clamp<std::size_t>((1U << 20U) / std::max<std::size_t>(places_.size(), 1), 64, 4096);
     for (std::size_t i = 0; i <= samples; ++i) {
       const double t = t_end * static_cast<double>(i) / static_cast<double>(samples);
       if (std::any_of(places_.begin(), places_.end(), [&](const Place& place) { return value(t, place) < 0; }))

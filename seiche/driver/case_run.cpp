@@ -99,8 +99,10 @@ std::string write_for_readers(const Folder& folder, const RunSpec& spec, const S
 }  // namespace
 
 Problem problem_here(const RunSpec& spec, const RunCaseOptions& options) {
-  Problem problem = make_problem(spec);
-  return options.ranks != nullptr ? part_of(problem, options.ranks->here()) : problem;
+  std::optional<Problem> problem;
+  together(options.ranks,
+           [&] { problem = make_problem(spec, options.ranks != nullptr ? options.ranks->here() : Rank()); });
+  return std::move(*problem);
 }
 
 RunPlan run_plan(const RunSpec& spec, const RunCaseOptions& options) {

@@ -30,14 +30,19 @@ class EnergyTimes final : public Observer {
 
 CaseResult follow_case(const RunCaseOptions& options) {
   const Ranks& ranks = *options.ranks;
-  ranks.on_first([] {});  // makes the problem
+  ranks.on_first([] {});  // looks at times and plans
   const std::filesystem::path folder = ranks.from_first("");
   const std::string checkpoint = ranks.from_first("");
-  const RunSpec spec = parse_case(ranks.from_first(""), "the case", {}, folder);
+  const std::string text = ranks.from_first("");
+  RunSpec spec;
   std::optional<Checkpoint> from;
-  if (!checkpoint.empty()) from = read_checkpoint(folder / checkpoint, true);
+  ranks.together([&] {
+    spec = parse_case(text, "the case", {}, folder);
+    if (!checkpoint.empty()) from = read_checkpoint(folder / checkpoint, true);
+  });
 
   const Problem problem = problem_here(spec, options);
+  if (!from) settle_snapshots(spec, problem);
   PreparedRun run(problem, run_plan(spec, options));
   const std::atomic<bool>* stop = nullptr;
   ranks.on_first([] {});  // the record of the run is made
@@ -51,7 +56,7 @@ CaseResult follow_case(const RunCaseOptions& options) {
   AtTheEnd last_state([&](const RunReport&) { join_values(run.simulation(), [](std::span<const double>) {}); });
   std::vector<Observer*> observers = {&energies, &solution, &last_state};
   observers.insert(observers.end(), options.observers.begin(), options.observers.end());
-  JointCheckpoints checkpoints(ranks, nullptr, *stop);
+  JointCheckpoints checkpoints(ranks, nullptr, *stop, options.save);
   const RunReport report =
       run.integrate(never_stops(), observers, {.checkpoints = &checkpoints, .from = from ? &from->rest : nullptr});
   return {.report = report,

@@ -16,6 +16,8 @@ void JointCheckpoints::save(std::int64_t n, double t, FunctionRef<void(Archive&)
 
 Checkpoints::Wish JointCheckpoints::look(std::int64_t n) {
   std::array<double, 3> said{stop_.load(std::memory_order_relaxed) ? 1.0 : 0.0, 0, 0};
+  if (asked_ != nullptr && asked_->exchange(false, std::memory_order_relaxed))
+    said[1] = static_cast<double>(Wish::save);
   if (keeper_ != nullptr) {
     said[1] = static_cast<double>(keeper_->wish(n));
     said[2] = static_cast<double>(keeper_->next_look());

@@ -12,9 +12,11 @@ namespace seiche {
 
 class JointCheckpoints final : public Checkpoints {
  public:
-  // `keeper` is that of the first process, and null on the others. All stop where `stop` is set on one of them.
-  JointCheckpoints(const Ranks& ranks, CheckpointKeeper* keeper, const std::atomic<bool>& stop)
-      : ranks_(ranks), keeper_(keeper), stop_(stop) {}
+  // `keeper` is that of the first process, and null on the others, where `asked` (or null) asks for a checkpoint as it
+  // does there. All stop where `stop` is set on one of them.
+  JointCheckpoints(const Ranks& ranks, CheckpointKeeper* keeper, const std::atomic<bool>& stop,
+                   std::atomic<bool>* asked = nullptr)
+      : ranks_(ranks), keeper_(keeper), stop_(stop), asked_(asked) {}
 
   void save(std::int64_t n, double t, FunctionRef<void(Archive&)> run) override;
 
@@ -24,6 +26,7 @@ class JointCheckpoints final : public Checkpoints {
   const Ranks& ranks_;
   CheckpointKeeper* keeper_;
   const std::atomic<bool>& stop_;
+  std::atomic<bool>* asked_;
 };
 
 }  // namespace seiche

@@ -1,5 +1,6 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/driver/processes.hpp>
+#include <seiche/version.hpp>
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -27,13 +29,15 @@ std::vector<fs::path> places() {
     folders.push_back(fs::canonical(here.dli_fname, none).parent_path());
   std::vector<fs::path> all;
   for (const fs::path& folder : folders)
-    for (const char* inside : {"", SEICHE_MODULES, "seiche"}) all.push_back(folder / inside / library_name);
+    if (folder.is_absolute())
+      for (const char* inside : {"", SEICHE_MODULES, "seiche"}) all.push_back(folder / inside / library_name);
   return all;
 }
 
 }  // namespace
 
 int started_processes() {
+  if (const char* const alone = std::getenv("SEICHE_ALONE"); alone != nullptr && *alone != '\0') return 1;
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
     if (const char* const text = std::getenv(name)) return std::atoi(text);
   return 1;
@@ -46,8 +50,10 @@ std::unique_ptr<Processes> join_processes() {
     // Parts of Open MPI that are loaded later look for what this one has loaded.
     void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
     if (library == nullptr) throw Error("{} cannot be loaded: {}", file.string(), ::dlerror());
+    const auto version = reinterpret_cast<const char* (*)()>(::dlsym(library, "seiche_mpi_version"));
     const auto join = reinterpret_cast<Processes* (*)()>(::dlsym(library, "seiche_mpi_processes"));
-    if (join == nullptr) throw Error("{} is of another version", file.string());
+    if (version == nullptr || join == nullptr || std::string_view(version()) != version_commit)
+      throw Error("{} is of another version of Seiche than this program", file.string());
     return std::unique_ptr<Processes>(join());
   }
   throw Error(

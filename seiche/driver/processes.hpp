@@ -7,7 +7,8 @@
 
 namespace seiche {
 
-// How many there are, by what mpiexec or srun has told this one; 1 where neither has started it.
+// How many there are, by what mpiexec or srun has told this one; 1 where neither has started it, or SEICHE_ALONE is
+// set.
 int started_processes();
 
 // Begins MPI, from a library that is loaded for it: programs that run alone need none. Throws Error where that library

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
-#include <optional>
 
 namespace seiche {
 namespace {
@@ -115,17 +115,22 @@ void Recording::show(const State& between) {
 }
 
 void Recording::show(const State& state, const EnergyReading& reading, FunctionRef<bool(Observer&)> is_meant) {
-  std::optional<Error> failure;
+  std::exception_ptr failure;
   for (Observer* observer : observers_) {
     if (!is_meant(*observer)) continue;
+    if (failure) {
+      observer->skip(state);
+      continue;
+    }
     try {
       observer->observe(state, reading);
-    } catch (const Error& error) {
-      if (!failure) failure = error;
+    } catch (const Error&) {
+      failure = std::current_exception();
     }
   }
-  if (!system_.space->any(failure.has_value())) return;
-  throw failure ? Error(*failure) : Error("another process could not record the state");
+  const bool fails = system_.space->any(failure != nullptr);
+  if (failure) std::rethrow_exception(failure);
+  if (fails) throw Error("another process could not record the state");
 }
 
 // The last good state of a run that ended early, for those who have not seen it.

@@ -77,7 +77,7 @@ class Recording {
   void keep_good();  // the state and what has been entered up to it
   void go_back();    // to the state of the last record, and the ledger up to there
   void record_rest();
-  // Each of these observers sees the state, also where one before has failed; then all processes throw Error.
+  // Each of these observers sees the state, up to one that fails; then all processes throw Error.
   void show(const State& state, const EnergyReading& reading, FunctionRef<bool(Observer&)> is_meant);
   std::string met_by(const std::function<std::string()>& objection) const;  // or before a resume
   void complete_message(const std::string& remark);

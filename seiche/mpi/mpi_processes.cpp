@@ -2,6 +2,7 @@
 #include <seiche/mpi/mpi_ranks.hpp>
 
 #include <mpi.h>
+#include <seiche/version.hpp>
 
 #include <chrono>
 #include <cstdlib>
@@ -13,7 +14,10 @@ namespace {
 
 class MpiProcesses final : public Processes {
  public:
-  MpiProcesses() : ranks_(mpi_ranks()) { MPI_Comm_dup(MPI_COMM_WORLD, &at_end_); }
+  MpiProcesses() : ranks_(mpi_ranks()) {
+    MPI_Comm_dup(MPI_COMM_WORLD, &at_end_);
+    MPI_Comm_set_errhandler(at_end_, MPI_ERRORS_RETURN);
+  }
   ~MpiProcesses() override { MPI_Comm_free(&at_end_); }
   MpiProcesses(const MpiProcesses&) = delete;
   MpiProcesses& operator=(const MpiProcesses&) = delete;
@@ -46,4 +50,5 @@ class MpiProcesses final : public Processes {
 }  // namespace
 }  // namespace seiche
 
+const char* seiche_mpi_version() { return seiche::version_commit.data(); }
 seiche::Processes* seiche_mpi_processes() { return new seiche::MpiProcesses; }

@@ -5,3 +5,4 @@
 
 // All processes of MPI_COMM_WORLD. MPI begins here, and ends with the object, which belongs to the caller.
 extern "C" seiche::Processes* seiche_mpi_processes();
+extern "C" const char* seiche_mpi_version();  // of the sources that it was built of

@@ -42,7 +42,16 @@ class FormulaPotential final : public PointwisePotential {
     }
   }
 
+  FormulaPotential(const FormulaPotential& all, Index first, Index count) : FormulaPotential(all) {
+    for (std::vector<double>& coordinates : places_)
+      coordinates = {coordinates.begin() + first, coordinates.begin() + first + count};
+  }
+
   Index fields() const override { return static_cast<Index>(fields_); }
+  bool is_pointwise() const override { return true; }
+  std::shared_ptr<const PointwisePotential> at_points(Index first, Index count) const override {
+    return w_.uses_place ? std::make_shared<const FormulaPotential>(*this, first, count) : nullptr;
+  }
   bool is_local() const override { return fields_ == 1 && !w_.uses_place; }
   int degree() const override { return w_.degree; }
   int homogeneity() const override { return w_.homogeneity; }

@@ -21,6 +21,7 @@ class ModulusPotential final : public PointwisePotential {
   explicit ModulusPotential(W w) : w_(w) {}
 
   Index fields() const override { return 2; }
+  bool is_pointwise() const override { return true; }
 
   double value(std::span<const double> u) const override {
     return sum_points(u.size() / 2, [&](std::size_t j) { return w_.value(density(u, j)); });

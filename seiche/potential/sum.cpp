@@ -15,6 +15,20 @@ class Sum final : public PointwisePotential {
     return fields_ == 1 && all_of([](const PointwisePotential& part) { return part.is_local(); });
   }
 
+  bool is_pointwise() const override {
+    return all_of([](const PointwisePotential& part) { return part.is_pointwise(); });
+  }
+  std::shared_ptr<const PointwisePotential> at_points(Index first, Index count) const override {
+    std::vector<PlacedPotential> parts = parts_;
+    bool are_alike = true;
+    for (PlacedPotential& part : parts)
+      if (auto there = part.potential->at_points(first, count)) {
+        part.potential = std::move(there);
+        are_alike = false;
+      }
+    return are_alike ? nullptr : std::make_shared<const Sum>(std::move(parts), fields_);
+  }
+
   double value(std::span<const double> u) const override {
     double sum = 0;
     for (const PlacedPotential& part : parts_) sum += part.potential->value(read_by(part, u));

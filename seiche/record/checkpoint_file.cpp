@@ -136,8 +136,21 @@ Archive read_checkpoint_file(const std::filesystem::path& file, bool is_checked)
     throw Error("{} is damaged: its last bytes are missing, or belong to another", file.string());
   if (!is_checked && checksum_of(in, format.size(), length) != tail.checksum)
     throw Error("{} is damaged: its checksum is another", file.string());
-  return Archive(length, [held, file](std::uint64_t at, std::span<char> to) {
-    if (held->read(format.size() + at, to) != to.size()) throw Error("{} cannot be read", file.string());
+  // What is small is read from a piece that was read at once.
+  struct Piece {
+    std::uint64_t at = 0;
+    std::string bytes = {};
+  };
+  constexpr std::uint64_t longest = std::uint64_t{1} << 16U;
+  return Archive(length, [held, file, part = Piece()](std::uint64_t at, std::span<char> to) mutable {
+    if (to.size() >= longest) {
+      if (held->read(format.size() + at, to) != to.size()) throw Error("{} cannot be read", file.string());
+      return;
+    }
+    if (at < part.at || at + to.size() > part.at + part.bytes.size())
+      part = {.at = at, .bytes = held->read(format.size() + at, longest)};
+    if (part.bytes.size() < to.size()) throw Error("{} cannot be read", file.string());
+    std::copy_n(part.bytes.begin() + static_cast<std::ptrdiff_t>(at - part.at), to.size(), to.begin());
   });
 }
 

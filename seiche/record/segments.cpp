@@ -133,6 +133,7 @@ void Segments::by_fields(std::uint64_t at, std::span<const double> piece, const 
 }
 
 void Segments::append(FunctionRef<void(Take)> join, std::span<const double> numbers) {
+  if (is_broken_ || is_finished_) join([](std::span<const double>) {});  // other processes take part in it
   attempt([&] {
     const std::size_t count = layout_.fields.size();
     if (chunk_ == 1) {

@@ -35,13 +35,20 @@ void SolutionFile::observe(const State& state, const EnergyReading& energy) {
   last_t_ = state.t;
   while (next_time() <= state.t) ++shown_;
   space_.to_physical(state.z, values_);
-  const auto join = [&](Segments::Take take) {
-    space_.join(space_.values(), {values_.data(), static_cast<std::size_t>(values_.size())}, take);
-  };
   if (!file_) return join([](std::span<const double>) {});
   const std::array<double, 3> with_modified = {energy.H, energy.modified, state.t};
   const std::array<double, 2> without = {energy.H, state.t};
-  file_->segments.append(join, file_->has_modified ? std::span<const double>(with_modified) : without);
+  file_->segments.append([this](Segments::Take take) { join(take); },
+                         file_->has_modified ? std::span<const double>(with_modified) : without);
+}
+
+void SolutionFile::skip(const State& state) {
+  space_.to_physical(state.z, values_);
+  join([](std::span<const double>) {});
+}
+
+void SolutionFile::join(Segments::Take take) {
+  space_.join(space_.values(), {values_.data(), static_cast<std::size_t>(values_.size())}, take);
 }
 
 void SolutionFile::finish(const RunReport& report) {

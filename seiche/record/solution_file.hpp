@@ -46,6 +46,7 @@ class SolutionFile : public Observer {
   bool is_due(const State& state, bool last) const override;
   double next_time() const override;
   void observe(const State& state, const EnergyReading& energy) override;
+  void skip(const State& state) override;
   void finish(const RunReport& report) override;  // solution.h5, unless a row could not be written
   bool is_finished() const { return file_->segments.is_finished(); }
   bool is_joined() const { return file_->segments.is_joined(); }
@@ -55,6 +56,7 @@ class SolutionFile : public Observer {
   std::uint64_t describe(const std::atomic<bool>* stop = nullptr) const;
 
  private:
+  void join(Segments::Take take);  // values_
   struct File {
     File(Folder in, const SolutionLayout& of, const SolutionDescription& description, bool has_modified_energy,
          SegmentsMark mark, double join_below)

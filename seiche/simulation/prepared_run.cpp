@@ -39,6 +39,15 @@ PreparedRun::PreparedRun(const Problem& problem, const RunPlan& plan)
                                    .sample_solution = false,
                                    .at_start = simulation_.get()});
   simulation_->state().t = plan.t_start;
+  if (const Ranks* const ranks = plan.simulation.backend_options.ranks; ranks != nullptr) {
+    const std::string objection = ranks->any(certificate_.law.promised ? "" : certificate_.law.reason);
+    if (certificate_.law.promised && !objection.empty()) withdraw_law(objection);
+  }
+}
+
+void PreparedRun::withdraw_law(const std::string& why) {
+  certificate_.law.withdraw(why);
+  certificate_.theorem.clear();
 }
 
 // Rates before t = 0 were not looked at.
@@ -51,7 +60,11 @@ LawPromise PreparedRun::promise() const {
 RunReport PreparedRun::integrate(Stepper& stepper, AdaptiveStepper* adaptive, const std::atomic<bool>& stop,
                                  std::span<Observer* const> observers, std::span<const Event> events,
                                  const Resumption& resumption) {
-  const auto objection = [this] { return negative_rate(simulation_->problem()); };
+  const Ranks* const ranks = plan_.simulation.backend_options.ranks;
+  const auto objection = [this, ranks] {
+    const std::string met = negative_rate(simulation_->problem());
+    return ranks != nullptr ? ranks->any(met) : met;
+  };
   const auto explanation = [this] {
     const Problem& problem = simulation_->problem();
     return end_of_potential(problem, simulation_->system(), problem.initial, simulation_->state(),

@@ -48,6 +48,8 @@ class PreparedRun {
   Certificate certificate_after(const RunReport& report) const;
 
  private:
+  void withdraw_law(const std::string& why);  // by what another process has found
+
   RunPlan plan_;
   bool varies_;  // damping changes in time, or with the state
   std::shared_ptr<Simulation> simulation_;

@@ -32,25 +32,50 @@ struct OneCase {
   std::string name, text;
 };
 
-std::string wave(const std::string& problem, const std::string& method, const std::string& output) {
+constexpr const char* bump = "{ u = \"exp(-(x-1)^2-y^2) + 0.001*sin(j)\", v = \"0.1*sin(x+2*y)\" }";
+
+std::string text_of_case(const std::string& problem, const std::string& method, const std::string& output) {
   return fmt::format(
-      "[problem]\nname = \"klein_gordon\"\n{}\ninitial = {{ u = \"exp(-(x-1)^2-y^2)\", v = \"0.1*sin(x+2*y)\" }}\n"
-      "[backend]\nname = \"modal\"\n[method]\n{}\n[output]\n{}\n[checkpoint]\nevery_seconds = 0\nevery_steps = 7\n",
+      "[problem]\n{}\n[backend]\nname = \"modal\"\n[method]\n{}\n[output]\n{}\n"
+      "[checkpoint]\nevery_seconds = 0\nevery_steps = 7\n",
       problem, method, output);
 }
+std::string wave(const std::string& problem, const std::string& method, const std::string& output) {
+  return text_of_case(fmt::format("name = \"klein_gordon\"\ninitial = {}\n{}", bump, problem), method, output);
+}
 
-// Rows in chunks of several times, rows of which each fills chunks, and steps by a tolerance with snapshots between.
+// Rows in chunks of several times, rows of which each fills chunks, steps by a tolerance with snapshots between, and
+// whatever depends on the place.
 std::vector<OneCase> cases() {
-  const std::string plane = "points = [24, 20]\nlength = [6.0, 5.0]\nalpha = 1.0\ngamma = 0.3";
-  return {{"fixed",
-           wave(plane, "name = \"seisav\"\nh = 0.05\n[time]\nend = 1.5", "snapshot_every = 4\nledger = \"on\"")},
+  const std::string plane = "points = [24, 20]\nlength = [6.0, 5.0]\nalpha = 1.0\n",
+                    plane_damped = plane + "gamma = 0.3";
+  const std::string seisav = "name = \"seisav\"\nh = 0.05\n[time]\nend = 1.0", few = "snapshot_every = 4";
+  return {{"fixed", wave(plane_damped, "name = \"seisav\"\nh = 0.05\n[time]\nend = 1.5", few + "\nledger = \"on\"")},
           {"mixed_ends",
            wave("points = [9, 12, 7]\nlength = 4.0\nboundary = [\"dirichlet\", \"neumann\", \"periodic\"]\ngamma = 0.1",
                 "name = \"egc4\"\nh = 0.05\n[time]\nend = 1.0", "snapshot_every = 3")},
           {"large_rows", wave("points = [300, 250]\nlength = 9.0\ngamma = 0.1",
                               "name = \"seisav\"\nh = 0.05\n[time]\nend = 0.5", "snapshot_every = 5")},
           {"tolerance",
-           wave(plane, "name = \"egc4\"\ntolerance = 1e-5\n[time]\nend = 2.0", "snapshot_interval = 0.25")}};
+           wave(plane_damped, "name = \"egc4\"\ntolerance = 1e-5\n[time]\nend = 2.0", "snapshot_interval = 0.25")},
+          {"layer", wave(plane + "gamma = \"(0.3 + 0.2*sin(3*t))*(1 + cos(2*x)*sin(y)/2)\"", seisav, few)},
+          {"driven", wave(plane_damped + "\nforce = \"0.3*cos(1.2*t)*exp(-x^2)\"", seisav, few + "\nledger = \"on\"")},
+          {"friction",
+           wave(plane + "friction = { kind = \"formula\", r = \"(1 + 0.5*sin(x))*v + v^3\" }", seisav, few)},
+          {"friction_by_tolerance",
+           wave(plane + "friction = { kind = \"quadratic\", coefficient = 0.5 }",
+                "name = \"egc4\"\ntolerance = 1e-5\n[time]\nend = 1.0", "snapshot_interval = 0.25")},
+          {"dealiased", wave(plane_damped + "\ndiscretisation = \"spectral\"\ndealias = \"two_thirds\"", seisav, few)},
+          {"nls", text_of_case("name = \"nls\"\npoints = [24, 20]\nlength = [12.0, 10.0]\ngamma = 0.05\n"
+                               "initial = { p = \"exp(-(x-6)^2-(y-5)^2)\", q = \"0.1*sin(x)\" }",
+                               "name = \"seilm\"\nh = 0.02\n[time]\nend = 0.4", few)},
+          {"custom", text_of_case("name = \"custom\"\npoints = [20, 16]\nlength = [6.0, 5.0]\n"
+                                  "fields = [\"a\", \"b\", \"pa\", \"pb\"]\n"
+                                  "S = [[0, 0, 1, 0], [0, 0, 0, 1], [-1, 0, 0, 0], [0, -1, 0, 0]]\n"
+                                  "H = \"pa^2/2 + pb^2/2 + a_x^2/2 + b_y^2/2 + (1 + 0.3*sin(x))*a^2*b^2 + a^4/4\"\n"
+                                  "D = { pa = 0.1, pb = 0.2 }\n"
+                                  "initial = { a = \"sin(x)\", b = \"cos(y)\", pa = \"0\", pb = \"0\" }",
+                                  "name = \"egc4\"\nh = 0.05\n[time]\nend = 1.0", few)}};
 }
 
 class CaseOnRanks : public InTemporaryDirectory {
@@ -201,6 +226,28 @@ TEST_F(CaseOnRanks, WhatFailsWhileAStateIsRecordedEndsTheRunAtTheRecordBefore) {
   });
   EXPECT_THAT(message, HasSubstr("there is no room"));
   EXPECT_EQ(t, 0.2);
+}
+
+// Of one process, too: what was recorded behind an observer that fails would lie beyond the end of the run.
+TEST_F(CaseOnRanks, NothingIsRecordedBehindAnObserverThatFails) {
+  struct Sees final : Observer {
+    bool is_due(const State&, bool) const override { return true; }
+    void observe(const State& state, const EnergyReading&) override {
+      if (state.n == 5 && fails) throw Error("there is no room");
+      last = state.n;
+    }
+    void skip(const State& state) override { skipped = state.n; }
+    void finish(const RunReport&) override {}
+    bool fails = false;
+    std::int64_t last = -1, skipped = -1;
+  } first, second;
+  first.fails = true;
+  RunCaseOptions options;
+  options.observers = {&first, &second};
+  const CaseResult result = run_case(spec(cases().front()), directory / "alone", options);
+  EXPECT_THAT(result.message, HasSubstr("there is no room"));
+  EXPECT_EQ(second.last, 4);
+  EXPECT_EQ(second.skipped, 5);
 }
 
 // A signal reaches one of them.

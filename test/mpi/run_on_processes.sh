@@ -32,11 +32,12 @@ for processes in 2 3; do
 done
 
 # A process that is asked to end lets all of them save; another number of them goes on.
-"$mpiexec" -n 3 "$program" run case.toml --set time.end=1e5 --out long 2> log && fail "the run has ended" &
+"$mpiexec" -n 3 "$program" run case.toml --set time.end=1e5 --out long 2> log &
+running=$!
 for _ in $(seq 600); do [[ -s long/energy.csv.partial ]] && break; sleep 0.1; done
 sleep 0.5
 kill -TERM "$(pgrep -f "$program run case.toml --set time.end=1e5" | tail -1)"
-wait || fail "stopping"
+wait $running && fail "exit code 0 of a run that was stopped"
 grep -q "interrupted: stopped at t = .*goes on from there" log || fail "no word of the stop"
 t=$(sed -n 's/.*"t": \([0-9.]*\),.*/\1/p' long/summary.json | head -1)
 end=$(awk "BEGIN { print int($t) + 2 }")
@@ -47,8 +48,16 @@ same whole long
 # One line of ours, beside what mpiexec says.
 "$mpiexec" -n 3 "$program" run case.toml --set method.h=-1 2> log && fail "h = -1 runs"
 [[ $(grep -c "^seiche: --set method.h=-1: method.h = -1 must be > 0$" log) == 1 ]] || fail "h = -1"
-"$mpiexec" -n 2 "$program" list methods 2> log && fail "a list on two processes"
-[[ $(grep -c "^seiche: seiche list runs on one process, and 2 were started" log) == 1 ]] || fail "list"
+"$mpiexec" -n 3 "$program" run case.toml --nonsense 2> log && fail "nonsense"
+[[ $(grep -c "^seiche: unknown option '--nonsense'" log) == 1 ]] || fail "nonsense"
+"$mpiexec" -n 1 "$program" run case.toml : -n 1 "$program" run other.toml 2> log && fail "two commands"
+[[ $(grep -c "^seiche: the processes were given different commands" log) == 1 ]] || fail "two commands"
+SEICHE_ALONE=1 "$mpiexec" -n 1 "$program" run case.toml --quiet --set time.end=2 --out one : \
+  -n 1 "$program" run case.toml --quiet --set time.end=2 --out other 2> log || fail "each alone"
+same alone one
+same alone other
+"$mpiexec" -n 2 "$program" run case.toml --set backend.plan=measure 2> log && fail "measured plans"
+[[ $(grep -c "^seiche: plan = \"measure\" is for one process" log) == 1 ]] || fail "measured plans"
 "$mpiexec" -n 2 "$program" run case.toml --set problem.points=40 problem.length=2 initial.u=0 2> log && fail "one axis"
 [[ $(grep -c "^seiche: " log) == 1 ]] || fail "one axis"
 echo "the same files on several processes"

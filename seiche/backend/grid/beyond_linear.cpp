@@ -1,11 +1,11 @@
 #include <seiche/backend/grid/beyond_linear.hpp>
-#include <seiche/backend/grid/grid_space.hpp>
 #include <seiche/backend/grid/segment.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/damping.hpp>
 #include <seiche/core/external_force.hpp>
 #include <seiche/core/momenta.hpp>
 #include <seiche/core/numerics/gauss_rule.hpp>
+#include <seiche/core/space.hpp>
 #include <seiche/core/structure.hpp>
 
 #include <algorithm>
@@ -54,7 +54,7 @@ class FrictionDamping final : public Damping {
   void read_points(const Vector& z) const;                          // q_ and v_
   void add_friction(double t, const Vector& z, Vector& out) const;  // out += R(t, z)
   void add_to_momenta(const Vector& at_points, Vector& out) const;
-  double largest_slope(double t) const;  // |∂R/∂v| at q_ and v_, which moves a little
+  double largest_slope(const Space& space, double t) const;  // |∂R/∂v| at q_ and v_, which moves a little
 
   FrictionPointer friction_;
   Momenta momenta_;
@@ -142,15 +142,15 @@ void FrictionDamping::add_quadrature_error(const Space& space, double t, double 
 
 // By difference quotients that move every velocity away from rest, so that directions in which a drag of the whole
 // vector rises most are among those looked at.
-double FrictionDamping::largest_slope(double t) const {
+double FrictionDamping::largest_slope(const Space& space, double t) const {
   constexpr double relative = 1e-6;
-  const double scale = v_.lpNorm<Eigen::Infinity>() + std::numeric_limits<double>::min() / epsilon;
+  const double scale = space.max_norm(v_) + std::numeric_limits<double>::min() / epsilon;
   friction_->force(t, all(q_), all(v_), all(r_));
   for (double& v : v_) v += std::copysign(relative * (std::abs(v) + scale), v);
   friction_->force(t, all(q_), all(v_), all(r_moved_));
   // The quotients: r_moved_ − r_ over relative·(|v| + scale), with |v| as it is now to first order.
   const auto moved = relative / (1 + relative) * (v_.array().abs() + scale);
-  return ((r_moved_ - r_).array().abs() / moved).maxCoeff();
+  return space.max(v_.size() > 0 ? ((r_moved_ - r_).array().abs() / moved).maxCoeff() : 0.0);
 }
 
 double FrictionDamping::largest_rate(const Space& space, double t, double h, const Vector& before,
@@ -159,16 +159,16 @@ double FrictionDamping::largest_rate(const Space& space, double t, double h, con
     for (Vector* v : {&v_before_, &r_moved_}) v->setZero(v_.size());
   read_points(before);
   v_before_ = v_;
-  double slope = largest_slope(t);
+  double slope = largest_slope(space, t);
   read_points(after);
   const bool turns = space.any((v_.array() * v_before_.array() < 0).any());
   if (turns) v_before_.array() = (v_.array() * v_before_.array() < 0).select(0.0, (v_ + v_before_).array() / 2);
-  slope = std::max(slope, largest_slope(t + h));
+  slope = std::max(slope, largest_slope(space, t + h));
   if (turns) {
     v_.swap(v_before_);
-    slope = std::max(slope, largest_slope(t + h / 2));
+    slope = std::max(slope, largest_slope(space, t + h / 2));
   }
-  return linear_->largest_rate(space, t, h, before, after) + space.max(momenta_.inverse_mass * slope);
+  return linear_->largest_rate(space, t, h, before, after) + momenta_.inverse_mass * slope;
 }
 
 void FrictionDamping::apply(double t, const Vector& z, Vector& out) const {
@@ -234,7 +234,7 @@ void GridForce::impulse(double t, double h, Vector& z) const {
 class GridStructure final : public Structure {
  public:
   // `derivative`: of the coordinates of one field; null where problem.derivative is zero.
-  GridStructure(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
+  GridStructure(const Problem& problem, std::shared_ptr<const FieldTransform> transform, const Space& space,
                 std::unique_ptr<LinearMap> derivative);
   void apply(const Vector& z, const Vector& w, Vector& out) const override;
   bool without_means(const Vector& z, Vector& d) const override;
@@ -242,19 +242,21 @@ class GridStructure final : public Structure {
  private:
   void differentiate(std::span<const double> u, std::span<double> out) const;
 
+  Index fields_;
   StructurePointer structure_;
   std::shared_ptr<const FieldTransform> transform_;
-  GridSpace space_;
+  const Space& space_;
   std::unique_ptr<LinearMap> derivative_;
   mutable Vector z_, w_, out_;               // at the points, all fields
   mutable Vector slots_, derivative_slots_;  // of one field
 };
 
 GridStructure::GridStructure(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
-                             std::unique_ptr<LinearMap> derivative)
-    : structure_(problem.structure),
+                             const Space& space, std::unique_ptr<LinearMap> derivative)
+    : fields_(problem.field_count()),
+      structure_(problem.structure),
       transform_(std::move(transform)),
-      space_(problem.field_count(), transform_),
+      space_(space),
       derivative_(std::move(derivative)),
       slots_(transform_->slots()),
       derivative_slots_(transform_->slots()) {
@@ -281,9 +283,15 @@ void GridStructure::apply(const Vector& z, const Vector& w, Vector& out) const {
 
 bool GridStructure::without_means(const Vector& z, Vector& d) const {
   if (!structure_->keeps_means()) return false;
-  const Index n = transform_->unknowns();
   space_.to_physical(z, z_);
-  for (Index f = 0; f * n < z_.size(); ++f) z_.segment(f * n, n).array() -= z_.segment(f * n, n).mean();
+  const Space::Field field = space_.values();
+  for (Index f = 0; f < fields_; ++f) {
+    auto values = z_.segment(f * field.size, field.size);
+    const double sum = space_.total(field.units, [&](Index unit) {
+      return values.segment(field.begin(unit), field.end(unit) - field.begin(unit)).sum();
+    });
+    values.array() -= sum / static_cast<double>(field.of);
+  }
   space_.from_physical(z_, d);
   return true;
 }
@@ -297,7 +305,7 @@ void add_beyond_linear(System& system, const Problem& problem, const std::shared
   if (problem.has_forces()) system.force = std::make_unique<GridForce>(problem, transform);
   if (!problem.structure) return;
   auto derivative = problem.derivative.is_zero() ? nullptr : make_derivative();
-  system.structure = std::make_unique<GridStructure>(problem, transform, std::move(derivative));
+  system.structure = std::make_unique<GridStructure>(problem, transform, *system.space, std::move(derivative));
 }
 
 }  // namespace seiche

@@ -5,7 +5,9 @@
 #include <seiche/core/potential.hpp>
 #include <seiche/core/space.hpp>
 
+#include <array>
 #include <memory>
+#include <vector>
 
 namespace seiche {
 
@@ -31,15 +33,21 @@ class GridPotential final : public Potential {
   std::span<const double> values_of(const Vector& z, Vector& values) const;
   template <class OfPart>
   void add(const OfPart& of_part, std::span<double> totals) const;
+  std::span<double> gathered(std::span<const double> u, Index unit, Vector& block) const;
   using Number = double (PointwisePotential::*)(std::span<const double> u) const;
   double total(std::span<const double> u, Number number) const;
+  double value_and_slopes_by_units() const;
   void set_gradient(const Vector& physical, Vector& gradient) const;
 
   std::shared_ptr<const PointwisePotential> pointwise_;
   std::shared_ptr<const FieldTransform> transform_;
   const Space& space_;
   Support support_;
-  mutable Vector a_, b_, slope_;  // scratch, V's fields on their grid
+  // Where V is a sum over points of several fields, or of the place: V of the points of each unit, which are gathered.
+  bool is_gathered_ = false;
+  std::vector<std::shared_ptr<const PointwisePotential>> of_units_;
+  mutable Vector a_, b_, slope_;          // scratch, V's fields on their grid
+  mutable std::array<Vector, 2> blocks_;  // the same of one unit
 };
 
 }  // namespace seiche

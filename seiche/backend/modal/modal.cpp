@@ -30,12 +30,22 @@ void require_divisible(const Problem& problem) {
     if (holds) throw Error("{} has {}, which only one process computes; run it without mpiexec", problem.name, what);
   };
   refuse(problem.grid.dimension() == 1, "a grid of one axis");
-  refuse(dynamic_cast<const TruncatedPotential*>(problem.potential.get()) != nullptr, "a potential without aliases");
-  refuse(problem.potential && !problem.potential->is_local(), "a potential of several fields, or of the place");
-  refuse(problem.friction != nullptr, "friction");
-  refuse(problem.has_forces(), "external forces");
-  refuse(problem.damping.field_rate != nullptr, "a damping that depends on the place");
+  const auto* truncated = dynamic_cast<const TruncatedPotential*>(problem.potential.get());
+  const PointwisePotential* V = truncated != nullptr ? truncated->whole().get() : problem.potential.get();
+  refuse(V != nullptr && !V->is_pointwise(), "a potential that does not add up over points");
   refuse(problem.structure != nullptr, "a structure matrix that depends on the state");
+}
+
+// The mean of γ(x, 0) added up unit by unit.
+LinearDamping with_mean_rate(LinearDamping damping, const Space& space) {
+  if (!damping.field_rate || damping.mean_field_rate) return damping;
+  const Space::Field field = space.values();
+  Vector gamma(field.size);
+  damping.field_rate->values(0, {gamma.data(), static_cast<std::size_t>(gamma.size())});
+  damping.mean_field_rate = space.total(field.units, [&](Index unit) {
+    return gamma.segment(field.begin(unit), field.end(unit) - field.begin(unit)).sum();
+  }) / static_cast<double>(field.of);
+  return damping;
 }
 
 // A truncated V by a mask on the modes instead of its convolutions.
@@ -55,7 +65,8 @@ std::unique_ptr<Potential> modal_potential(const Problem& problem,
 
 }  // namespace
 
-System modal_system(const Problem& problem, const BackendOptions& options) {
+System modal_system(const Problem& given, const BackendOptions& options) {
+  Problem problem = given;
   if (options.threads < 1)
     throw Error("threads = {} of the modal backend must be ≥ 1; 1 runs on the calling thread alone", options.threads);
   if (problem.matrices)
@@ -75,6 +86,7 @@ System modal_system(const Problem& problem, const BackendOptions& options) {
   System system;
   system.fields = problem.field_count();
   system.space = std::make_unique<GridSpace>(problem.field_count(), transform, options.ranks);
+  problem.damping = with_mean_rate(problem.damping, *system.space);
   system.linear = modal_linear_part(problem, *system.space, options.threads);
   system.potential = modal_potential(problem, transform, *system.space);
   const ModalOperators operators{.grid = problem.grid,

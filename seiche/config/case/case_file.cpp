@@ -8,6 +8,7 @@
 #include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/input_file.hpp>
 #include <seiche/core/text/toml_depth.hpp>
+#include <seiche/formula/algebra_lock.hpp>
 
 #include <fmt/format.h>
 
@@ -170,6 +171,7 @@ RunSpec read_case(const std::filesystem::path& file, const std::vector<std::stri
 
 RunSpec parse_case(std::string_view text, std::string_view name, const std::vector<std::string>& overrides,
                    const std::filesystem::path& folder, const std::vector<std::string>& methods) {
+  const auto lock = algebra_lock();
   CaseReading reading{.name = std::string(name),
                       .folder = folder,
                       .methods = methods,

@@ -5,6 +5,7 @@
 #include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
+#include <seiche/formula/algebra_lock.hpp>
 #include <seiche/problem/common/grid_options.hpp>
 #include <seiche/problem/problems.hpp>
 
@@ -17,7 +18,8 @@ namespace {
 void check_field_rate(const RunSpec& spec, const Parameter& parameter, const Problem& problem) {
   const FieldRate& rate = *problem.damping.field_rate;
   std::vector<double> gamma(static_cast<std::size_t>(problem.grid.unknowns()));
-  const std::size_t samples = rate.is_constant() ? 1 : std::clamp<std::size_t>((1U << 22U) / gamma.size(), 16, 4096);
+  const std::size_t samples =
+      rate.is_constant() ? 1 : std::clamp<std::size_t>((1U << 22U) / std::max<std::size_t>(gamma.size(), 1), 16, 4096);
   for (std::size_t i = 0; i < samples; ++i) {
     const double t = samples > 1
                          ? spec.t_start + spec.duration() * static_cast<double>(i) / static_cast<double>(samples - 1)
@@ -111,12 +113,15 @@ FormulaConstants formula_constants(const RunSpec& spec) {
   return constants;
 }
 
-Problem make_problem(const RunSpec& spec) {
+Problem make_problem(const RunSpec& spec, const Rank& here) {
   try {
+    const auto lock = algebra_lock();
+    ParameterValues parameters = spec.parameters;
+    parameters.here = here;
     require_utf8(spec);
     const ProblemEntry& entry = problem_entry(spec);
     const auto* preset = std::get_if<PresetData>(&spec.initial);
-    Problem problem = entry.make(spec.parameters, preset != nullptr ? preset->name : entry.presets.front());
+    Problem problem = entry.make(parameters, preset != nullptr ? preset->name : entry.presets.front());
     check_field_rates(spec, problem);
     add_drives(spec.drives, problem, formula_constants(spec));
     if (const auto* data = std::get_if<FileData>(&spec.initial))

@@ -89,8 +89,9 @@ const ProblemEntry& problem_entry(const RunSpec& spec);
 // first), and on a grid dx, dy, dz.
 FormulaConstants formula_constants(const RunSpec& spec);
 
-// Throws Error where the parameters do not fit together, or the initial data do not fit the state.
-Problem make_problem(const RunSpec& spec);
+// What this one of several processes holds of it. Throws Error where the parameters do not fit together, or the initial
+// data do not fit the state.
+Problem make_problem(const RunSpec& spec, const Rank& here = {});
 
 SimulationOptions simulation_options(const RunSpec& spec);
 

@@ -38,23 +38,28 @@ Vector read_initial_file(const std::filesystem::path& file, const Problem& probl
     throw Error("{} {}{}", name, complaint, complaint == "is not a file" ? " of numbers" : "");
   std::ifstream input(file);
   if (!input) throw Error("{} cannot be read", name);
+  const FieldPart field = problem.grid.field();
+  const Index all = problem.field_count() * field.of;
   Vector z(problem.size());
+  const auto put = [&](Index i, double value) {
+    const Index at = i % field.of - field.first;
+    if (i < all && at >= 0 && at < field.size) z[i / field.of * field.size + at] = value;
+  };
   Index count = 0;
   std::string text;
   for (std::size_t line = 1; std::getline(input, text); ++line) {
     std::istringstream words(text);
     for (std::string token; words >> token; ++count) {
       const double value = read_token(token, file, line);
-      if (count < z.size()) z[count] = value;
+      put(count, value);
     }
   }
   if (input.bad()) throw Error("{} cannot be read to its end", name);
-  if (count != z.size())
-    throw Error("{} holds {} number{} but the state has {} ({})", name, count, count == 1 ? "" : "s", z.size(),
-                problem.grid.unknowns() == 1
-                    ? fmt::format("{}", fmt::join(problem.fields, ", "))
-                    : fmt::format("{} field{} × {} unknowns", problem.field_count(),
-                                  problem.field_count() == 1 ? "" : "s", problem.grid.unknowns()));
+  if (count != all)
+    throw Error("{} holds {} number{} but the state has {} ({})", name, count, count == 1 ? "" : "s", all,
+                field.of == 1 ? fmt::format("{}", fmt::join(problem.fields, ", "))
+                              : fmt::format("{} field{} × {} unknowns", problem.field_count(),
+                                            problem.field_count() == 1 ? "" : "s", field.of));
   return z;
 }
 

@@ -3,6 +3,7 @@
 #include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/axis_names.hpp>
 #include <seiche/core/text/number_text.hpp>
+#include <seiche/core/truncated_potential.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ std::string place_text(const Grid& grid, Index point) {
   for (Index a = 0; a < grid.dimension(); ++a)
     text +=
         fmt::format("{}{} = {}", a > 0 ? ", " : "", axis_names[static_cast<std::size_t>(a)], grid.coordinate(point, a));
-  return fmt::format("{} (j = {})", text, point + 1);
+  return fmt::format("{} (j = {})", text, grid.first_unknown() + point + 1);
 }
 
 Vector initial_from_formulas(const std::map<std::string, std::string>& formulas, const FormulaConstants& constants,
@@ -46,7 +47,7 @@ Vector initial_from_formulas(const std::map<std::string, std::string>& formulas,
     }
     for (Index i = 0; i < problem.grid.unknowns(); ++i) {
       for (Index a = 0; a < dimension; ++a) arguments[static_cast<std::size_t>(a)] = problem.grid.coordinate(i, a);
-      arguments[static_cast<std::size_t>(dimension)] = static_cast<double>(i + 1);
+      arguments[static_cast<std::size_t>(dimension)] = static_cast<double>(problem.grid.first_unknown() + i + 1);
       z[at] = (*formula)(arguments);
       if (!std::isfinite(z[at]))
         throw Error("problem.initial: {} = {} is {}{}", field, shortened(text->second), number_text(z[at]),
@@ -64,7 +65,10 @@ void require_finite_force(const Problem& problem) {
   std::vector<double> u(problem.initial.begin() + begin,
                         problem.initial.begin() + begin + problem.potential->fields() * n);
   std::vector<double> force(u.size());
-  problem.potential->value_and_gradient(u, force);
+  // Of the whole grid a part has no projection: there V itself is looked at.
+  const auto* truncated = dynamic_cast<const TruncatedPotential*>(problem.potential.get());
+  const bool is_part = problem.grid.here.count > 1 && truncated != nullptr;
+  (is_part ? *truncated->whole() : *problem.potential).value_and_gradient(u, force);
   for (std::size_t i = 0; i < force.size(); ++i) {
     if (std::isfinite(force[i])) continue;
     const auto point = static_cast<Index>(i) % n;

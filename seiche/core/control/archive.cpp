@@ -25,7 +25,12 @@ void Archive::raw(void* data, std::size_t size) {
   if (!reads()) return sink_({static_cast<const char*>(data), size});
   if (size > size_ - at_) throw damaged();
   source_(at_, {static_cast<char*>(data), size});
+  advance(size);
+}
+
+void Archive::advance(std::uint64_t size) {
   at_ += size;
+  if (is_at_end()) source_ = {};
 }
 
 std::size_t Archive::count(std::size_t size) {
@@ -65,7 +70,7 @@ void Archive::operator()(Vector& vector) {
                   {reinterpret_cast<char*>(to.data()), to.size_bytes()});
         },
         vector);
-    at_ += sizeof(double) * size;
+    advance(sizeof(double) * size);
   }
 }
 

@@ -106,6 +106,7 @@ class Archive {
 
  private:
   void raw(void* data, std::size_t size);
+  void advance(std::uint64_t size);     // what has been read to its end is let go
   std::size_t count(std::size_t size);  // of what follows, one byte each at least
 
   std::function<void(std::string_view)> sink_ = {};

@@ -75,15 +75,22 @@ void Ranks::join(const FieldPart& field, std::span<const double> mine,
   if (failure) std::rethrow_exception(failure);
 }
 
-std::string Ranks::from_first(const std::string& text) const {
-  double size = here().index == 0 ? static_cast<double>(text.size()) : 0;
+std::string Ranks::from_first(const std::string& text) const { return any(here().index == 0 ? text : ""); }
+
+std::string Ranks::any(const std::string& text) const {
+  const auto [index, count] = here();
+  double highest = text.empty() ? 0 : count - index;  // of those that have one; 0 where none has
+  max({&highest, 1});
+  if (highest == 0) return "";
+  const int rank = count - static_cast<int>(highest);
+  double size = index == rank ? static_cast<double>(text.size()) : 0;
   max({&size, 1});
   const auto length = static_cast<std::size_t>(size);
   std::vector<double> packed((length + sizeof(double) - 1) / sizeof(double));  // bits that no one computes with
-  std::vector<Index> counts(static_cast<std::size_t>(here().count), 0);
-  counts.front() = std::ssize(packed);
+  std::vector<Index> counts(static_cast<std::size_t>(count), 0);
+  counts[static_cast<std::size_t>(rank)] = std::ssize(packed);
   std::vector<double> mine;
-  if (here().index == 0) {
+  if (index == rank) {
     mine = packed;
     std::memcpy(mine.data(), text.data(), length);
   }
@@ -93,21 +100,23 @@ std::string Ranks::from_first(const std::string& text) const {
   return received;
 }
 
-void Ranks::on_first(FunctionRef<void()> action) const {
+void Ranks::together(FunctionRef<void()> action) const {
   std::optional<Error> failure;
-  if (here().index == 0) {
-    try {
-      action();
-    } catch (const Error& error) {
-      failure = error;
-    }
+  try {
+    action();
+  } catch (const Error& error) {
+    failure = error;
   }
-  double failed = failure ? 1 : 0;
-  max({&failed, 1});
-  if (failed == 0) return;
-  const std::string sentence = from_first(failure ? failure->what() : "");
-  if (failure) throw Error(*failure);
+  const std::string sentence = any(failure ? failure->what() : "");
+  if (sentence.empty()) return;
+  if (failure && failure->what() == sentence) throw Error(*failure);
   throw Error(std::string_view(sentence));
+}
+
+void Ranks::on_first(FunctionRef<void()> action) const {
+  together([&] {
+    if (here().index == 0) action();
+  });
 }
 
 }  // namespace seiche

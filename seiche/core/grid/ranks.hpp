@@ -30,14 +30,19 @@ class Ranks {
   void join(const FieldPart& field, std::span<const double> mine,
             FunctionRef<void(std::span<const double> piece)> take) const;
 
-  // The first process acts. Where it throws Error, all throw one of the same sentence.
-  void on_first(FunctionRef<void()> action) const;
+  // All act. Where one throws Error, all throw it, or one of the same sentence: that of the lowest rank.
+  void together(FunctionRef<void()> action) const;
+  void on_first(FunctionRef<void()> action) const;        // the same where the first process acts alone
   std::string from_first(const std::string& text) const;  // that of the first process
+  std::string any(const std::string& text) const;         // that of the first one which has a text, or ""
 };
 
 // The same where `ranks` may be null: of a process that is alone.
 inline void on_first(const Ranks* ranks, FunctionRef<void()> action) {
   ranks != nullptr ? ranks->on_first(action) : action();
+}
+inline void together(const Ranks* ranks, FunctionRef<void()> action) {
+  ranks != nullptr ? ranks->together(action) : action();
 }
 
 // Processes that were started together, and end together.

@@ -19,8 +19,8 @@ T of_axis(const std::vector<T>& list, std::size_t axis) {
 // again for the method at hand.
 void require_memory(const Grid& grid) {
   constexpr double bytes_per_point = 200;
-  double points = 1;
-  for (const GridAxis& axis : grid.axes) points *= static_cast<double>(axis.unknowns());
+  double points = static_cast<double>(grid.slab().planes);
+  for (Index a = 1; a < grid.dimension(); ++a) points *= static_cast<double>(grid.axis(a).unknowns());
   const double needed = bytes_per_point * points;
   if (needed > memory_limit())
     throw Error(
@@ -50,6 +50,7 @@ Grid make_grid(const GridOptions& options) {
     if (axis.unknowns() < 1) throw Error("points = {} leaves no unknown along axis {}", axis.intervals, a + 1);
     grid.axes.push_back(axis);
   }
+  grid.here = options.here;
   require_memory(grid);
   return grid;
 }
@@ -109,6 +110,7 @@ Boundary boundary_named(const std::string& name) {
 
 GridOptions axes_options(const ParameterValues& values) {
   GridOptions options{.points = values.integers("points"), .length = values.reals("length"), .boundary = {}};
+  options.here = values.here;
   for (const std::string& name : values.choices("boundary")) options.boundary.push_back(boundary_named(name));
   return options;
 }

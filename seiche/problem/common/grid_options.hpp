@@ -22,6 +22,7 @@ struct GridOptions {
   std::vector<Boundary> boundary = {Boundary::periodic};
   Discretisation discretisation = Discretisation::fd2;
   bool two_thirds = false;  // V sees the modes with |k| < N/3 only; needs periodic axes and spectral derivatives
+  Rank here = {};           // whose part of it is made
 };
 
 // Throws Error where the lists have different lengths (other than one), a length is not a finite number > 0, an axis

@@ -78,6 +78,7 @@ class ProblemRows {
       (o.*option).points = read.points;
       (o.*option).length = read.length;
       (o.*option).boundary = read.boundary;
+      (o.*option).here = read.here;
     });
     return *this;
   }
