@@ -23,6 +23,54 @@ AnyBlock symbol_of(const BlockStencil& stencil, const Mode& mode) {
   return block;
 }
 
+// The numbers of each process, in their order.
+std::vector<double> gathered(const Ranks& ranks, const std::vector<double>& mine) {
+  const std::vector<Index> counts(static_cast<std::size_t>(ranks.here().count), std::ssize(mine));
+  std::vector<double> all(counts.size() * mine.size());
+  ranks.gather(mine, counts, all);
+  return all;
+}
+
+void write(const Mode& mode, std::vector<double>& to) {
+  for (const auto* indices : {&mode.k, &mode.period})
+    for (const Index i : *indices) to.push_back(static_cast<double>(i));
+}
+
+Mode read_mode(const double* from) {
+  Mode mode;
+  for (auto* indices : {&mode.k, &mode.period})
+    for (Index& i : *indices) i = static_cast<Index>(*from++);
+  return mode;
+}
+
+// Of all processes: the smallest eigenvalue, its mode and its block, and the largest size. Modes are held in the order
+// of processes, so that the first of equal eigenvalues is that of one process.
+void take_smallest(const Ranks& ranks, SmallestEigenvalue& found, Block& block) {
+  std::vector<double> mine = {found.value, found.size};
+  write(found.mode, mine);
+  for (const std::complex<double>& entry : block.reshaped()) mine.insert(mine.end(), {entry.real(), entry.imag()});
+  const std::vector<double> all = gathered(ranks, mine);
+  const double* smallest = all.data();
+  for (const double* of = all.data(); of != all.data() + all.size(); of += mine.size()) {
+    if (of[0] < smallest[0]) smallest = of;
+    found.size = std::max(found.size, of[1]);
+  }
+  found.value = smallest[0];
+  found.mode = read_mode(smallest + 2);
+  for (Index i = 0; i < block.size(); ++i) block.reshaped()[i] = {smallest[8 + 2 * i], smallest[9 + 2 * i]};
+}
+
+void add_zeros(const Ranks& ranks, SmallestEigenvalue& found) {
+  std::vector<double> mine = {static_cast<double>(found.zeros)};
+  write(found.first_zero, mine);
+  const std::vector<double> all = gathered(ranks, mine);
+  found.zeros = 0;
+  for (const double* of = all.data(); of != all.data() + all.size(); of += mine.size()) {
+    if (found.zeros == 0 && of[0] > 0) found.first_zero = read_mode(of + 1);
+    found.zeros += static_cast<Index>(of[0]);
+  }
+}
+
 // Eigenvalues of Hermitian blocks, mode after mode.
 template <class AnyBlock>
 class Scan {
@@ -56,16 +104,19 @@ class Scan {
     block_ = a;
   }
 
-  SmallestEigenvalue result(const Modes& modes) const {
+  SmallestEigenvalue result(const Modes& modes, const Ranks* ranks) const {
     SmallestEigenvalue found;
     found.value = smallest_;
     found.size = size_;
-    found.mode = modes[at_];
-    found.vector = Eigen::SelfAdjointEigenSolver<Block>(Block(0.5 * (block_ + block_.adjoint()))).eigenvectors().col(0);
+    if (smallest_ < std::numeric_limits<double>::infinity()) found.mode = modes[at_];
+    Block block = block_.size() > 0 ? Block(block_) : Block(Block::Zero(fields_, fields_));
+    if (ranks != nullptr) take_smallest(*ranks, found, block);
+    found.vector = Eigen::SelfAdjointEigenSolver<Block>(Block(0.5 * (block + block.adjoint()))).eigenvectors().col(0);
     for (std::size_t i = 0; i < values_.size(); ++i) {
-      if (std::abs(values_[i]) > matrix_round_off * size_) continue;
+      if (std::abs(values_[i]) > matrix_round_off * found.size) continue;
       if (found.zeros++ == 0) found.first_zero = modes[static_cast<Index>(i) / fields_];
     }
+    if (ranks != nullptr) add_zeros(*ranks, found);
     return found;
   }
 
@@ -86,8 +137,8 @@ bool is_one_damping(const Problem& problem) {
 }
 
 template <class AnyBlock>
-OperatorFindings look_at_modes(const Problem& problem) {
-  const Modes modes(problem.grid.whole());
+OperatorFindings look_at_modes(const Problem& problem, const Ranks* ranks) {
+  const Modes modes(ranks != nullptr ? problem.grid : problem.grid.whole());
   const Index m = problem.field_count();
   const LinearDamping& damping = problem.damping;
   const bool has_constant = problem.has_constant_damping();
@@ -111,10 +162,15 @@ OperatorFindings look_at_modes(const Problem& problem) {
     if (has_constant) constant.add(k, M * symbol_of<AnyBlock>(constant_part, mode));
     if (has_rate && !together) rate.add(k, M * projector);
   }
-  findings.M.over_modes = metric.result(modes);
-  findings.minus_S.over_modes = structure.result(modes);
-  if (has_constant) findings.MD_constant = Semidefiniteness{.over_modes = constant.result(modes)};
-  if (has_rate && !together) findings.MD_rate = Semidefiniteness{.over_modes = rate.result(modes)};
+  if (ranks != nullptr) {
+    double bent = findings.S_is_skew ? 0 : 1;
+    ranks->max({&bent, 1});
+    findings.S_is_skew = bent == 0;
+  }
+  findings.M.over_modes = metric.result(modes, ranks);
+  findings.minus_S.over_modes = structure.result(modes, ranks);
+  if (has_constant) findings.MD_constant = Semidefiniteness{.over_modes = constant.result(modes, ranks)};
+  if (has_rate && !together) findings.MD_rate = Semidefiniteness{.over_modes = rate.result(modes, ranks)};
   return findings;
 }
 
@@ -139,9 +195,9 @@ OperatorFindings look_at_matrices(const Problem& problem) {
 
 bool SmallestEigenvalue::is_nonnegative() const { return value >= -matrix_round_off * size; }
 
-OperatorFindings look_at_operators(const Problem& problem) {
+OperatorFindings look_at_operators(const Problem& problem, const Ranks* ranks) {
   if (problem.matrices) return look_at_matrices(problem);
-  return problem.field_count() <= 2 ? look_at_modes<PairBlock>(problem) : look_at_modes<Block>(problem);
+  return problem.field_count() <= 2 ? look_at_modes<PairBlock>(problem, ranks) : look_at_modes<Block>(problem, ranks);
 }
 
 }  // namespace seiche

@@ -2,6 +2,7 @@
 // matrices.
 #pragma once
 
+#include <seiche/core/grid/ranks.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 #include <seiche/core/problem.hpp>
 
@@ -40,7 +41,8 @@ struct OperatorFindings {
 };
 
 // One pass over the modes of a grid; closed forms for one and two fields. Throws Error where a matrix cannot be
-// factorised.
-OperatorFindings look_at_operators(const Problem& problem);
+// factorised. Of several processes each looks at the modes that it holds, and all find the same; null: this one looks at
+// all modes.
+OperatorFindings look_at_operators(const Problem& problem, const Ranks* ranks = nullptr);
 
 }  // namespace seiche

@@ -66,6 +66,7 @@ class MpiRanks final : public Ranks {
                 std::span<const Index> received) const override {
     sent_.set(sent);
     received_.set(received);
+    for (Counts* numbers : {&sent_, &received_}) numbers->counts[static_cast<std::size_t>(here_.index)] = 0;
     require(MPI_Alltoallv(from.data(), sent_.counts.data(), sent_.begins.data(), MPI_DOUBLE, to.data(),
                           received_.counts.data(), received_.begins.data(), MPI_DOUBLE, communicator_),
             "exchange planes");

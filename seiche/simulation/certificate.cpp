@@ -182,7 +182,7 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   const auto go_on = [&] {
     if (options.stop != nullptr && options.stop->load(std::memory_order_relaxed)) throw Error("interrupted");
   };
-  const OperatorFindings findings = look_at_operators(problem);
+  const OperatorFindings findings = look_at_operators(problem, options.ranks);
   go_on();
   const LawPromise law = promise_energy_law(problem, options.t_end, findings);
   Certificate certificate;

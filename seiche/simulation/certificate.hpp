@@ -24,6 +24,7 @@ struct CertificateOptions {
   bool sample_solution = true;  // follow a solution of its own, where structure decides nothing
   // One with this method, at its start: what is known of C is read off it instead of one made for that.
   const Simulation* at_start = nullptr;
+  const Ranks* ranks = nullptr;             // who hold the parts of the problem; each calls for it
   const std::atomic<bool>* stop = nullptr;  // ends it with an Error, between two hypotheses or inside that solution
 };
 

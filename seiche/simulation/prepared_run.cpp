@@ -37,7 +37,8 @@ PreparedRun::PreparedRun(const Problem& problem, const RunPlan& plan)
                                    .t_start = plan.t_start,
                                    .t_end = plan.t_end,
                                    .sample_solution = false,
-                                   .at_start = simulation_.get()});
+                                   .at_start = simulation_.get(),
+                                   .ranks = plan.simulation.backend_options.ranks});
   simulation_->state().t = plan.t_start;
   if (const Ranks* const ranks = plan.simulation.backend_options.ranks; ranks != nullptr) {
     const std::string objection = ranks->any(certificate_.law.promised ? "" : certificate_.law.reason);

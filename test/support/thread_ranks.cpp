@@ -97,7 +97,7 @@ class ThreadRanks final : public Ranks {
         if (count != received[static_cast<std::size_t>(r)])
           throw Error("rank {} sends {} numbers to rank {}, which expects {}", r, count, rank_,
                       received[static_cast<std::size_t>(r)]);
-        std::copy_n(theirs.from.begin() + before, count, to.begin() + at);
+        if (r != rank_) std::copy_n(theirs.from.begin() + before, count, to.begin() + at);
         at += count;
       }
       if (rank_ != 0) return;

@@ -15,7 +15,11 @@ std::size_t sum_of(const std::vector<Index>& counts) {
 }  // namespace
 
 Crossing::Crossing(const Ranks& ranks, const Grid& grid, const Modes& modes, Index size_of_rows, int threads)
-    : ranks_(ranks), threads_(threads), planes_(grid.slab().planes) {
+    : ranks_(ranks),
+      threads_(threads),
+      here_(static_cast<std::size_t>(grid.here.index)),
+      first_plane_(grid.slab().first),
+      planes_(grid.slab().planes) {
   const Index middle = modes.plane() / grid.axis(0).unknowns();  // numbers of one k along axis 1 in a plane of rows
   length_ = grid.axis(0).unknowns();
   column_ = modes.units().planes * middle;
@@ -39,7 +43,9 @@ void Crossing::for_pieces(const Visit& visit) const {
   for_blocks(planes_, threads_, [&](Index plane) {
     Index at = 0;  // of what goes to each process
     for (std::size_t rank = 0; rank < piece_.size(); ++rank) {
-      visit(packed_.get() + at + plane * piece_[rank], plane * row_ + first_[rank], piece_[rank]);
+      double* const to =
+          rank == here_ ? columns_.get() + (first_plane_ + plane) * stride_ : packed_.get() + at + plane * piece_[rank];
+      visit(to, plane * row_ + first_[rank], piece_[rank]);
       at += planes_ * piece_[rank];
     }
   });
@@ -48,8 +54,10 @@ void Crossing::for_pieces(const Visit& visit) const {
 template <class Copy>
 void Crossing::for_columns(const Copy& copy) const {
   if (stride_ == column_) return;
-  for_blocks(length_, threads_,
-             [&](Index plane) { copy(columns_.get() + plane * stride_, dense_.get() + plane * column_); });
+  for_blocks(length_, threads_, [&](Index plane) {
+    if (plane < first_plane_ || plane >= first_plane_ + planes_)
+      copy(columns_.get() + plane * stride_, dense_.get() + plane * column_);
+  });
 }
 
 double* Crossing::to_modes(const double* rows) const {

@@ -20,16 +20,18 @@ class Crossing {
   void to_values(double* rows) const;          // the rows, of the columns
 
  private:
-  // visit(where in packed_, at which number of the rows, how many numbers): plane by plane what goes to each process.
+  // visit(where in packed_, at which number of the rows, how many numbers): plane by plane what goes to each other
+  // process. What stays here: visit(where in the columns, …).
   template <class Visit>
   void for_pieces(const Visit& visit) const;
   template <class Copy>
-  void for_columns(const Copy& copy) const;  // copy(plane with the gap, without), where there are gaps
+  void for_columns(const Copy& copy) const;  // copy(plane with the gap, without) of others, where there are gaps
   double* received() const { return stride_ == column_ ? columns_.get() : dense_.get(); }
 
   const Ranks& ranks_;
   int threads_;
-  Index planes_, row_ = 0;                   // along axis 0 here; numbers of one plane of rows
+  std::size_t here_;                         // rank
+  Index first_plane_, planes_, row_ = 0;     // along axis 0 here; numbers of one plane of rows
   std::vector<Index> first_, piece_;         // of a plane of rows: where the part of each process begins, and its size
   std::vector<Index> of_rows_, of_columns_;  // what goes to each process, and what comes from it
   Index length_, column_, stride_;           // of the columns: planes, numbers of one, and from one to the next

@@ -17,7 +17,8 @@ class Ranks {
   virtual Rank here() const = 0;
   // all ← what each process holds, counts[r] numbers, in the order of ranks.
   virtual void gather(std::span<const double> mine, std::span<const Index> counts, std::span<double> all) const = 0;
-  // To each process the next sent[r] numbers of `from`, and from each the next received[r] of `to`.
+  // To each process the next sent[r] numbers of `from`, and from each the next received[r] of `to`; but those of a
+  // process to itself stay where they are, and so does what lies in their place.
   virtual void exchange(std::span<const double> from, std::span<const Index> sent, std::span<double> to,
                         std::span<const Index> received) const = 0;
 
