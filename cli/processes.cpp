@@ -3,6 +3,7 @@
 #include "stop_signal.hpp"
 
 #include <seiche/core/base/error.hpp>
+#include <seiche/core/base/memory_limit.hpp>
 #include <seiche/driver/processes.hpp>
 
 #include <limits>
@@ -22,6 +23,7 @@ void join_others() {
   const int started = started_processes();
   if (started < 2) return;
   joined = join_processes();
+  processes_on_machine() = joined->count_on_machine();
   if (const int found = processes()->here().count; found != started)
     throw Error(
         "{} processes were started, and MPI knows of {}: this mpiexec is not that of the MPI that Seiche was built with; "

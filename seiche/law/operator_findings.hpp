@@ -41,8 +41,8 @@ struct OperatorFindings {
 };
 
 // One pass over the modes of a grid; closed forms for one and two fields. Throws Error where a matrix cannot be
-// factorised. Of several processes each looks at the modes that it holds, and all find the same; null: this one looks at
-// all modes.
+// factorised. Of several processes each looks at the modes that it holds, and all find the same; null: this one looks
+// at all modes.
 OperatorFindings look_at_operators(const Problem& problem, const Ranks* ranks = nullptr);
 
 }  // namespace seiche

@@ -24,6 +24,15 @@ class MpiProcesses final : public Processes {
 
   const Ranks& ranks() const override { return *ranks_; }
 
+  int count_on_machine() const override {
+    MPI_Comm machine = MPI_COMM_NULL;
+    int count = 1;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &count);
+    MPI_Comm_free(&machine);
+    return count;
+  }
+
   bool come_to_end(double patience) override {
     MPI_Request request = MPI_REQUEST_NULL;
     if (MPI_Ibarrier(at_end_, &request) != MPI_SUCCESS) return false;

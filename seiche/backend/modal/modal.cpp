@@ -36,16 +36,15 @@ void require_divisible(const Problem& problem) {
   refuse(problem.structure != nullptr, "a structure matrix that depends on the state");
 }
 
-// The mean of γ(x, 0) added up unit by unit.
-LinearDamping with_mean_rate(LinearDamping damping, const Space& space) {
-  if (!damping.field_rate || damping.mean_field_rate) return damping;
+// The mean of γ(x, 0), added up unit by unit.
+double mean_rate(const FieldRate& rate, const Space& space) {
   const Space::Field field = space.values();
   Vector gamma(field.size);
-  damping.field_rate->values(0, {gamma.data(), static_cast<std::size_t>(gamma.size())});
-  damping.mean_field_rate = space.total(field.units, [&](Index unit) {
+  rate.values(0, {gamma.data(), static_cast<std::size_t>(gamma.size())});
+  const double sum = space.total(field.units, [&](Index unit) {
     return gamma.segment(field.begin(unit), field.end(unit) - field.begin(unit)).sum();
-  }) / static_cast<double>(field.of);
-  return damping;
+  });
+  return sum / static_cast<double>(field.of);
 }
 
 // A truncated V by a mask on the modes instead of its convolutions.
@@ -65,8 +64,7 @@ std::unique_ptr<Potential> modal_potential(const Problem& problem,
 
 }  // namespace
 
-System modal_system(const Problem& given, const BackendOptions& options) {
-  Problem problem = given;
+System modal_system(const Problem& problem, const BackendOptions& options) {
   if (options.threads < 1)
     throw Error("threads = {} of the modal backend must be ≥ 1; 1 runs on the calling thread alone", options.threads);
   if (problem.matrices)
@@ -86,7 +84,11 @@ System modal_system(const Problem& given, const BackendOptions& options) {
   System system;
   system.fields = problem.field_count();
   system.space = std::make_unique<GridSpace>(problem.field_count(), transform, options.ranks);
-  problem.damping = with_mean_rate(problem.damping, *system.space);
+  if (problem.damping.field_rate && !problem.damping.mean_field_rate) {
+    Problem with_mean = problem;
+    with_mean.damping.mean_field_rate = mean_rate(*problem.damping.field_rate, *system.space);
+    return modal_system(with_mean, options);
+  }
   system.linear = modal_linear_part(problem, *system.space, options.threads);
   system.potential = modal_potential(problem, transform, *system.space);
   const ModalOperators operators{.grid = problem.grid,

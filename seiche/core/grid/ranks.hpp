@@ -50,7 +50,8 @@ inline void together(const Ranks* ranks, FunctionRef<void()> action) {
 class Processes {
  public:
   virtual ~Processes() = default;
-  virtual const Ranks& ranks() const = 0;  // those of all
+  virtual const Ranks& ranks() const = 0;    // those of all
+  virtual int count_on_machine() const = 0;  // of those that share the memory of this one
   // Waits until all have made this call, but no longer than so many seconds: true where they have.
   virtual bool come_to_end(double patience) = 0;
   [[noreturn]] virtual void end_all(int exit_code) = 0;  // at once, while others may wait for this one
