@@ -127,21 +127,22 @@ void join_values(Simulation& simulation, FunctionRef<void(std::span<const double
   space.join(space.values(), {values.data(), static_cast<std::size_t>(values.size())}, take);
 }
 
-CaseRecord CaseRun::make_record(RunSpec& spec, const Problem& problem, PreparedRun& run, const RunCaseOptions& options,
-                                GoingOn* from) {
-  if (from != nullptr) return {*from, headline(spec, run.simulation()), options};
+std::unique_ptr<CaseRecord> CaseRun::make_record(RunSpec& spec, const Problem& problem, PreparedRun& run,
+                                                 const RunCaseOptions& options, GoingOn* from) {
+  if (from != nullptr) return std::make_unique<CaseRecord>(*from, headline(spec, run.simulation()), options);
   spec.notes.insert(spec.notes.end(), run.notes().begin(), run.notes().end());
   if (const auto* data = std::get_if<FileData>(&spec.initial)) {
     const std::string lost = lost_between_runs(run.simulation(), spec.t_start, time_of_final_state(data->file));
     if (!lost.empty()) spec.notes.push_back(lost);
   }
-  return {spec, RunKind::run, headline(spec, run.simulation()), case_notes(spec, problem), options};
+  return std::make_unique<CaseRecord>(spec, RunKind::run, headline(spec, run.simulation()), case_notes(spec, problem),
+                                      options);
 }
 
 CaseRun::CaseRun(RunSpec spec, const Problem& problem, const RunCaseOptions& options, GoingOn* from)
     : spec_(std::move(spec)), options_(options), problem_(problem.name), run_(problem, run_plan(spec_, options)) {
   on_first(options_.ranks, [&] {
-    record_ = std::unique_ptr<CaseRecord>(new CaseRecord(make_record(spec_, problem, run_, options, from)));
+    record_ = make_record(spec_, problem, run_, options, from);
     if (from == nullptr && spec_.measure_plans) write_file(record_->folder(), wisdom_name, planning_wisdom());
   });
 }

@@ -36,8 +36,8 @@ class CaseRun {
   static constexpr const char* wisdom_name = "fftw_wisdom";
 
  private:
-  static CaseRecord make_record(RunSpec& spec, const Problem& problem, PreparedRun& run, const RunCaseOptions& options,
-                                GoingOn* from);
+  static std::unique_ptr<CaseRecord> make_record(RunSpec& spec, const Problem& problem, PreparedRun& run,
+                                                 const RunCaseOptions& options, GoingOn* from);
   void make_files();
   void warn(const std::string& note) const;
   SavedRun now(std::int64_t n, double t);

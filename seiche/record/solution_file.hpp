@@ -58,10 +58,10 @@ class SolutionFile : public Observer {
  private:
   void join(Segments::Take take);  // values_
   struct File {
-    File(Folder in, const SolutionLayout& of, const SolutionDescription& description, bool has_modified_energy,
+    File(Folder in, SolutionLayout of, const SolutionDescription& description, bool has_modified_energy,
          SegmentsMark mark, double join_below)
         : folder(std::move(in)),
-          layout(of),
+          layout(std::move(of)),
           has_modified(has_modified_energy),
           segments(folder, layout, description, has_modified, std::move(mark), join_below) {}
 

@@ -16,7 +16,7 @@ std::string_view kept(std::string text) {
 
 }  // namespace
 
-Archive::Archive(std::string bytes)
+Archive::Archive(const std::string& bytes)
     : Archive(bytes.size(),
               [bytes](std::uint64_t at, std::span<char> to) { std::memcpy(to.data(), bytes.data() + at, to.size()); }) {
 }

@@ -47,7 +47,7 @@ class Archive {
   // To be read: so many bytes, which `source` gets wherever they lie, or throws Error.
   using Source = std::function<void(std::uint64_t at, std::span<char> bytes)>;
   Archive(std::uint64_t size, Source source) : source_(std::move(source)), size_(size) {}
-  explicit Archive(std::string bytes);
+  explicit Archive(const std::string& bytes);
 
   bool reads() const { return !sink_; }
   bool is_at_end() const { return at_ == size_; }
