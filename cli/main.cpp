@@ -104,10 +104,7 @@ ExitCode run_program(const std::vector<std::string>& given) {
   if (!arguments[0].starts_with("-") && std::find(names.begin(), names.end(), arguments[0]) == names.end()) {
     throw unknown_name("command", arguments[0], names);
   }
-  if (arguments[0] == "run" || arguments[0] == "resume") {
-    join_others();
-    require_same(arguments);
-  }
+  if (arguments[0] == "run" || arguments[0] == "resume") join_others(arguments);
   std::vector<std::string> reversed = with_set_repeated(arguments);
   std::reverse(reversed.begin(), reversed.end());  // the order in which CLI11 wants them
   try {

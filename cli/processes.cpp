@@ -17,9 +17,18 @@ std::unique_ptr<Processes> joined;
 // How long a process that has failed waits for others, which fail at the same place.
 constexpr double patience = 2;  // seconds
 
+void require_same(const Ranks& ranks, const std::vector<std::string>& arguments) {
+  std::string text;
+  for (const std::string& argument : arguments) text += argument + '\0';
+  const bool differs = ranks.from_first(text) != text;
+  if (ranks.any(differs ? "differs" : "").empty()) return;
+  throw Error(
+      "the processes were given different commands, and share one run; SEICHE_ALONE=1 lets each process run alone");
+}
+
 }  // namespace
 
-void join_others() {
+void join_others(const std::vector<std::string>& arguments) {
   const int started = started_processes();
   if (started < 2) return;
   joined = join_processes();
@@ -29,20 +38,11 @@ void join_others() {
         "{} processes were started, and MPI knows of {}: this mpiexec is not that of the MPI that Seiche was built with; "
         "SEICHE_ALONE=1 lets each process run alone",
         started, found);
+  require_same(*processes(), arguments);
 }
 
 const Ranks* processes() { return joined ? &joined->ranks() : nullptr; }
 bool is_first() { return !joined || joined->ranks().here().index == 0; }
-
-void require_same(const std::vector<std::string>& arguments) {
-  if (!joined) return;
-  std::string text;
-  for (const std::string& argument : arguments) text += argument + '\0';
-  const bool differs = processes()->from_first(text) != text;
-  if (processes()->any(differs ? "differs" : "").empty()) return;
-  throw Error(
-      "the processes were given different commands, and share one run; SEICHE_ALONE=1 lets each process run alone");
-}
 
 int leave(ExitCode code, const std::function<void()>& say) {
   const bool failed = say != nullptr;

@@ -11,12 +11,11 @@
 
 namespace seiche::cli {
 
-// Before a command that several processes carry out together, given the same arguments.
-void join_others();
+// Before a command that several processes carry out together. Throws Error where others were given other arguments,
+// which are no work for all of them.
+void join_others(const std::vector<std::string>& arguments);
 const Ranks* processes();  // those that have joined; null where this one is alone
 bool is_first();
-// Throws Error where others were given other arguments, which are no work for all of them together.
-void require_same(const std::vector<std::string>& arguments);
 
 // The end of the program. Where it failed, `say` says why: once for all processes, the first of which says it where all
 // of them have come to their end. Where one of them fails alone, it says so, and ends the others.

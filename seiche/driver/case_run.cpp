@@ -121,7 +121,7 @@ SnapshotTimes snapshot_times(const RunSpec& spec) {
   return {.schedule = {.every_steps = spec.snapshot_every}, .interval = spec.snapshot_interval};
 }
 
-void join_values(Simulation& simulation, FunctionRef<void(std::span<const double> piece)> take) {
+void join_values(const Simulation& simulation, FunctionRef<void(std::span<const double> piece)> take) {
   const Space& space = *simulation.system().space;
   const Vector values = simulation.physical();
   space.join(space.values(), {values.data(), static_cast<std::size_t>(values.size())}, take);

@@ -23,7 +23,7 @@ Problem problem_here(const RunSpec& spec, const RunCaseOptions& options);  // wh
 RunPlan run_plan(const RunSpec& spec, const RunCaseOptions& options);
 SnapshotTimes snapshot_times(const RunSpec& spec);
 // The physical values of the state: of several processes those of all, which the first one gets.
-void join_values(Simulation& simulation, FunctionRef<void(std::span<const double> piece)> take);
+void join_values(const Simulation& simulation, FunctionRef<void(std::span<const double> piece)> take);
 
 class CaseRun {
  public:

@@ -44,9 +44,8 @@ CaseResult follow_case(const RunCaseOptions& options) {
   const Problem problem = problem_here(spec, options);
   if (!from) settle_snapshots(spec, problem);
   PreparedRun run(problem, run_plan(spec, options));
-  const std::atomic<bool>* stop = nullptr;
   ranks.on_first([] {});  // the record of the run is made
-  stop = begin_run(options);
+  const std::atomic<bool>* const stop = begin_run(options);
   ranks.on_first([] {});  // and its files
   if (spec.ledger) run.simulation().stepper().keep_ledger();
 

@@ -9,7 +9,7 @@
 
 namespace seiche {
 
-LastWords::LastWords(Folder folder, Simulation& simulation, Summary summary)
+LastWords::LastWords(Folder folder, const Simulation& simulation, Summary summary)
     : folder_(std::move(folder)), simulation_(simulation), summary_(std::move(summary)) {}
 
 void LastWords::write(const RunReport& report) {

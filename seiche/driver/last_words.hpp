@@ -28,7 +28,7 @@ class LastWords {
  public:
   using Summary = std::function<std::string(const RunReport&)>;
 
-  LastWords(Folder folder, Simulation& simulation, Summary summary);
+  LastWords(Folder folder, const Simulation& simulation, Summary summary);
 
   void write(const RunReport& report);
   // Once more where what came later has failed. A summary that does not tell of a failure must not stay.
@@ -37,7 +37,7 @@ class LastWords {
 
  private:
   Folder folder_;
-  Simulation& simulation_;
+  const Simulation& simulation_;
   Summary summary_;
   std::string written_;
 };

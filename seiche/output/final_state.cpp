@@ -20,10 +20,4 @@ void write_final_state(const Folder& folder, FunctionRef<void(FunctionRef<void(s
   if (file) file->commit();
 }
 
-void write_final_state(const Folder& folder, const Vector& physical_values) {
-  write_final_state(folder, [&](FunctionRef<void(std::span<const double> piece)> take) {
-    take({physical_values.data(), static_cast<std::size_t>(physical_values.size())});
-  });
-}
-
 }  // namespace seiche

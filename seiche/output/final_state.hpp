@@ -3,7 +3,6 @@
 #pragma once
 
 #include <seiche/core/base/function_ref.hpp>
-#include <seiche/core/base/vector.hpp>
 #include <seiche/output/file/folder.hpp>
 
 #include <span>
@@ -12,6 +11,5 @@ namespace seiche {
 
 // `join` passes on all values, piece by piece, and is called whatever comes of the file.
 void write_final_state(const Folder& folder, FunctionRef<void(FunctionRef<void(std::span<const double> piece)>)> join);
-void write_final_state(const Folder& folder, const Vector& physical_values);
 
 }  // namespace seiche

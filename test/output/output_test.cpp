@@ -191,8 +191,7 @@ TEST_F(Output, AFileThatCannotBeClosedIsNotThere) {
 }
 
 TEST_F(Output, TheFinalStateReadsBackToTheLastBit) {
-  const Vector values = Eigen::Map<const Vector>(awkward.data(), static_cast<Index>(awkward.size()));
-  write_final_state(Folder(directory), values);
+  write_final_state(Folder(directory), [&](const auto& take) { take(awkward); });
   const std::vector<std::string> read = lines("final.txt");
   ASSERT_EQ(read.size(), awkward.size());
   for (std::size_t i = 0; i < awkward.size(); ++i) {

@@ -11,6 +11,8 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/truncated_potential.hpp>
 
+#include <optional>
+
 namespace seiche {
 namespace {
 
@@ -64,31 +66,32 @@ std::unique_ptr<Potential> modal_potential(const Problem& problem,
 
 }  // namespace
 
-System modal_system(const Problem& problem, const BackendOptions& options) {
+System modal_system(const Problem& given, const BackendOptions& options) {
   if (options.threads < 1)
     throw Error("threads = {} of the modal backend must be ≥ 1; 1 runs on the calling thread alone", options.threads);
-  if (problem.matrices)
+  if (given.matrices)
     throw Error(
         "the modal backend needs coefficients that are the same at every point, and {} has matrices; use "
         "\"sparse\" or \"dense\"",
-        problem.name);
-  if (options.ranks != nullptr) require_divisible(problem);
-  if (!problem.grid.is_periodic()) {
-    require_symmetric(problem.S, "S");
-    require_symmetric(problem.M, "M");
-    require_symmetric(problem.damping.constant, "D");
+        given.name);
+  if (options.ranks != nullptr) require_divisible(given);
+  if (!given.grid.is_periodic()) {
+    require_symmetric(given.S, "S");
+    require_symmetric(given.M, "M");
+    require_symmetric(given.damping.constant, "D");
   }
   const std::shared_ptr<const FieldTransform> transform =
-      modal_transform(problem.grid,
+      modal_transform(given.grid,
                       {.measure_plans = options.measure_plans, .threads = options.threads, .ranks = options.ranks});
   System system;
-  system.fields = problem.field_count();
-  system.space = std::make_unique<GridSpace>(problem.field_count(), transform, options.ranks);
-  if (problem.damping.field_rate && !problem.damping.mean_field_rate) {
-    Problem with_mean = problem;
-    with_mean.damping.mean_field_rate = mean_rate(*problem.damping.field_rate, *system.space);
-    return modal_system(with_mean, options);
+  system.fields = given.field_count();
+  system.space = std::make_unique<GridSpace>(given.field_count(), transform, options.ranks);
+  std::optional<Problem> with_mean;
+  if (given.damping.field_rate) {
+    with_mean = given;
+    with_mean->damping.mean_field_rate = mean_rate(*given.damping.field_rate, *system.space);
   }
+  const Problem& problem = with_mean ? *with_mean : given;
   system.linear = modal_linear_part(problem, *system.space, options.threads);
   system.potential = modal_potential(problem, transform, *system.space);
   const ModalOperators operators{.grid = problem.grid,

@@ -35,6 +35,7 @@ Vector initial_from_formulas(const std::map<std::string, std::string>& formulas,
   const std::vector<std::string> variables = place_variables(dimension);
   std::vector<double> arguments(variables.size(), 0.0);
   Vector z(problem.size());
+  const Index points = problem.grid.unknowns(), first = problem.grid.first_unknown();
   Index at = 0;
   for (const std::string& field : problem.fields) {
     const auto text = formulas.find(field);
@@ -45,9 +46,9 @@ Vector initial_from_formulas(const std::map<std::string, std::string>& formulas,
     } catch (const Error& error) {
       throw Error("problem.initial.{}: {}", field, error.what());
     }
-    for (Index i = 0; i < problem.grid.unknowns(); ++i) {
+    for (Index i = 0; i < points; ++i) {
       for (Index a = 0; a < dimension; ++a) arguments[static_cast<std::size_t>(a)] = problem.grid.coordinate(i, a);
-      arguments[static_cast<std::size_t>(dimension)] = static_cast<double>(problem.grid.first_unknown() + i + 1);
+      arguments[static_cast<std::size_t>(dimension)] = static_cast<double>(first + i + 1);
       z[at] = (*formula)(arguments);
       if (!std::isfinite(z[at]))
         throw Error("problem.initial: {} = {} is {}{}", field, shortened(text->second), number_text(z[at]),

@@ -65,13 +65,14 @@ class Hdf5Dataset {
   // Rows of a data set of the same layout, behind the last one, as the bytes that they are there, compressed or not.
   // They fill chunks, there and here.
   void append_chunks(const Hdf5Dataset& from, std::uint64_t first, std::uint64_t rows);
-  Hdf5Shape chunk() const;  // of rows and row
   // Where its rows lie, in their order, if it is virtual.
   std::vector<Hdf5Source> sources() const;
   // Whole rows from `first` on, as many as `values` holds.
   void read(std::uint64_t first, std::span<double> values) const;
 
  private:
+  Hdf5Shape chunk() const;
+
   Hdf5Handle handle_;
   std::string name_;
   Hdf5Shape shape_;
