@@ -8,6 +8,6 @@
 namespace seiche {
 
 // Throws Error where a first derivative stands on a grid that is not periodic along every axis.
-System modal_system(const Problem& problem, const BackendOptions& options = {});
+System modal_system(const Problem& given, const BackendOptions& options = {});
 
 }  // namespace seiche
