@@ -1,0 +1,131 @@
+/* A Klein–Gordon ring with friction, stated as PETSc states Hamiltonian systems: u̇ = S∇F(u).
+
+     ring -ts_type discgrad                            what PETSc has
+     ring -dll_append libseiche_ts.so -ts_type seisav  -ts_seiche_monitor -ts_view
+     ring -dll_append libseiche_ts.so -ts_type egc4 -ts_adapt_type basic -ts_rtol 1e-8 -ts_atol 1e-8
+
+   H = Σ Δx (v²/2 + (∂u)²/2 + u²/2 + u⁴/4), ü = ∂²u − u − u³ − γu̇, u and v = u̇ side by side at each of n points. */
+#include <petscts.h>
+
+typedef struct {
+  PetscInt  n;
+  PetscReal length, gamma;
+  Mat       M; /* H = Δx(½uᵀMu + Σ u⁴/4) */
+} Ring;
+
+static PetscErrorCode Structure(TS ts, PetscReal t, Vec u, Mat S, void *ctx)
+{
+  Ring *ring = (Ring *)ctx;
+
+  PetscFunctionBeginUser;
+  for (PetscInt i = 0; i < ring->n; ++i) {
+    const PetscInt    row[2]    = {2 * i, 2 * i + 1};
+    const PetscScalar values[4] = {0, 1, -1, -ring->gamma};
+    PetscCall(MatSetValues(S, 2, row, 2, row, values, INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(S, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(S, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Energy(TS ts, PetscReal t, Vec u, PetscScalar *F, void *ctx)
+{
+  Ring              *ring = (Ring *)ctx;
+  const PetscScalar *x;
+  PetscScalar        V = 0, quadratic;
+  Vec                Mu;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecGetArrayRead(u, &x));
+  for (PetscInt i = 0; i < ring->n; ++i) V += PetscPowScalarInt(x[2 * i], 4) / 4;
+  PetscCall(VecRestoreArrayRead(u, &x));
+  PetscCall(VecDuplicate(u, &Mu));
+  PetscCall(MatMult(ring->M, u, Mu));
+  PetscCall(VecDot(u, Mu, &quadratic));
+  PetscCall(VecDestroy(&Mu));
+  *F = quadratic / 2 + V;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode Gradient(TS ts, PetscReal t, Vec u, Vec G, void *ctx)
+{
+  Ring              *ring = (Ring *)ctx;
+  const PetscScalar *x;
+  PetscScalar       *g;
+
+  PetscFunctionBeginUser;
+  PetscCall(MatMult(ring->M, u, G));
+  PetscCall(VecGetArrayRead(u, &x));
+  PetscCall(VecGetArray(G, &g));
+  for (PetscInt i = 0; i < ring->n; ++i) g[2 * i] += PetscPowScalarInt(x[2 * i], 3);
+  PetscCall(VecRestoreArray(G, &g));
+  PetscCall(VecRestoreArrayRead(u, &x));
+  PetscFunctionReturn(0);
+}
+
+/* diag(1 − ∂², 1) with second differences. */
+static PetscErrorCode Quadratic(Ring *ring)
+{
+  const PetscReal w = PetscSqr(ring->n / ring->length);
+
+  PetscFunctionBeginUser;
+  PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, 2 * ring->n, 2 * ring->n, 3, NULL, &ring->M));
+  for (PetscInt i = 0; i < ring->n; ++i) {
+    const PetscInt row = 2 * i, momentum = 2 * i + 1;
+    const PetscInt    column[3] = {row, 2 * ((i + 1) % ring->n), 2 * ((i + ring->n - 1) % ring->n)};
+    const PetscScalar values[3] = {1 + 2 * w, -w, -w}, one = 1;
+    PetscCall(MatSetValues(ring->M, 1, &row, 3, column, values, INSERT_VALUES));
+    PetscCall(MatSetValues(ring->M, 1, &momentum, 1, &momentum, &one, INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(ring->M, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(ring->M, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+int main(int argc, char **argv)
+{
+  Ring         ring = {128, 20, 0.1, NULL};
+  TS           ts;
+  Vec          u;
+  PetscScalar *x, F0, F1;
+  PetscReal    t, dt = 0.05, end = 20;
+  PetscInt     steps;
+
+  PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-n", &ring.n, NULL));
+  PetscCall(PetscOptionsGetReal(NULL, NULL, "-gamma", &ring.gamma, NULL));
+  PetscCall(Quadratic(&ring));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, 2 * ring.n, &u));
+  PetscCall(VecGetArray(u, &x));
+  for (PetscInt i = 0; i < ring.n; ++i) {
+    const PetscReal at = ring.length * (i + 0.5) / ring.n - ring.length / 2;
+    x[2 * i]     = PetscExpReal(-at * at);
+    x[2 * i + 1] = 0;
+  }
+  PetscCall(VecRestoreArray(u, &x));
+
+  PetscCall(TSCreate(PETSC_COMM_SELF, &ts));
+  PetscCall(TSSetSolution(ts, u));
+  PetscCall(TSSetTimeStep(ts, dt));
+  PetscCall(TSSetMaxTime(ts, end));
+  PetscCall(TSSetExactFinalTime(ts, TS_EXACTFINALTIME_MATCHSTEP));
+  PetscCall(PetscObjectCompose((PetscObject)ts, "M", (PetscObject)ring.M));
+  PetscCall(TSSetFromOptions(ts));
+  PetscCall(TSDiscGradSetFormulation(ts, Structure, Energy, Gradient, &ring)); /* once the type is set */
+
+  PetscCall(Energy(ts, 0, u, &F0, &ring));
+  PetscCall(TSSolve(ts, u));
+  PetscCall(Energy(ts, end, u, &F1, &ring));
+  PetscCall(TSGetSolveTime(ts, &t));
+  PetscCall(TSGetStepNumber(ts, &steps));
+  PetscCall(VecGetArray(u, &x));
+  PetscCall(PetscPrintf(PETSC_COMM_SELF, "t = %g after %" PetscInt_FMT " steps, H/dx from %.12g to %.12g, u in the middle %.12g\n", (double)t,
+                        steps, (double)F0, (double)F1, (double)x[ring.n]));
+  PetscCall(VecRestoreArray(u, &x));
+
+  PetscCall(TSDestroy(&ts));
+  PetscCall(VecDestroy(&u));
+  PetscCall(MatDestroy(&ring.M));
+  PetscCall(PetscFinalize());
+  return 0;
+}

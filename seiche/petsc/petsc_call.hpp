@@ -1,0 +1,58 @@
+// Calls of PETSc from code that throws, and of such code from PETSc.
+#pragma once
+
+#include <petscsys.h>
+
+#include <exception>
+
+namespace seiche {
+
+// A call that failed. PETSc's error handler has said why; the code goes on to whoever called us.
+class PetscFailure : public std::exception {
+ public:
+  explicit PetscFailure(PetscErrorCode code) : code_(code) {}
+  PetscErrorCode code() const { return code_; }
+  const char* what() const noexcept override { return "a call of PETSc failed"; }
+
+ private:
+  PetscErrorCode code_;
+};
+
+inline void require(PetscErrorCode code) {
+  if (code != 0) throw PetscFailure(code);
+}
+
+// What PETSc is to get of an action that may throw: 0, or the code of an error that its handler has been told.
+template <class Action>
+PetscErrorCode told_to_petsc(MPI_Comm communicator, const char* function, const Action& action) {
+  try {
+    action();
+    return 0;
+  } catch (const PetscFailure& failure) {
+    return PetscError(communicator, __LINE__, function, "seiche/petsc", failure.code(), PETSC_ERROR_REPEAT, " ");
+  } catch (const std::exception& error) {
+    return PetscError(communicator, __LINE__, function, "seiche/petsc", PETSC_ERR_USER_INPUT, PETSC_ERROR_INITIAL, "%s",
+                      error.what());
+  }
+}
+
+// Destroys an object of PETSc, by its own function, with the handle.
+template <class Object, PetscErrorCode (*destroy)(Object*)>
+class PetscHandle {
+ public:
+  PetscHandle() = default;
+  ~PetscHandle() { destroy(&object_); }
+  PetscHandle(const PetscHandle&) = delete;
+  PetscHandle& operator=(const PetscHandle&) = delete;
+
+  operator Object() const { return object_; }
+  Object* make() {  // where a function of PETSc is to put a new one
+    require(destroy(&object_));
+    return &object_;
+  }
+
+ private:
+  Object object_ = nullptr;
+};
+
+}  // namespace seiche
