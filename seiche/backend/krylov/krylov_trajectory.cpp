@@ -1,4 +1,3 @@
-#include <seiche/backend/krylov/balance.hpp>
 #include <seiche/backend/krylov/krylov_trajectory.hpp>
 #include <seiche/core/control/stop_request.hpp>
 
@@ -17,15 +16,17 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-KrylovTrajectory::KrylovTrajectory(const SparseMatrix& L)
-    : L_(L),
-      scales_(balancing_scales(L)),
+KrylovTrajectory::KrylovTrajectory(std::shared_ptr<const Product> balanced_L, Vector scales, const Space& space,
+                                   bool holds_s)
+    : L_(std::move(balanced_L)),
+      scales_(std::move(scales)),
+      space_(space),
+      holds_s_(holds_s),
+      unknowns_of_all_(static_cast<Index>(space.sum(static_cast<double>(scales_.size())))),
       flow_(most_columns),
       end_(most_columns + 1),
       column_(most_columns + 1),
-      products_(most_columns + 1) {
-  L_ = scales_.cwiseInverse().asDiagonal() * L_ * scales_.asDiagonal();
-}
+      products_(most_columns + 1) {}
 
 void KrylovTrajectory::reserve(Index forces, std::size_t outputs) {
   if (passed_.size() < outputs) passed_.resize(outputs, Vector(most_columns + 1));
@@ -45,7 +46,7 @@ double KrylovTrajectory::begin(const Equation& equation, double sigma) {
     power *= sigma / static_cast<double>(k + 1);
   }
   flow_.clear();
-  const double norm = w_.head(rows_).norm();
+  const double norm = this->norm(w_);
   if (norm > 0) V_.col(0).head(rows_) = w_.head(rows_) / norm;
   return norm;
 }
@@ -57,7 +58,8 @@ double KrylovTrajectory::append(const Equation& equation) {
   const Index m = flow_.columns() + 1;
   const auto last = V_.col(m - 1).head(rows_);
   auto next = V_.col(m).head(rows_);
-  next.head(n).noalias() = L_ * last.head(n);
+  const auto count = static_cast<std::size_t>(n);
+  L_->apply({last.data(), count}, {next.data(), count});
   next.head(n) *= equation.x;
   next.tail(next.size() - n).setZero();
   const Index p = equation.B.cols();
@@ -66,18 +68,19 @@ double KrylovTrajectory::append(const Equation& equation) {
     next.head(n).noalias() += equation.B * tail_.head(p);
     next.segment(n + 1, p - 1) = last.segment(n, p - 1);
   }
-  const double whole = next.norm();
+  const double whole = norm(next);
   column_.head(m).setZero();
   double before = whole;
   double rest = whole;
   for (int pass = 0; pass == 0 || (pass == 1 && rest < before / 2); ++pass) {  // twice is enough
     before = rest;
-    products_.head(m).noalias() = V_.topLeftCorner(rows_, m).transpose() * next;
+    products_.head(m).noalias() = V_.topLeftCorner(counted(), m).transpose() * next.head(counted());
+    space_.sum(std::span(products_.data(), static_cast<std::size_t>(m)));
     next.noalias() -= V_.topLeftCorner(rows_, m) * products_.head(m);
     column_.head(m) += products_.head(m);
-    rest = next.norm();
+    rest = norm(next);
   }
-  const bool is_invariant = rest <= within_round_off * whole || m == n + (equation.unit > 0 ? p : 0);
+  const bool is_invariant = rest <= within_round_off * whole || m == unknowns_of_all_ + (equation.unit > 0 ? p : 0);
   column_[m] = is_invariant ? 0.0 : rest;
   next *= is_invariant ? 0.0 : 1 / rest;
   flow_.append(column_);
@@ -130,7 +133,7 @@ void KrylovTrajectory::write(const Vector& coordinates, double norm, Potential::
 
 void KrylovTrajectory::integrate(double x, const Vector* z, const Eigen::MatrixXd& B, std::span<const Output> outputs,
                                  Potential::Support range) {
-  const double size = B.norm();
+  const double size = std::sqrt(space_.sum(B.squaredNorm()));
   const double unit = size > 0 ? std::exp2(std::ceil(std::log2(size))) : size;  // NaN stays and is found in w
   const Equation equation{x, B, unit};
   if (z != nullptr)

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <seiche/backend/krylov/hessenberg_flow.hpp>
-#include <seiche/core/grid/sparse_operators.hpp>
+#include <seiche/backend/krylov/product.hpp>
 #include <seiche/core/potential.hpp>
+#include <seiche/core/space.hpp>
 
+#include <cmath>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,15 +16,17 @@ namespace seiche {
 // u' = xLu + Σ_{k<p} B_k σᵏ/k! is the first part of w' = Aw with w = (u, s), s_k = σᵏ/k! and the augmented A = [xL, B;
 // 0, J]. One pass from σ = 0 to the last σ asked for: the Krylov space of w grows until the estimate of HessenbergFlow
 // is round-off, or to its largest dimension, and the substep ends where the estimate no longer is (Niesen & Wright
-// 2012, phipm; Gaudreault, Rainwater & Tokman 2018, KIOPS). L is balanced first. One thread at a time.
+// 2012, phipm; Gaudreault, Rainwater & Tokman 2018, KIOPS). One thread at a time.
 class KrylovTrajectory {
  public:
-  explicit KrylovTrajectory(const SparseMatrix& L);
+  // L in balanced coordinates u_i/d_i, with d in `scales`; `space` adds up what other processes hold of a vector, and
+  // outlives it. s is the same on all of them, and counts on the one that holds it.
+  KrylovTrajectory(std::shared_ptr<const Product> balanced_L, Vector scales, const Space& space, bool holds_s = true);
 
   // `forces`: the most p of later calls. Allocates all that they need, but a basis touches memory as it grows only.
   void reserve(Index forces, std::size_t outputs);
 
-  const Vector& scales() const { return scales_; }  // d of the balanced coordinates (u_i/d_i)
+  const Vector& scales() const { return scales_; }
 
   struct Output {
     double sigma;  // > 0
@@ -42,15 +47,23 @@ class KrylovTrajectory {
     double length = 0;        // of σ
     std::size_t outputs = 0;  // on the way
   };
-  Index unknowns() const { return scales_.size(); }
+  Index unknowns() const { return scales_.size(); }  // here
+  Index counted() const { return holds_s_ ? rows_ : unknowns(); }
+  template <class W>
+  double norm(const W& w) const {
+    return std::sqrt(space_.sum(w.head(counted()).squaredNorm()));
+  }
   double begin(const Equation& equation, double sigma);
   double append(const Equation& equation);
   Walk walk(double length, double sigma, std::span<const Output> ahead, double piece, double tolerance);
   Walk substep(const Equation& equation, double sigma, std::span<const Output> ahead);
   void write(const Vector& coordinates, double norm, Potential::Support range, Vector& value) const;
 
-  Eigen::SparseMatrix<double, Eigen::RowMajor> L_;
+  std::shared_ptr<const Product> L_;
   Vector scales_;
+  const Space& space_;
+  bool holds_s_;
+  Index unknowns_of_all_;
   HessenbergFlow flow_;
   Eigen::MatrixXd V_;           // the basis, in the first rows_
   Index rows_ = 0;              // of the equation at hand: one more for each power of σ of the force

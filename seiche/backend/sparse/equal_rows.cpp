@@ -95,14 +95,14 @@ struct Sums {
   [[gnu::always_inline]] inline double total() const { return sum(lanes) + rest; }
 };
 
-struct Product {
+struct RowProduct {
   template <class V>
   [[gnu::always_inline]] static inline void add(V& sum, V&, double a, const V& x) {
     sum += a * x;
   }
 };
 
-struct Store : Product {
+struct Store : RowProduct {
   explicit Store(double* into) : out(into) {}
   double* out;
   template <class V>
@@ -111,7 +111,7 @@ struct Store : Product {
   }
 };
 
-struct Form : Product {
+struct Form : RowProduct {
   explicit Form(const double* of) : x(of) {}
   const double* x;
   Sums total{};
@@ -138,7 +138,7 @@ struct FormAndMagnitude {
 };
 
 template <bool has_g>
-struct Subtract : Product {
+struct Subtract : RowProduct {
   Subtract(double factor, const Operands& in, double* into)
       : c(factor), g(in.g), y(in.y), g_begin(in.g_begin), out(into) {}
   double c;

@@ -25,12 +25,12 @@ double spectral_radius_bound(const SparseMatrix& B) {
   return std::min({norm_1(B), std::sqrt(norm_1(B2)), std::cbrt(norm_1(B3))});
 }
 
-PadeForce::PadeForce(const SparseMatrix& S, const SparseMatrix& M, const ResolventFactory& factory, double h,
+PadeForce::PadeForce(const Product& S, const Product& M, Index size, const Resolvents& resolvents, double h,
                      PadePlan plan)
-    : S_(S), M_(M), h_(h / plan.steps), steps_(plan.steps), slope_(S.rows()), rate_(S.rows()), x_(S.rows()) {
+    : S_(S), M_(M), h_(h / plan.steps), steps_(plan.steps), slope_(size), rate_(size), x_(size) {
   for (const std::complex<double>& pole : pade_poles(plan.degree)) {
     end_if_asked();
-    factors_.push_back({pole, factory.make(h_, pole)});
+    factors_.push_back({pole, resolvents.make(h_, pole)});
   }
 }
 
@@ -41,9 +41,9 @@ void PadeForce::apply(const Vector& c, Vector& y) const {
   for (int step = 0; step < steps_; ++step) {
     for (const Factor& factor : factors_) {
       end_if_asked();
-      slope_ = c;
-      slope_.noalias() += M_ * y;
-      rate_.noalias() = S_ * slope_;
+      M_.apply(y, slope_);
+      slope_ += c;
+      S_.apply(slope_, rate_);
       rate_ *= h_;
       factor.resolvent->apply(rate_, x_);
       y += (factor.pole.imag() == 0 ? -2.0 : 4 * factor.pole.real()) * x_;

@@ -1,6 +1,7 @@
 // The force map F of the linear substep z⁺ = Ez + Ff by diagonal Padé approximation, in product form.
 #pragma once
 
+#include <seiche/backend/krylov/product.hpp>
 #include <seiche/backend/sparse/pade_poles.hpp>
 #include <seiche/backend/sparse/resolvent.hpp>
 
@@ -14,7 +15,8 @@ namespace seiche {
 // is not. With partial fractions instead the contract would lose a digit per degree.
 class PadeForce {
  public:
-  PadeForce(const SparseMatrix& S, const SparseMatrix& M, const ResolventFactory& factory, double h, PadePlan plan);
+  // S and M outlive it; `size`: of the part of a vector that is here.
+  PadeForce(const Product& S, const Product& M, Index size, const Resolvents& resolvents, double h, PadePlan plan);
   void apply(const Vector& c, Vector& y) const;  // y = F c; y must not be c
 
  private:
@@ -22,8 +24,8 @@ class PadeForce {
     std::complex<double> pole;
     std::unique_ptr<Resolvent> resolvent;
   };
-  const SparseMatrix& S_;
-  const SparseMatrix& M_;
+  const Product& S_;
+  const Product& M_;
   double h_;  // of one part
   int steps_;
   std::vector<Factor> factors_;

@@ -24,14 +24,21 @@ class Resolvent {
   virtual void apply(const Vector& b, Vector& x) const = 0;
 };
 
-// Makes resolvents of one SM for any h and p. For a wave structure with the positions u eliminated,
+// Makes resolvents of one SM for any h and p.
+class Resolvents {
+ public:
+  virtual ~Resolvents() = default;
+  virtual std::unique_ptr<Resolvent> make(double h, std::complex<double> pole) const = 0;
+};
+
+// By factors. For a wave structure with the positions u eliminated,
 //   (h²K + phG + p²W⁻¹)u = −((hG + pW⁻¹)a + hb),   v = W⁻¹(a + pu)/h   for right-hand side (a, b),
 // a symmetric matrix of half the size. Otherwise A − p itself is factorised, as a symmetric matrix where SM is one.
-class ResolventFactory {
+class ResolventFactory final : public Resolvents {
  public:
   ResolventFactory(const SparseMatrix& S, const SparseMatrix& M);
-  ~ResolventFactory();
-  std::unique_ptr<Resolvent> make(double h, std::complex<double> pole) const;
+  ~ResolventFactory() override;
+  std::unique_ptr<Resolvent> make(double h, std::complex<double> pole) const override;
   // Of one resolvent with a complex pole; found without its numbers. Of LU an estimate: pivoting may fill more.
   double factor_bytes() const;
 

@@ -58,7 +58,8 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
         std::make_shared<SparseOperators>(SparseOperators{matrix_of(problem, problem.S), matrix_of(problem, problem.M),
                                                           matrix_of(problem, problem.damping.constant)});
   const SparseOperators& matrices = *shared;
-  system.linear = sparse_linear_part(matrices.S, matrices.M, system.potential->support(), options.sparse);
+  system.linear =
+      sparse_linear_part(matrices.S, matrices.M, system.potential->support(), options.sparse, *system.space);
 
   if (has_grid_kicks(problem))
     system.make_kicks = [shared, V = problem.potential, &potential = *system.potential] {
@@ -69,9 +70,10 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
   const auto D0 = std::make_shared<const SparseMatrix>(
       problem.matrices ? constant_damping_matrix(problem) : constant_damping(problem).sparse_matrix(problem.grid));
   const Potential::Support support = system.potential->support();
-  system.make_phi = [shared, D0, support] { return sparse_phi(shared, D0, support); };
-  system.make_undamped_phi = [shared, support] {
-    return sparse_phi(shared, std::make_shared<const SparseMatrix>(shared->S.rows(), shared->S.cols()), support);
+  const Space& space = *system.space;
+  system.make_phi = [shared, D0, support, &space] { return sparse_phi(shared, *D0, support, space); };
+  system.make_undamped_phi = [shared, support, &space] {
+    return sparse_phi(shared, SparseMatrix(shared->S.rows(), shared->S.cols()), support, space);
   };
 
   std::unique_ptr<LinearMap> constant;

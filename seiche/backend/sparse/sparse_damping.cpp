@@ -35,6 +35,7 @@ struct DampingSystem {
   explicit DampingSystem(const SparseMatrix& damping)
       : D(damping), minus_I(-identity_matrix(D.rows())), factory(minus_I, D), radius(spectral_radius_bound(D)) {}
   SparseMatrix D, minus_I;
+  SparseProduct<const SparseMatrix&> D_times{D}, minus{minus_I};
   ResolventFactory factory;
   double radius;
 };
@@ -43,7 +44,8 @@ class DampingExponential final : public LinearMap {
  public:
   DampingExponential(std::shared_ptr<const DampingSystem> system, double h)
       : system_(std::move(system)),
-        force_(system_->minus_I, system_->D, system_->factory, h, plan_pade(std::abs(h) * system_->radius, 1e-15)),
+        force_(system_->minus, system_->D_times, system_->D.rows(), system_->factory, h,
+               plan_pade(std::abs(h) * system_->radius, 1e-15)),
         Dz_(system_->D.rows()) {}
   void apply(const Vector& in, Vector& out) const override {
     Dz_.noalias() = system_->D * in;

@@ -1,6 +1,6 @@
 #include <seiche/backend/krylov/lanczos.hpp>
 #include <seiche/backend/sparse/equal_rows.hpp>
-#include <seiche/backend/sparse/pade.hpp>
+#include <seiche/backend/sparse/pade_propagator.hpp>
 #include <seiche/backend/sparse/sparse_linear.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/base/memory_limit.hpp>
@@ -17,62 +17,12 @@ struct Operators {
   Potential::Support support;
 };
 
-// Everything is F applied to something: FMz + Ff = F(Mz + f), one pass over the factors.
-class PadePropagator final : public Propagator {
- public:
-  // Q = F(h/2) for the exponential, F/2 for Cayley, which needs no factors of its own.
-  PadePropagator(const Operators& operators, std::unique_ptr<PadeForce> F, std::unique_ptr<PadeForce> Q)
-      : operators_(operators),
-        F_(std::move(F)),
-        Q_(std::move(Q)),
-        z_(operators.S.rows()),
-        c_(operators.S.rows()),
-        y_(operators.S.rows()),
-        q_(operators.S.rows()) {}
-
-  // ẑ = z⁻ + Q(Mz⁻ + ∇V(z⁻))
-  void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
-    set_slope(z, before);
-    const auto [begin, size] = operators_.support;
-    c_.segment(begin, size) += gradient.segment(begin, size);
-    (Q_ ? Q_ : F_)->apply(c_, y_);
-    z_mid.segment(begin, size) = z_.segment(begin, size) + (Q_ ? 1.0 : 0.5) * y_.segment(begin, size);
-  }
-  void increment(const Vector& z, Vector& dz) const override {
-    c_.noalias() = operators_.M * z;
-    F_->apply(c_, dz);
-  }
-  void force(const Vector& f, Vector& q) const override { F_->apply(f, q); }
-
-  Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
-    set_slope(z, before);
-    const double quadratic_energy = z_.dot(c_) / 2;
-    F_->apply(c_, y_);
-    F_->apply(f, q_);
-    return {f.dot(y_), f.dot(q_), quadratic_energy};
-  }
-  void update(Vector& z, const Vector& /*f*/, double c, FieldFactors /*before*/, FieldFactors after) const override {
-    z = z_ + y_ + c * q_;
-    multiply_fields(after, z);
-  }
-
- private:
-  void set_slope(const Vector& z, FieldFactors before) const {  // z_ = z⁻, c_ = Mz⁻
-    z_ = z;
-    multiply_fields(before, z_);
-    c_.noalias() = operators_.M * z_;
-  }
-
-  const Operators& operators_;
-  std::unique_ptr<PadeForce> F_, Q_;
-  mutable Vector z_, c_, y_, q_;  // z⁻, Mz⁻ (in `predict` with ∇V), FMz⁻, Ff
-};
-
 class SparseLinear final : public LinearPart {
  public:
-  SparseLinear(Operators operators, const SparseOptions& options)
+  SparseLinear(Operators operators, const SparseOptions& options, const Space& space)
       : operators_(std::move(operators)),
         options_(options),
+        space_(space),
         rows_of_M_(EqualRows::of(operators_.M)),
         radius_(spectral_radius_bound(operators_.S * operators_.M)),
         scratch_(operators_.S.rows()),
@@ -115,13 +65,13 @@ class SparseLinear final : public LinearPart {
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
     if (kind == PropagatorKind::cayley) {
       require_memory(1);
-      return std::make_unique<PadePropagator>(operators_, force(h, {1, 1}), nullptr);
+      return pade_propagator(M_, space_, operators_.support, force(h, {1, 1}), nullptr);
     }
     if (skew_) return lanczos_propagator(skew_, operators_.support, h, options_.lanczos_dimension);
     const PadePlan whole = plan(h);
     const PadePlan half = plan(h / 2);
     require_memory(whole.degree + half.degree);
-    return std::make_unique<PadePropagator>(operators_, force(h, whole), force(h / 2, half));
+    return pade_propagator(M_, space_, operators_.support, force(h, whole), force(h / 2, half));
   }
 
  private:
@@ -130,7 +80,7 @@ class SparseLinear final : public LinearPart {
     return plan_pade(std::abs(h) * radius_, exponential_tolerance);
   }
   std::unique_ptr<PadeForce> force(double h, PadePlan plan) const {
-    return std::make_unique<PadeForce>(operators_.S, operators_.M, factory(), h, plan);
+    return std::make_unique<PadeForce>(S_, M_, operators_.S.rows(), factory(), h, plan);
   }
   const ResolventFactory& factory() const {
     if (!factory_) factory_ = std::make_unique<ResolventFactory>(operators_.S, operators_.M);
@@ -147,7 +97,9 @@ class SparseLinear final : public LinearPart {
   }
 
   Operators operators_;
+  SparseProduct<const SparseMatrix&> S_{operators_.S}, M_{operators_.M};
   SparseOptions options_;
+  const Space& space_;
   std::optional<EqualRows> rows_of_M_;                 // nothing where coefficients change from point to point
   mutable std::unique_ptr<ResolventFactory> factory_;  // when first asked for: Lanczos needs none
   mutable double factor_bytes_ = -1;                   // likewise
@@ -160,8 +112,8 @@ class SparseLinear final : public LinearPart {
 }  // namespace
 
 std::unique_ptr<LinearPart> sparse_linear_part(const SparseMatrix& S, const SparseMatrix& M, Potential::Support support,
-                                               const SparseOptions& options) {
-  return std::make_unique<SparseLinear>(Operators{S, M, M.cwiseAbs(), support}, options);
+                                               const SparseOptions& options, const Space& space) {
+  return std::make_unique<SparseLinear>(Operators{S, M, M.cwiseAbs(), support}, options, space);
 }
 
 }  // namespace seiche

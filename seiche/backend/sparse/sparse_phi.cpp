@@ -1,199 +1,16 @@
-#include <seiche/backend/krylov/krylov_trajectory.hpp>
-#include <seiche/backend/phi/phi_trajectories.hpp>
+#include <seiche/backend/krylov/balance.hpp>
 #include <seiche/backend/sparse/pade.hpp>
 #include <seiche/backend/sparse/sparse_kernel.hpp>
 #include <seiche/backend/sparse/sparse_phi.hpp>
-#include <seiche/core/base/error.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace seiche {
 namespace {
 
 using Support = Potential::Support;
-
-// What the maps of all h have in common.
-struct Common {
-  Common(const SparseMatrix& S, const SparseMatrix& M, const SparseMatrix& D0, Support support_of_V)
-      : trajectory(SparseMatrix(S * M) - D0),
-        rate(spectral_radius_bound(SparseMatrix(S * M) - D0)),
-        scaled_S(S.middleCols(support_of_V.begin, support_of_V.size)),
-        support(support_of_V) {
-    for (Index i = 0; i < size(); ++i) scaled_S.row(i) /= trajectory.scales()[i];
-  }
-
-  Index size() const { return trajectory.scales().size(); }
-
-  void require_reach(double h) const {
-    const double substeps = krylov_substeps(std::abs(h) * rate);
-    if (substeps <= most_krylov_substeps) return;
-    throw Error(
-        "a step h = {:.6g} of the sparse backend would take {:.2g} Krylov substeps for each exponential, since rates go up to {:.3g}; at "
-        "most {:.0e} are taken: h ≤ {:.2g} would do (h_max beside a tolerance), or seisav with [backend] pade_degree = 6, whose work does not depend on h, or "
-        "backend \"dense\" for up to some thousand unknowns",
-        h, substeps, rate, most_krylov_substeps, 10 * most_krylov_substeps / rate);
-  }
-
-  KrylovTrajectory trajectory;
-  double rate;                                            // at most, of L
-  Eigen::SparseMatrix<double, Eigen::RowMajor> scaled_S;  // of gradients, into balanced coordinates
-  Support support;
-};
-
-class SparsePhiMap final : public PhiMap {
- public:
-  SparsePhiMap(const PhiRows& rows, std::shared_ptr<Common> common, double h)
-      : common_(std::move(common)),
-        h_(h),
-        kind_(rows.kind),
-        of_state_(rows.of_state),
-        range_(rows.outputs == PhiRows::Outputs::support ? common_->support : Support{0, common_->size()}),
-        trajectories_(phi_trajectories(rows)) {
-    common_->trajectory.reserve(rows.order, rows.rows.size());
-    B_.assign(trajectories_.size(), Eigen::MatrixXd(common_->size(), rows.forces > 0 ? rows.order : 0));
-    outputs_.reserve(rows.rows.size());
-    if (kind_ == PhiRows::Forces::gradients) sum_.resize(common_->support.size);
-  }
-
-  void apply(const Vector& z, std::span<const Vector> forces, std::span<Vector> out) const override {
-    // All forces are read before the first output is written: they may be the same vectors.
-    for (std::size_t i = 0; i < trajectories_.size(); ++i) combine(trajectories_[i].weights, forces, B_[i]);
-    for (std::size_t i = 0; i < trajectories_.size(); ++i) {
-      const PhiTrajectory& trajectory = trajectories_[i];
-      outputs_.clear();
-      for (std::size_t k = 0; k < trajectory.rows.size(); ++k)
-        outputs_.push_back({trajectory.sigmas[k], &out[trajectory.rows[k]]});
-      common_->trajectory.integrate(trajectory.theta * h_, of_state_ ? &z : nullptr, B_[i], outputs_, range_);
-    }
-  }
-
- private:
-  // B_k = h Σ_j W_jk n_j, balanced
-  void combine(const Eigen::MatrixXd& weights, std::span<const Vector> forces, Eigen::MatrixXd& B) const {
-    for (Index k = 0; k < B.cols(); ++k) {
-      auto column = B.col(k);
-      const auto add_to = [&](auto&& sum, Support of) {
-        sum.setZero();
-        for (Index j = 0; j < weights.rows(); ++j)
-          if (weights(j, k) != 0)
-            sum += h_ * weights(j, k) * forces[static_cast<std::size_t>(j)].segment(of.begin, of.size);
-      };
-      if (kind_ == PhiRows::Forces::gradients) {
-        add_to(sum_, common_->support);
-        column.noalias() = common_->scaled_S * sum_;
-      } else {
-        add_to(column, {0, common_->size()});
-        column.array() /= common_->trajectory.scales().array();
-      }
-    }
-  }
-
-  std::shared_ptr<Common> common_;
-  double h_;
-  PhiRows::Forces kind_;
-  bool of_state_;
-  Support range_;
-  std::vector<PhiTrajectory> trajectories_;
-  mutable std::vector<Eigen::MatrixXd> B_;
-  mutable std::vector<KrylovTrajectory::Output> outputs_;
-  mutable Vector sum_;
-};
-
-// ∫₀ʰ Q(x) dt along ẋ = Lx + n from z: ½zᵀMz − ½x(h)ᵀMx(h) + nᵀM∫x with ∫x = hφ₁z + h²φ₂n.
-class FlowDissipation {
- public:
-  FlowDissipation(std::shared_ptr<const SparseOperators> operators, const std::shared_ptr<Common>& common,
-                  PhiRows::Forces kind, double h)
-      : operators_(std::move(operators)),
-        gradients_(kind == PhiRows::Forces::gradients),
-        of_forces_(gradients_ ? common->support : Support{0, common->size()}),
-        z_and_n_(2, Vector::Zero(common->size())),
-        sum_(z_and_n_[0]),
-        image_(sum_) {
-    const PhiRow row{1.0, {1.0, 0.0, 0.0, h}};
-    constexpr auto states = PhiRows::Forces::states;
-    const PhiRows rows{.rows = {row}, .forces = 2, .order = 2, .kind = states, .of_state = false};
-    integral_ = std::make_unique<SparsePhiMap>(rows, common, h);
-  }
-
-  double operator()(const Vector& z, const Vector& end, std::span<const Vector> forces) const {
-    sum_.setZero();
-    for (const Vector& f : forces)
-      sum_.segment(of_forces_.begin, of_forces_.size) += f.segment(of_forces_.begin, of_forces_.size);
-    z_and_n_[0] = z;
-    Vector& n = z_and_n_[1];
-    if (gradients_)
-      n.noalias() = operators_->S * sum_;
-    else
-      n = sum_;
-    integral_->apply(z, z_and_n_, {&sum_, 1});
-    return 0.5 * (by_M(z, z) - by_M(end, end)) + by_M(n, sum_);
-  }
-
- private:
-  double by_M(const Vector& x, const Vector& y) const {
-    image_.noalias() = operators_->M * y;
-    return x.dot(image_);
-  }
-
-  std::shared_ptr<const SparseOperators> operators_;
-  bool gradients_;
-  Support of_forces_;
-  std::unique_ptr<SparsePhiMap> integral_;
-  mutable std::vector<Vector> z_and_n_;
-  mutable Vector sum_, image_;  // of the forces, then ∫x
-};
-
-// The rows of all forms as outputs of one map, then a product with Q for each.
-class SparsePhiForms final : public PhiForms {
- public:
-  SparsePhiForms(std::span<const PhiEvaluator::Form> forms, std::shared_ptr<Common> common,
-                 const std::shared_ptr<const SparseOperators>& operators, std::shared_ptr<const SparseMatrix> Q,
-                 double h)
-      : Q_(std::move(Q)), Qz_(common->size()) {
-    PhiRows all = forms.front().rows;
-    all.outputs = PhiRows::Outputs::all;
-    all.rows.clear();
-    for (const PhiEvaluator::Form& form : forms) {
-      all.rows.insert(all.rows.end(), form.rows.rows.begin(), form.rows.rows.end());
-      coefficients_.push_back(form.coefficients);
-      less_integral_.push_back(form.minus_integral);
-      if (!form.minus_integral) continue;
-      if (!integral_) integral_.emplace(operators, common, all.kind, h);
-      PhiRow end{1.0, std::vector<double>(static_cast<std::size_t>(all.forces * all.order))};
-      for (Index j = 0; j < all.forces; ++j) end.weights[static_cast<std::size_t>(j * all.order)] = 1;
-      all.rows.push_back(std::move(end));
-    }
-    states_.assign(all.rows.size(), Vector(common->size()));
-    map_ = std::make_unique<SparsePhiMap>(all, std::move(common), h);
-  }
-
-  void apply(const Vector& z, std::span<const Vector> forces, std::span<double> values) const override {
-    map_->apply(z, forces, states_);
-    std::size_t row = 0;
-    for (std::size_t l = 0; l < coefficients_.size(); ++l) {
-      values[l] = 0;
-      for (const double c : coefficients_[l]) {
-        Qz_.noalias() = *Q_ * states_[row];
-        values[l] += c * states_[row].dot(Qz_);
-        ++row;
-      }
-      if (less_integral_[l]) values[l] -= (*integral_)(z, states_[row++], forces);
-    }
-  }
-
- private:
-  std::unique_ptr<SparsePhiMap> map_;
-  std::shared_ptr<const SparseMatrix> Q_;
-  std::vector<std::vector<double>> coefficients_;
-  std::vector<bool> less_integral_;
-  std::optional<FlowDissipation> integral_;
-  mutable std::vector<Vector> states_;
-  mutable Vector Qz_;
-};
+using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 bool has_entries(const SparseMatrix& A, Support rows) {
   bool has = false;
@@ -203,32 +20,42 @@ bool has_entries(const SparseMatrix& A, Support rows) {
   return has;
 }
 
-class SparsePhi final : public PhiEvaluator {
+class SparseKrylovOperators final : public KrylovOperators {
  public:
-  SparsePhi(std::shared_ptr<const SparseOperators> operators, std::shared_ptr<const SparseMatrix> D0, Support support)
-      : operators_(std::move(operators)),
-        D0_(std::move(D0)),
-        common_(std::make_shared<Common>(operators_->S, operators_->M, *D0_, support)) {}
-
-  std::unique_ptr<PhiMap> map(const PhiRows& rows, double h) const override {
-    common_->require_reach(h);
-    return std::make_unique<SparsePhiMap>(rows, common_, h);
+  SparseKrylovOperators(std::shared_ptr<const SparseOperators> operators, const SparseMatrix& D0, Support support_of_V,
+                        const Space& of_states)
+      : KrylovOperators(of_states), operators_(std::move(operators)), D0_(D0) {
+    support = support_of_V;
+    S = std::make_shared<SparseProduct<const SparseMatrix&>>(operators_->S);
+    M = std::make_shared<SparseProduct<const SparseMatrix&>>(operators_->M);
+    const SparseMatrix L_itself = SparseMatrix(operators_->S * operators_->M) - D0_;
+    rate = spectral_radius_bound(L_itself);
+    scales = balancing_scales(L_itself);
+    const Vector inverse = scales.cwiseInverse();
+    L = std::make_shared<SparseProduct<RowMajor>>(inverse.asDiagonal() * L_itself * scales.asDiagonal());
+    S_support = std::make_shared<SparseProduct<RowMajor>>(inverse.asDiagonal() *
+                                                          operators_->S.middleCols(support.begin, support.size));
   }
-  std::unique_ptr<PhiForms> forms(std::span<const Form> forms, double h) const override {
-    common_->require_reach(h);
-    return std::make_unique<SparsePhiForms>(forms, common_, operators_, Q(), h);
+
+  // sym(MD₀) − M sym(S) M
+  const Product& Q() const override {
+    if (Q_) return *Q_;
+    Q_of_matrix_ = symmetric_part(SparseMatrix(operators_->M * D0_));
+    const SparseMatrix sym_S = symmetric_part(operators_->S);
+    if (has_entries(sym_S, {0, space.size()})) Q_of_matrix_ -= SparseMatrix(operators_->M * sym_S) * operators_->M;
+    Q_of_matrix_.prune(0.0);  // what is stored and zero would still fill the factors of Q
+    return Q_.emplace(Q_of_matrix_);
   }
 
-  double rate() const override { return common_->rate; }
-
-  Dissipation dissipation() const override {
+  PhiEvaluator::Dissipation dissipation() const override {
     if (dissipation_) return *dissipation_;
     const SparseMatrix sym_S = symmetric_part(operators_->S);
-    const Support everywhere{0, common_->size()};
-    Dissipation d;
-    d.is_quadratic = !has_entries(*D0_, common_->support) && !has_entries(sym_S, common_->support);
-    d.is_zero = !has_entries(*D0_, everywhere) && !has_entries(sym_S, everywhere);
-    d.is_nonnegative = d.is_zero || !negative_direction(*Q());
+    const Support everywhere{0, space.size()};
+    PhiEvaluator::Dissipation d;
+    d.is_quadratic = !has_entries(D0_, support) && !has_entries(sym_S, support);
+    d.is_zero = !has_entries(D0_, everywhere) && !has_entries(sym_S, everywhere);
+    if (!d.is_zero) Q();
+    d.is_nonnegative = d.is_zero || !negative_direction(Q_of_matrix_);
     dissipation_ = d;
     return d;
   }
@@ -246,35 +73,21 @@ class SparsePhi final : public PhiEvaluator {
   }
 
  private:
-  // sym(MD₀) − M sym(S) M
-  const std::shared_ptr<const SparseMatrix>& Q() const {
-    if (!Q_) {
-      const SparseMatrix& M = operators_->M;
-      const SparseMatrix of_D = symmetric_part(SparseMatrix(M * *D0_));
-      const SparseMatrix sym_S = symmetric_part(operators_->S);
-      SparseMatrix Q = of_D;
-      if (has_entries(sym_S, {0, common_->size()})) Q -= SparseMatrix(M * sym_S) * M;
-      Q.prune(0.0);  // what is stored and zero would still fill the factors of Q
-      Q_ = std::make_shared<const SparseMatrix>(std::move(Q));
-    }
-    return Q_;
-  }
-
   std::shared_ptr<const SparseOperators> operators_;
-  std::shared_ptr<const SparseMatrix> D0_;
-  std::shared_ptr<Common> common_;
+  SparseMatrix D0_;
   // When first asked for:
-  mutable std::shared_ptr<const SparseMatrix> Q_;
-  mutable std::optional<Dissipation> dissipation_;
+  mutable SparseMatrix Q_of_matrix_;
+  mutable std::optional<SparseProduct<const SparseMatrix&>> Q_;
+  mutable std::optional<PhiEvaluator::Dissipation> dissipation_;
   mutable std::optional<SparseMatrix> kernel_;
   mutable Vector products_;
 };
 
 }  // namespace
 
-std::unique_ptr<PhiEvaluator> sparse_phi(std::shared_ptr<const SparseOperators> operators,
-                                         std::shared_ptr<const SparseMatrix> D0, Support support) {
-  return std::make_unique<SparsePhi>(std::move(operators), std::move(D0), support);
+std::unique_ptr<PhiEvaluator> sparse_phi(std::shared_ptr<const SparseOperators> operators, const SparseMatrix& D0,
+                                         Potential::Support support, const Space& space) {
+  return krylov_phi(std::make_shared<SparseKrylovOperators>(std::move(operators), D0, support, space));
 }
 
 }  // namespace seiche
