@@ -49,7 +49,7 @@ const std::map<std::string, Folders> may_include = {
      {"core", "law", "method", "backend", "problem", "loop", "output", "record", "simulation", "config", "ensemble",
       "study", "figure"}},
     {"mpi", {"core"}},
-    {"petsc", {"core", "potential", "problem", "simulation"}},
+    {"petsc", {"core", "law", "method", "backend", "potential", "problem", "simulation", "mpi"}},
     {"paper", {"core", "damping", "problem", "loop", "output", "record", "simulation", "study", "figure"}},
     {"cli",
      {"core", "law", "potential", "damping", "method", "backend", "problem", "output", "record", "loop", "simulation",
@@ -65,7 +65,7 @@ struct ThirdParty {
   Folders folders;
 };
 const std::vector<ThirdParty> third_party = {
-    {"Eigen/", {"core", "law", "backend", "method", "ensemble"}},
+    {"Eigen/", {"core", "law", "backend", "method", "ensemble", "petsc"}},
     {"unsupported/Eigen/", {}},
     {"fftw3.h", {"backend"}},
     {"sleef.h", {"core"}},

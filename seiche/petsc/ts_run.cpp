@@ -1,4 +1,6 @@
 #include <seiche/core/base/error.hpp>
+#include <seiche/mpi/mpi_ranks.hpp>
+#include <seiche/petsc/joint_potential.hpp>
 #include <seiche/petsc/ts_run.hpp>
 #include <seiche/simulation/dense_output.hpp>
 
@@ -15,44 +17,98 @@ TsRun::TsRun(TS ts, const TsFormulation& formulation, TsOptions options, Vec u)
 
 void TsRun::make(Vec u) {
   simulation_.reset();
+  joint_.reset();
   equation_.emplace(ts_, formulation_, u, options_.is_separable);
-  simulation_ = std::make_unique<Simulation>(equation_->problem(), options_.simulation);
   is_under_way_ = false;
+  int processes = 1;
+  MPI_Comm_size(communicator_of(equation_->M()), &processes);
+  if (processes > 1 || options_.by_ksp) return make_joint(u);
+  Vector initial;
+  equation_->to_state(u, initial);
+  simulation_ = std::make_unique<Simulation>(problem_of(*equation_, initial), options_.simulation);
+}
+
+void TsRun::make_joint(Vec u) {
+  const SimulationOptions& options = options_.simulation;
+  joint_ = std::make_unique<Joint>();
+  joint_->ranks = mpi_ranks(MPI_Comm_c2f(communicator_of(equation_->M())));
+  PetscEquation& equation = joint_->equation;
+  equation = {equation_->S(), equation_->M(), equation_->D(), joint_->ranks.get()};
+  require_hypotheses(equation);
+  const TsFunctions& functions = *equation_->functions();
+  const Potential::Support support{0, functions.has_V() ? functions.support() : 0};
+  if (method().kind.merges_damping && equation.D != nullptr)
+    merge_damping(equation, support, std::string(method().name), joint_->S_less_D);
+  System& system = joint_->system;
+  system = petsc_system(equation, support, options.backend_options.sparse);
+  system.potential = joint_potential(equation_->functions(), *system.space);
+  equation_->to_state(u, system.initial);
+  if (const std::string complaint = gradient_complaint(functions, *system.space, system.initial); !complaint.empty())
+    throw Error(complaint);
+  if (options.variable_steps) {
+    auto adaptive = make_adaptive_stepper(method(), system, options.method_options);
+    joint_->adaptive = adaptive.get();
+    joint_->stepper = std::move(adaptive);
+  } else {
+    joint_->stepper = make_stepper(method(), system, options.method_options);
+  }
+  joint_->state.z = system.initial;
+}
+
+EnergyReading TsRun::energy() const { return joint_ ? joint_->stepper->energy(joint_->state) : simulation_->energy(); }
+
+LawPromise TsRun::law(double t_end) const {
+  if (!joint_) return promise_energy_law(*simulation_, t_end);
+  LawPromise promise = promise_energy_law(joint_->equation, system().potential->support(), *system().space);
+  const std::string objection = options_.simulation.method_options.objection(method());
+  if (!objection.empty()) promise.withdraw(objection);
+  return promise;
+}
+
+std::string TsRun::solver() const {
+  if (!joint_) return std::string(simulation_->backend().name);
+  const SolverShare share = solver_share(joint_->system);
+  std::string text = fmt::format("KSP ({} iterations", share.iterations);
+  if (share.restored > 0)
+    text += fmt::format("; the contract of propagators restored by {:.2g} at most", share.restored);
+  return text + ")";
 }
 
 void TsRun::follow(Vec u, double t, bool restart) {
   PetscObjectState changes = 0;
   require(PetscObjectStateGet(reinterpret_cast<PetscObject>(u), &changes));
-  State& state = simulation_->state();
-  if (is_under_way_ && !restart) {
-    state.t = t;  // as PETSc has added up its steps
-    if (changes == left_at_) return;
-    Vector z;
-    equation_->to_state(u, z);
-    left_at_ = changes;
-    if (z == state.z) return;
+  State& state = this->state();
+  if (is_under_way_) {
+    state.t = t;             // as PETSc has added up its steps
+    bool changed = restart;  // as this process has seen
+    if (!restart && changes != left_at_) {
+      Vector z;
+      equation_->to_state(u, z);
+      changed = z != state.z;
+      left_at_ = changes;
+    }
+    if (!system().space->any(changed)) return;
   }
   equation_->to_state(u, state.z);
   state.t = t;
   if (options_.simulation.variable_steps && is_under_way_)
-    simulation_->adaptive_stepper().restart(state);
+    adaptive_stepper().restart(state);
   else
-    simulation_->stepper().begin(state);
+    stepper().begin(state);
   is_under_way_ = true;
   left_at_ = changes;
 }
 
 StepReport TsRun::attempt(double h) {
-  State& state = simulation_->state();
+  State& state = this->state();
   equation_->hold_momenta(state.z);
-  return options_.simulation.variable_steps ? simulation_->adaptive_stepper().attempt(state, h)
-                                            : simulation_->stepper().step(state, h);
+  return options_.simulation.variable_steps ? adaptive_stepper().attempt(state, h) : stepper().step(state, h);
 }
 
 StepReport TsRun::step(double h, Vec u) {
   if (!(h > 0)) throw Error("the time step {} must be > 0: what friction takes does not come back", h);
-  const double t = simulation_->state().t;
-  before_ = simulation_->state();
+  const double t = state().t;
+  before_ = state();
   StepReport report;
   try {
     report = attempt(h);
@@ -60,49 +116,49 @@ StepReport TsRun::step(double h, Vec u) {
     options_.is_separable = false;
     make(u);
     follow(u, t, true);
-    before_ = simulation_->state();
+    before_ = state();
     report = attempt(h);
   }
   if (!report.solved()) return report;
   if (options_.simulation.variable_steps) learn_error(h);
-  equation_->to_solution(simulation_->state().z, u);
+  equation_->to_solution(state().z, u);
   require(PetscObjectStateGet(reinterpret_cast<PetscObject>(u), &left_at_));
   return report;
 }
 
 // A method with history knows nothing of the error of its first step: the next one of the same length tells it.
 void TsRun::learn_error(double h) {
-  AdaptiveStepper& stepper = simulation_->adaptive_stepper();
-  error_ = stepper.error(simulation_->state());
+  AdaptiveStepper& stepper = adaptive_stepper();
+  error_ = stepper.error(state());
   looked_ahead_ = !error_;
   if (error_) return;
   error_ = std::numeric_limits<double>::infinity();
-  State ahead = simulation_->state();
+  State ahead = state();
   if (!stepper.attempt(ahead, h).solved()) return;
   error_ = stepper.error(ahead).value_or(*error_);
   stepper.undo(ahead);
 }
 
 void TsRun::undo(Vec u) {
-  State& state = simulation_->state();
+  State& state = this->state();
   if (options_.simulation.variable_steps && !looked_ahead_) {
-    simulation_->adaptive_stepper().undo(state);
+    adaptive_stepper().undo(state);
   } else {
     state = before_;
-    if (looked_ahead_) simulation_->adaptive_stepper().forget(state);
+    if (looked_ahead_) adaptive_stepper().forget(state);
   }
   equation_->to_solution(state.z, u);
   require(PetscObjectStateGet(reinterpret_cast<PetscObject>(u), &left_at_));
 }
 
 void TsRun::interpolate(double t, Vec u) {
-  const State& state = simulation_->state();
+  const State& state = this->state();
   Vector z = state.z;
-  AdaptiveStepper* adaptive = options_.simulation.variable_steps ? &simulation_->adaptive_stepper() : nullptr;
+  AdaptiveStepper* adaptive = options_.simulation.variable_steps ? &adaptive_stepper() : nullptr;
   if (adaptive != nullptr && !looked_ahead_)
     adaptive->interpolate(state, t, z);
   else if (t < state.t)
-    z = StepReplay(simulation_->stepper(), adaptive).at({before_, state.t - before_.t}, t).z;
+    z = StepReplay(stepper(), adaptive).at({before_, state.t - before_.t}, t).z;
   equation_->to_solution(z, u);
 }
 

@@ -14,11 +14,12 @@ namespace seiche {
 struct TsOptions {
   SimulationOptions simulation = {};
   bool is_separable = true;  // momenta are told from positions by the gradient of V: seiche/petsc/ts_equation.hpp
+  bool by_ksp = false;       // PETSc's solvers on one process too
 };
 
 class TsRun {
  public:
-  // Throws Error or PetscFailure as TsEquation and Simulation do.
+  // Throws Error or PetscFailure as TsEquation, Simulation and petsc_system do.
   TsRun(TS ts, const TsFormulation& formulation, TsOptions options, Vec u);
 
   // Begins at u where u is not what the last step has left there, or that is asked for.
@@ -30,20 +31,40 @@ class TsRun {
   // Of the last step, in the max norm: infinite where that is not known, and no step of the same length can follow.
   // Nothing for steps of one size.
   std::optional<double> error() const { return error_; }
-  const Simulation& simulation() const { return *simulation_; }
-  LawPromise law(double t_end) const { return promise_energy_law(*simulation_, t_end); }
+
+  const MethodEntry& method() const { return find_method(options_.simulation.method); }
+  const System& system() const { return joint_ ? joint_->system : simulation_->system(); }
+  EnergyReading energy() const;
+  LawPromise law(double t_end) const;
+  std::string solver() const;  // "sparse", "KSP (1200 iterations)"
 
  private:
+  // Matrices that several processes hold together, and the stepper for them.
+  struct Joint {
+    std::unique_ptr<Ranks> ranks;
+    OwnedMat S_less_D;  // of methods that merge the damping
+    PetscEquation equation;
+    System system;
+    std::unique_ptr<Stepper> stepper;
+    AdaptiveStepper* adaptive = nullptr;
+    State state;
+  };
+
   void make(Vec u);
+  void make_joint(Vec u);
   StepReport attempt(double h);
   void learn_error(double h);
+  State& state() { return joint_ ? joint_->state : simulation_->state(); }
+  Stepper& stepper() { return joint_ ? *joint_->stepper : simulation_->stepper(); }
+  AdaptiveStepper& adaptive_stepper() { return joint_ ? *joint_->adaptive : simulation_->adaptive_stepper(); }
 
   TS ts_;
   TsFormulation formulation_;
   TsOptions options_;
   std::optional<TsEquation> equation_;
-  std::unique_ptr<Simulation> simulation_;
-  State before_;  // the last step
+  std::unique_ptr<Simulation> simulation_;  // of one process, or …
+  std::unique_ptr<Joint> joint_;            // … of several
+  State before_;                            // the last step
   std::optional<double> error_;
   bool looked_ahead_ = false;  // the stepper has taken another step since, and gone back
   bool is_under_way_ = false;

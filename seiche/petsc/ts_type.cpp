@@ -32,11 +32,6 @@ PetscErrorCode set_formulation(TS ts, decltype(TsFormulation::S) S, decltype(TsF
 PetscErrorCode set_up(TS ts) {
   return told_to_petsc(communicator(ts), "TSSetUp_Seiche", [ts] {
     TsData& data = data_of(ts);
-    PetscMPIInt processes = 1;
-    MPI_Comm_size(communicator(ts), &processes);
-    if (processes > 1)
-      throw Error("-ts_type {} takes a TS of one process, and this one has {}", data.options.simulation.method,
-                  processes);
     TSAdaptType type = nullptr;
     require(TSAdaptGetType(ts->adapt, &type));
     PetscBool is_fixed = PETSC_FALSE;
@@ -72,7 +67,7 @@ PetscErrorCode step(TS ts) {
         require(TSFunctionDomainError(ts, ts->ptime + h, ts->vec_sol, &in_domain));
         if (in_domain) {
           require(TSAdaptCandidatesClear(ts->adapt));
-          require(TSAdaptCandidateAdd(ts->adapt, nullptr, run.simulation().method().order, 1, 1.0, 1.0, PETSC_TRUE));
+          require(TSAdaptCandidateAdd(ts->adapt, nullptr, run.method().order, 1, 1.0, 1.0, PETSC_TRUE));
           require(TSAdaptChoose(ts->adapt, ts, h, nullptr, &next, &accept));
         } else {
           next = h * ts->adapt->scale_solve_failed;
@@ -108,7 +103,7 @@ PetscErrorCode evaluate_error(TS ts, NormType, PetscInt* order, PetscReal* weigh
       throw Error(
           "tolerances of every component are not taken; give one for all by TSSetTolerances(ts, atol, NULL, rtol, NULL)");
     TsRun& run = *data_of(ts).run;
-    *order = run.simulation().method().order + 1;
+    *order = run.method().order + 1;
     const std::optional<double> error = run.error();
     PetscReal largest = 0;
     require(VecNorm(ts->vec_sol, NORM_INFINITY, &largest));
@@ -122,9 +117,9 @@ PetscErrorCode print_energy(TS ts, PetscInt step, PetscReal t, Vec u, void*) {
   return told_to_petsc(communicator(ts), "TSMonitorEnergy_Seiche", [=] {
     TsRun& run = *data_of(ts).run;
     if (step == 0 || ts->steprestart) run.follow(u, t, false);
-    const EnergyReading energy = run.simulation().energy();
+    const EnergyReading energy = run.energy();
     require(PetscPrintf(communicator(ts), "%" PetscInt_FMT " TS time %g H %.15g %s %.15g\n", step,
-                        static_cast<double>(t), energy.H, std::string(run.simulation().method().kept_energy).c_str(),
+                        static_cast<double>(t), energy.H, std::string(run.method().kept_energy).c_str(),
                         energy.modified));
   });
 }
@@ -134,6 +129,7 @@ PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
   PetscReal C = options.method_options.C.value_or(0.0);
   PetscBool has_C = PETSC_FALSE, monitor = PETSC_FALSE, has_exponential = PETSC_FALSE;
   PetscBool separable = data_of(ts).options.is_separable ? PETSC_TRUE : PETSC_FALSE;
+  PetscBool ksp = data_of(ts).options.by_ksp ? PETSC_TRUE : PETSC_FALSE;
   auto degree = static_cast<PetscInt>(options.backend_options.sparse.pade_degree);
   constexpr const char* kinds[] = {"pade", "lanczos"};
   PetscInt kind = 0;
@@ -146,6 +142,8 @@ PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
                                    degree, &degree, nullptr, 0));
   PetscCall(PetscOptionsBool("-ts_seiche_separable", "Tell positions from momenta by the gradient of V", "", separable,
                              &separable, nullptr));
+  PetscCall(PetscOptionsBool("-ts_seiche_ksp", "Solve by KSP on one process too (options -seiche_ksp_…)", "", ksp, &ksp,
+                             nullptr));
   PetscCall(PetscOptionsName("-ts_seiche_monitor", "Print H and the energy that the method keeps at every step", "",
                              &monitor));
   PetscOptionsHeadEnd();
@@ -157,6 +155,7 @@ PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
     options.backend_options.sparse.validate();
     options.method_options.validate(find_method(options.method));
     data_of(ts).options.is_separable = separable == PETSC_TRUE;
+    data_of(ts).options.by_ksp = ksp == PETSC_TRUE;
     if (monitor) require(TSMonitorSet(ts, print_energy, nullptr, nullptr));
   });
 }
@@ -170,14 +169,13 @@ PetscErrorCode view(TS ts, PetscViewer viewer) {
     std::string text = fmt::format("  order {}, {} propagator, keeps the energy law of {}\n  {}\n", method.order,
                                    to_string(method.propagator), method.kept_energy, method.reference);
     if (const TsRun* run = data_of(ts).run.get()) {
-      const Simulation& simulation = run->simulation();
-      const EnergyReading energy = simulation.energy();
+      const EnergyReading energy = run->energy();
       const LawPromise law = run->law(std::min(ts->max_time, 1e300));
-      const Potential::Counts& counts = simulation.system().potential->counts();
+      const Potential::Counts& counts = run->system().potential->counts();
       text += fmt::format(
-          "  energy law {}: {}\n  H = {:.15g}, {} = {:.15g}\n  backend {}, {} gradients and {} values of V\n",
+          "  energy law {}: {}\n  H = {:.15g}, {} = {:.15g}\n  solver {}, {} gradients and {} values of V\n",
           law.promised ? "promised" : "not promised", law.reason, energy.H, method.kept_energy, energy.modified,
-          simulation.backend().name, counts.gradients, counts.values);
+          run->solver(), counts.gradients, counts.values);
     }
     require(PetscViewerASCIIPrintf(viewer, "%s", text.c_str()));
   });

@@ -1,0 +1,13 @@
+// φ-functions of matrices that several processes hold together.
+#pragma once
+
+#include <seiche/backend/krylov/krylov_phi.hpp>
+#include <seiche/petsc/petsc_system.hpp>
+
+namespace seiche {
+
+// Whether Q ⪰ 0 is known up to some size only, and the kernel of S is taken to be {0}: a projection along z may move
+// Casimirs.
+std::unique_ptr<PhiEvaluator> petsc_phi(const PetscEquation& equation, Potential::Support support, const Space& space);
+
+}  // namespace seiche

@@ -1,0 +1,184 @@
+#include <seiche/core/numerics/definiteness.hpp>
+#include <seiche/petsc/petsc_matrices.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+// The same number on all processes.
+template <class Operation>
+double joint(Mat a, double local, Operation operation) {
+  MPI_Allreduce(MPI_IN_PLACE, &local, 1, MPI_DOUBLE, operation, communicator_of(a));
+  return local;
+}
+
+PetscInt first_row(Mat a) {
+  PetscInt first = 0;
+  require(MatGetOwnershipRange(a, &first, nullptr));
+  return first;
+}
+
+SparseMatrix gathered(Mat a) {
+  OwnedMat whole;
+  require(MatCreateRedundantMatrix(a, 0, PETSC_COMM_SELF, MAT_INITIAL_MATRIX, whole.make()));
+  PetscInt n = 0;
+  require(MatGetSize(whole, &n, nullptr));
+  std::vector<Eigen::Triplet<double>> entries;
+  visit_rows(whole, [&](Index row, std::span<const PetscInt> columns, std::span<const double> values) {
+    for (std::size_t k = 0; k < columns.size(); ++k) entries.emplace_back(static_cast<int>(row), columns[k], values[k]);
+  });
+  SparseMatrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+}  // namespace
+
+void BorrowedVec::set_layout(MPI_Comm communicator, Index local_size) {
+  require(
+      VecCreateMPIWithArray(communicator, 1, static_cast<PetscInt>(local_size), PETSC_DETERMINE, nullptr, vec_.make()));
+}
+
+Vec BorrowedVec::of(std::span<const double> values) const {
+  require(VecResetArray(vec_));
+  require(VecPlaceArray(vec_, values.data()));
+  return vec_;
+}
+
+PetscProduct::PetscProduct(Mat a) : a_(a) {
+  for (BorrowedVec* v : {&x_, &y_}) v->set_layout(communicator_of(a), local_rows(a));
+}
+
+void PetscProduct::apply(std::span<const double> x, std::span<double> y) const {
+  require(MatMult(a_, x_.of(x), y_.of(y)));
+}
+
+MPI_Comm communicator_of(Mat a) { return PetscObjectComm(reinterpret_cast<PetscObject>(a)); }
+
+Index local_rows(Mat a) {
+  PetscInt rows = 0;
+  require(MatGetLocalSize(a, &rows, nullptr));
+  return rows;
+}
+
+void multiply(Mat a, Mat b, OwnedMat& product) {
+  require(MatMatMult(a, b, MAT_INITIAL_MATRIX, PETSC_DEFAULT, product.make()));
+}
+
+void add(double factor, Mat b, Mat a) { require(MatAXPY(a, factor, b, DIFFERENT_NONZERO_PATTERN)); }
+
+void make_symmetric_part(Mat a, OwnedMat& part) {
+  require(MatTranspose(a, MAT_INITIAL_MATRIX, part.make()));
+  add(1, a, part);
+  require(MatScale(part, 0.5));
+}
+
+void visit_rows(Mat a,
+                FunctionRef<void(Index row, std::span<const PetscInt> columns, std::span<const double> values)> visit) {
+  const PetscInt first = first_row(a);
+  for (PetscInt row = first; row < first + local_rows(a); ++row) {
+    PetscInt count = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    require(MatGetRow(a, row, &count, &columns, &values));
+    visit(row, {columns, static_cast<std::size_t>(count)}, {values, static_cast<std::size_t>(count)});
+    require(MatRestoreRow(a, row, &count, &columns, &values));
+  }
+}
+
+void make_absolute(Mat a, OwnedMat& absolute) {
+  require(MatDuplicate(a, MAT_COPY_VALUES, absolute.make()));
+  std::vector<double> sizes;
+  visit_rows(a, [&](Index row, std::span<const PetscInt> columns, std::span<const double> values) {
+    sizes.assign(values.begin(), values.end());
+    for (double& size : sizes) size = std::abs(size);
+    const auto at = static_cast<PetscInt>(row);
+    require(MatSetValues(absolute, 1, &at, static_cast<PetscInt>(columns.size()), columns.data(), sizes.data(),
+                         INSERT_VALUES));
+  });
+  require(MatAssemblyBegin(absolute, MAT_FINAL_ASSEMBLY));
+  require(MatAssemblyEnd(absolute, MAT_FINAL_ASSEMBLY));
+}
+
+bool is_zero(Mat a) {
+  PetscReal norm = 0;
+  require(MatNorm(a, NORM_INFINITY, &norm));
+  return norm == 0;
+}
+
+bool has_entries(Mat a, Potential::Support rows) {
+  PetscInt first = 0;
+  require(MatGetOwnershipRange(a, &first, nullptr));
+  bool has = false;
+  visit_rows(a, [&](Index row, std::span<const PetscInt>, std::span<const double> values) {
+    const Index here = row - first;
+    if (here < rows.begin || here >= rows.begin + rows.size) return;
+    for (const double value : values) has = has || value != 0;
+  });
+  return has;
+}
+
+double spectral_radius_bound(Mat a) {
+  OwnedMat square, cube;
+  multiply(a, a, square);
+  multiply(square, a, cube);
+  double bound = 0;
+  const auto norm = [](Mat of) {
+    PetscReal value = 0;
+    require(MatNorm(of, NORM_1, &value));
+    return static_cast<double>(value);
+  };
+  bound = std::min({norm(a), std::sqrt(norm(square)), std::cbrt(norm(cube))});
+  return bound;
+}
+
+// dᵢ with the sums of |aᵢⱼ| dⱼ/dᵢ over a row and a column nearly the same, all at once and by half of what is missing:
+// one after the other would need those of other processes.
+Vector balancing_scales(Mat a) {
+  constexpr int most_sweeps = 40;
+  constexpr double most_doublings = 24;  // a reducible matrix has no balance, and its scales would drift away
+  OwnedMat sizes;
+  make_absolute(a, sizes);
+  BorrowedVec in, out;
+  const Index n = local_rows(a);
+  for (BorrowedVec* v : {&in, &out}) v->set_layout(communicator_of(a), n);
+  const auto span = [](Vector& v) { return std::span<double>(v.data(), static_cast<std::size_t>(v.size())); };
+  Vector exponents = Vector::Zero(n), d(n), inverse(n), row(n), column(n), diagonal(n);
+  require(MatGetDiagonal(sizes, out.of(span(diagonal))));
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    d = exponents.unaryExpr([](double x) { return std::exp2(x); });
+    inverse = d.cwiseInverse();
+    require(MatMult(sizes, in.of(span(d)), out.of(span(row))));
+    require(MatMultTranspose(sizes, in.of(span(inverse)), out.of(span(column))));
+    row = row.cwiseProduct(inverse) - diagonal;
+    column = column.cwiseProduct(d) - diagonal;
+    for (Index i = 0; i < n; ++i)
+      if (row[i] > 0 && column[i] > 0)
+        exponents[i] = std::clamp(exponents[i] + std::log2(row[i] / column[i]) / 4, -most_doublings, most_doublings);
+  }
+  return exponents.unaryExpr([](double x) { return std::exp2(std::round(x)); });
+}
+
+Sign sign_of(Mat a) {
+  double least = 0;  // over all rows, of the diagonal less the sizes of the rest
+  double least_diagonal = 0;
+  visit_rows(a, [&](Index row, std::span<const PetscInt> columns, std::span<const double> values) {
+    double bound = 0;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      bound += columns[k] == row ? values[k] : -std::abs(values[k]);
+      if (columns[k] == row) least_diagonal = std::min(least_diagonal, values[k]);
+    }
+    least = std::min(least, bound);
+  });
+  if (joint(a, least, MPI_MIN) >= 0) return Sign::nonnegative;
+  if (joint(a, least_diagonal, MPI_MIN) < 0) return Sign::negative;
+  constexpr PetscInt most = 200'000;  // rows that every process factorises
+  PetscInt rows = 0;
+  require(MatGetSize(a, &rows, nullptr));
+  if (rows > most) return Sign::unknown;
+  return negative_direction(gathered(a)) ? Sign::negative : Sign::nonnegative;
+}
+
+}  // namespace seiche
