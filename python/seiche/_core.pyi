@@ -19,6 +19,7 @@ class Problem:
     @property
     def layout(self) -> dict[str, list[tuple[str, str]]]:
         """The fields, and the axes of one instant: their names and meanings in solution.h5."""
+    def part(self, rank: int, count: int) -> Problem: ...  # which one of several processes holds
     @property
     def z0(self) -> Array: ...
     @property
@@ -102,7 +103,7 @@ class Ensemble:
 
 def case_text(file: str) -> bytes: ...
 def parse_case(text: str | bytes, name: str, overrides: Sequence[str], folder: str) -> Case: ...
-def make_problem(case: Case) -> Problem: ...
+def make_problem(case: Case, rank: int = 0, count: int = 1) -> Problem: ...
 def problem_by_parts(
     fields: int,
     M: tuple[Any, ...] | None,
@@ -129,6 +130,7 @@ def solve(
     threads: int,
     checkpoint: str | None,
     progress: Callable[[float, float, int], Any] | None,
+    communicator: int | None,
 ) -> Solution: ...
 def ensemble_of_case(
     case: Case, threads: int, progress: Callable[[float, float, int], Any] | None

@@ -224,6 +224,30 @@ class Result(Answer):
         """One field on the grid, of shape (times, points along each axis); a view of y."""
         return field_of(self.y.T, self.problem, name)
 
+    def gathered(self) -> "Result | None":
+        """Of a run of several processes (``comm``): the result on the whole grid, on the first process; None on the others.
+
+        All of them make this call. Of a run of one process it is the result itself.
+        """
+        if self._shared is None:
+            return self
+        comm, problem = self._shared
+        parts = comm.gather([self.y.T, *(self.y_events or [])])
+        if parts is None:
+            return None
+
+        def joined(states: Sequence[Array]) -> Array:  # (times, size) of each process
+            count = len(states[0])
+            planes = [part.reshape(count, len(problem.fields), -1, *problem.shape[1:]) for part in states]
+            return np.concatenate(planes, axis=2).reshape(count, -1)
+
+        y, *y_events = map(joined, zip(*parts))
+        whole = Result(self)
+        whole.update(y=y.T, problem=problem, y_events=y_events if self.y_events is not None else None)
+        object.__setattr__(whole, "_asked", self._asked)
+        object.__setattr__(whole, "_shared", None)
+        return whole
+
     def save(self, folder: File, progress: bool | Report = False) -> "CaseRun":
         """Leave the folder that ``seiche run`` leaves, for ``seiche audit``, ``plot`` and ``resume``.
 

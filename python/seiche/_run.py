@@ -136,6 +136,8 @@ def _unsayable(result: Result) -> str:
     if isinstance(given, Problem) and given._text is None:
         parts = "is stated by its parts: state it by formulas, by its name, or by a case file"
         return f"its problem {parts if given._file is None else 'is that of a case file: solve the case itself'}"
+    if result._shared is not None:
+        return "several processes hold it: run the case itself, by mpiexec -n … seiche run, or save what gathered() brings together"
     if result.t_events:
         return "its events are Python functions"
     if result._asked.start < 0:

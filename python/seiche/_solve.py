@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import numbers
 import os
 from typing import Any, Callable, Sequence
@@ -57,6 +58,24 @@ def _of_scipy(theirs: str, ours: str, value: Any, options: dict[str, Any]) -> An
     return options.pop(theirs)
 
 
+def _part(stated: Problem, case: Any, comm: Any, z0: Any) -> tuple[Problem, Any]:
+    """The part of a problem that this process holds, and of a state of all of it."""
+    rank, count = comm.Get_rank(), comm.Get_size()
+    if len(stated.axes) < 2:
+        raise ValueError(f"{stated.name} has no grid of two or three axes, and only one process computes it: solve it without comm")
+    part = copy.copy(stated)
+    part._core = stated._core.part(rank, count) if stated._text is None else _core.make_problem(case, rank, count)
+    if z0 is None:
+        return part, None
+    state = real_array("z0", z0)
+    if state.size != stated._core.size:  # these planes, or what the program refuses
+        return part, state
+    planes = comm.allgather(len(part.axes[0]))
+    first = sum(planes[:rank])
+    by_planes = state.reshape(len(stated.fields), sum(planes), -1)
+    return part, np.ascontiguousarray(by_planes[:, first : first + planes[rank]])
+
+
 def solve(
     problem: Problem | Case | ProblemName,
     t_span: float | Sequence[float] | None = None,
@@ -75,6 +94,7 @@ def solve(
     backend: Backend | None = None,
     threads: int = 1,
     checkpoint: File | None = None,
+    comm: Any = None,
     progress: bool | Report = False,
     **options: Any,
 ) -> Result:
@@ -128,6 +148,11 @@ def solve(
         same call again, whatever ended the one before, goes on from the newest and ends with the same bits; t_span may
         then end later. They are gone when the run has come to its end. What a checkpoint has seen is not shown again:
         observers, actions and events are called for what comes behind it.
+    comm : mpi4py.MPI.Comm
+        Its processes hold a grid of two or three axes together, and make this call together: each one gets the planes of
+        y, the axes of ``result.problem`` and the z of observers and events that it holds, and t and the energies of all.
+        The numbers are those of one process to the last bit, on any number of them; ``result.gathered()`` brings them
+        together. z0: of the whole grid or of these planes. An event function must return the same number on all processes.
     progress : bool or function
         True: a bar on stderr, with the time that is left. Or a function of (t, t_end, steps), called ten times a second at
         most, and at the end.
@@ -180,7 +205,12 @@ def solve(
         raise ValueError("t_eval holds a time that is no finite number")
     functions = [] if events is None else list(events) if isinstance(events, (list, tuple)) else [events]
     with_ledger = case.ledger and times is None if ledger is None else ledger
-    with showing(progress) as tell:
+    shared = comm if comm is not None and comm.Get_size() > 1 else None
+    if shared is not None:
+        if checkpoint is not None:
+            raise ValueError("checkpoints of several processes are those of the program: mpiexec -n … seiche run case.toml")
+        stated, z0 = _part(stated, case, shared, z0)
+    with showing(progress if shared is None or shared.Get_rank() == 0 else False) as tell:
         solution = _core.solve(
             stated._core,
             case,
@@ -196,6 +226,7 @@ def solve(
             thread_count(threads),
             None if checkpoint is None else os.fspath(checkpoint),
             tell,
+            None if shared is None else shared.py2f(),
         )
         if tell is not None:
             has_reached = solution.status == "success" and not solution.ended_by_event
@@ -211,4 +242,5 @@ def solve(
     state = None if z0 is None else np.array(z0, dtype=float)
     asked = Asked(given, options, start, state, None if times is None else times.copy(), record_every)
     object.__setattr__(result, "_asked", asked)
+    object.__setattr__(result, "_shared", None if shared is None else (shared, as_problem(given)))
     return result

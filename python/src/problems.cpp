@@ -101,8 +101,11 @@ HeldProblem by_parts(Index fields, const py::tuple& M, const std::optional<py::t
 py::list axes_of(const Grid& grid) {
   py::list axes;
   for (const GridAxis& axis : grid.axes) {
-    py::array_t<double> x(axis.unknowns());
-    for (Index i = 0; i < axis.unknowns(); ++i) x.mutable_at(i) = axis.x(i);
+    const bool is_cut = grid.here.count > 1 && axes.empty();  // axis 0, of which a process holds some planes
+    const FieldPart part = grid.field();
+    const Index first = is_cut ? part.first / part.plane() : 0;
+    py::array_t<double> x(is_cut ? part.units.planes : axis.unknowns());
+    for (Index i = 0; i < x.size(); ++i) x.mutable_at(i) = axis.x(first + i);
     axes.append(x);
   }
   return axes;
@@ -147,6 +150,10 @@ void bind_problems(py::module_& module) {
       .def_property_readonly("size", [](const HeldProblem& p) { return p.problem->size(); })
       .def_property_readonly("axes", [](const HeldProblem& p) { return axes_of(p.problem->grid); })
       .def_property_readonly("layout", [](const HeldProblem& p) { return layout_of(*p.problem); })
+      .def("part",
+           [](const HeldProblem& p, int rank, int count) {
+             return HeldProblem{std::make_shared<const Problem>(part_of(*p.problem, {rank, count})), p.has_callbacks};
+           })
       .def_property_readonly("z0", [](const HeldProblem& p) { return array_of(p.problem->initial); })
       .def_property_readonly("notes", [](const HeldProblem& p) { return p.problem->notes; });
 
@@ -172,8 +179,12 @@ void bind_problems(py::module_& module) {
              [](const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
                 const std::string& folder) { return parse_case(text, name, overrides, folder); });
   module.def("case_text", [](const std::string& file) { return py::bytes(case_text(file)); });
-  module.def("make_problem",
-             [](const RunSpec& spec) { return HeldProblem{std::make_shared<const Problem>(make_problem(spec))}; });
+  module.def(
+      "make_problem",
+      [](const RunSpec& spec, int rank, int count) {
+        return HeldProblem{std::make_shared<const Problem>(make_problem(spec, {rank, count}))};
+      },
+      py::arg("case"), py::arg("rank") = 0, py::arg("count") = 1);
   module.def("problem_by_parts", &by_parts);
 }
 

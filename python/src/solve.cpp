@@ -5,6 +5,7 @@
 #include <pybind11/stl.h>
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/driver/checkpoint_keeper.hpp>
+#include <seiche/driver/processes.hpp>
 #include <seiche/output/file/folder_lock.hpp>
 #include <seiche/output/summary.hpp>
 #include <seiche/record/checkpoint_file.hpp>
@@ -25,7 +26,8 @@ namespace {
 struct HeldSolution {
   std::shared_ptr<const Solution> solution;
   RunIdentity identity;
-  std::vector<std::string> remarks = {};  // on checkpoints
+  std::vector<std::string> remarks = {};    // on checkpoints
+  std::shared_ptr<const Ranks> ranks = {};  // which `solution` may refer to
 };
 
 py::object alive(const std::shared_ptr<const Solution>& solution) {
@@ -145,12 +147,24 @@ class KeptCall {
   std::optional<CheckpointKeeper> keeper_;
 };
 
+// True where it is so on one of several processes.
+bool any(const Ranks* ranks, bool here) {
+  double is_so = here ? 1 : 0;
+  if (ranks != nullptr) ranks->max({&is_so, 1});
+  return is_so != 0;
+}
+
 HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_start, double t_end,
                    const std::optional<Array>& z0, const std::optional<Array>& t_eval, const py::list& events,
                    bool dense_output, const py::object& observer, std::int64_t record_every, bool ledger, int threads,
-                   const std::optional<std::string>& checkpoint, const py::object& progress) {
+                   const std::optional<std::string>& checkpoint, const py::object& progress,
+                   std::optional<int> communicator) {
+  HeldSolution held;
+  if (communicator) held.ranks = ranks_of_communicator(*communicator, {"../..", SEICHE_MODULES_FROM_PYTHON});
+  const Ranks* const ranks = held.ranks.get();
   SimulationOptions simulation = simulation_options(spec);
   simulation.backend_options.threads = threads;
+  simulation.backend_options.ranks = ranks;
   SolveOptions options{.method = spec.method,
                        .method_options = spec.method_options,
                        .backend = spec.backend,
@@ -163,17 +177,19 @@ HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_sta
                        .record_every = record_every,
                        .dense_output = dense_output,
                        .ledger = ledger,
-                       .is_stopped = [signals = SignalCheck{},
-                                      tell = Progress(progress, t_end)](double t, std::int64_t steps) mutable {
+                       .is_stopped = [signals = SignalCheck{}, tell = Progress(progress, t_end),
+                                      ranks](double t, std::int64_t steps) mutable {
                          tell(t, steps);
-                         return signals();
+                         return any(ranks, signals());
                        }};
   if (z0) options.z0 = vector_from(*z0);
   if (t_eval) options.t_eval.emplace(t_eval->data(), t_eval->data() + t_eval->size());
   for (const py::handle& event : events) options.events.push_back(event_from(event.cast<py::tuple>()));
-  if (!observer.is_none()) options.observer = observer_from(observer);
+  if (!observer.is_none())
+    options.observer = [ranks, shows = observer_from(observer)](const SolveStep& step) {
+      return !any(ranks, !shows(step));
+    };
 
-  HeldSolution held;
   const Interruption::LetsStepEnd lets_step_end;
   auto solution = without_gil([&] {
     std::optional<KeptCall> kept;

@@ -60,4 +60,5 @@ class MpiProcesses final : public Processes {
 }  // namespace seiche
 
 const char* seiche_mpi_version() { return seiche::version_commit.data(); }
+seiche::Ranks* seiche_mpi_ranks(int fortran_handle) { return seiche::mpi_ranks(fortran_handle).release(); }
 seiche::Processes* seiche_mpi_processes() { return new seiche::MpiProcesses; }

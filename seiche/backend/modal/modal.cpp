@@ -69,12 +69,12 @@ std::unique_ptr<Potential> modal_potential(const Problem& problem,
 System modal_system(const Problem& given, const BackendOptions& options) {
   if (options.threads < 1)
     throw Error("threads = {} of the modal backend must be ≥ 1; 1 runs on the calling thread alone", options.threads);
+  if (options.ranks != nullptr) require_divisible(given);
   if (given.matrices)
     throw Error(
         "the modal backend needs coefficients that are the same at every point, and {} has matrices; use "
         "\"sparse\" or \"dense\"",
         given.name);
-  if (options.ranks != nullptr) require_divisible(given);
   if (!given.grid.is_periodic()) {
     require_symmetric(given.S, "S");
     require_symmetric(given.M, "M");
