@@ -61,7 +61,7 @@ install: build  ## library, headers and program into PREFIX (default /usr/local)
 package:  ## Debian packages: build/dist/*.deb, tried out in a clean root
 	@bash scripts/install-deps --python --package
 	@cmake --preset release >/dev/null
-	@cmake --build --preset release --parallel $(JOBS) --target seiche seiche_cli seiche_python
+	@cmake --build --preset release --parallel $(JOBS) --target packaged
 	@rm -f build/dist/*.deb && cpack --config build/release/CPackConfig.cmake
 	@bash scripts/check-deb
 

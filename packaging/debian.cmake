@@ -1,5 +1,6 @@
-# Three Debian packages, by CPack (make package): the program, the library to compile against, the Python package. What the
-# library needs is inside the program and the module, so that neither needs headers.
+# Debian packages, by CPack (make package): the program, the library to compile against, the Python package; and what is
+# loaded for MPI and for PETSc, where they are. What the library needs is inside the program and the modules, so that
+# none of them needs headers.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME seiche)
 set(CPACK_PACKAGE_CONTACT "The Seiche authors")
@@ -58,3 +59,11 @@ else()
   list(REMOVE_ITEM CPACK_COMPONENTS_ALL python3-seiche)
 endif()
 include(CPack)
+
+# All that is in the packages (make package).
+add_custom_target(packaged)
+foreach(part IN ITEMS seiche seiche_cli seiche_python seiche_mpi_module seiche_ts)
+  if(TARGET ${part})
+    add_dependencies(packaged ${part})
+  endif()
+endforeach()

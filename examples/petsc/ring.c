@@ -1,9 +1,11 @@
 /* A Klein–Gordon ring with friction, stated as PETSc states Hamiltonian systems: u̇ = S∇F(u).
 
      ring -ts_type discgrad                            what PETSc has
-     ring -dll_append libseiche_ts.so -ts_type seisav  -ts_seiche_monitor -ts_view
-     ring -dll_append libseiche_ts.so -ts_type egc4 -ts_adapt_type basic -ts_rtol 1e-8 -ts_atol 1e-8
-     mpiexec -n 4 ring -dll_append libseiche_ts.so -ts_type egc4 -n 4096
+     ring -dll_append $SEICHE_TS -ts_type seisav  -ts_seiche_monitor -ts_view
+     ring -dll_append $SEICHE_TS -ts_type egc4 -ts_adapt_type basic -ts_rtol 1e-8 -ts_atol 1e-8
+     mpiexec -n 4 ring -dll_append $SEICHE_TS -ts_type egc4 -n 4096
+
+   with SEICHE_TS=$(pkg-config --variable=module seiche-ts), or build/release/libseiche_ts.so.
 
    H = Σ Δx (v²/2 + (∂u)²/2 + u²/2 + u⁴/4), ü = ∂²u − u − u³ − γu̇, u and v = u̇ side by side at each of n points. */
 #include <petscts.h>

@@ -1,7 +1,9 @@
 """A Klein–Gordon ring with friction by petsc4py: u̇ = S∇F(u) − Du, F(u) = ½uᵀMu + V(u).
 
-    python3 ring.py -dll_append libseiche_ts.so -ts_type egc4 -ts_view
-    mpiexec -n 2 python3 ring.py -dll_append libseiche_ts.so -ts_type seisav -ts_seiche_monitor
+    python3 ring.py -dll_append $SEICHE_TS -ts_type egc4 -ts_view
+    mpiexec -n 2 python3 ring.py -dll_append $SEICHE_TS -ts_type seisav -ts_seiche_monitor
+
+with SEICHE_TS=$(pkg-config --variable=module seiche-ts), or build/release/libseiche_ts.so.
 
 ü = ∂²u − u − u³ − γu̇ at n points, all u before all v = u̇.
 """

@@ -2,7 +2,10 @@
 #include <seiche/petsc/joint_potential.hpp>
 #include <seiche/potential/own_potential.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -28,7 +31,7 @@ class JointPotential final : public Potential {
   ValueAndMagnitude value_and_magnitude(const Vector& z) const override {
     if (!functions_->has_V()) return {};
     const double V = value(z);
-    functions_->gradient(part(z), span(slope_));
+    functions_->gradient(part(z), span_of(slope_));
     const double terms = space_.sum(z.head(support_.size).cwiseAbs().dot(slope_.cwiseAbs()));
     return {.value = V, .magnitude = std::abs(V) + terms};
   }
@@ -36,7 +39,7 @@ class JointPotential final : public Potential {
     if (!functions_->has_V()) return 0;
     ++counts_.gradients;
     const double V = functions_->value(part(z));
-    functions_->gradient(part(z), span(slope_));
+    functions_->gradient(part(z), span_of(slope_));
     gradient.head(support_.size) = slope_;
     return V;
   }
@@ -47,7 +50,7 @@ class JointPotential final : public Potential {
     sum_.setZero();
     for (const GaussNode& node : rule_) {
       at_ = a.head(support_.size) + node.place * step_;
-      functions_->gradient(span(at_), span(slope_));
+      functions_->gradient(span_of(at_), span_of(slope_));
       sum_ += node.weight * slope_;
     }
     const double Va = functions_->value(part(a)), Vb = functions_->value(part(b));
@@ -68,7 +71,6 @@ class JointPotential final : public Potential {
   Support support() const override { return support_; }
 
  private:
-  static std::span<double> span(Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
   std::span<const double> part(const Vector& z) const { return {z.data(), static_cast<std::size_t>(support_.size)}; }
 
   std::shared_ptr<const TsFunctions> functions_;
@@ -87,6 +89,13 @@ std::unique_ptr<Potential> joint_potential(std::shared_ptr<const TsFunctions> fu
 // V along the directions is a function of as many numbers, which all processes know.
 std::string gradient_complaint(const TsFunctions& functions, const Space& space, const Vector& z) {
   if (!functions.has_V()) return "";
+  std::array<double, 2> ends = {functions.value(span_of(z).first(static_cast<std::size_t>(functions.support()))), 0};
+  ends[1] = -ends[0];
+  space.max(ends);
+  if (ends[0] != -ends[1])
+    return fmt::format(
+        "V is {:.9g} on one process and {:.9g} on another: its function must return V of all of u on each of them",
+        ends[0], -ends[1]);
   constexpr Index directions = 3;
   const Index n = functions.support();
   const double scale = std::max(0.1 * space.max_norm(z.head(n)), 1e-3);
@@ -96,18 +105,15 @@ std::string gradient_complaint(const TsFunctions& functions, const Space& space,
   const auto at = [&](std::span<const double> s) -> Vector {
     return z.head(n) + d * Eigen::Map<const Vector>(s.data(), directions);
   };
-  const auto span = [](const Vector& v) {
-    return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
-  };
-  const OwnPotential along{.value = [&](std::span<const double> s) { return functions.value(span(at(s))); },
+  const OwnPotential along{.value = [&](std::span<const double> s) { return functions.value(span_of(at(s))); },
                            .gradient =
                                [&](std::span<const double> s, std::span<double> out) {
                                  Vector slope(n);
-                                 functions.gradient(span(at(s)), {slope.data(), static_cast<std::size_t>(n)});
+                                 functions.gradient(span_of(at(s)), {slope.data(), static_cast<std::size_t>(n)});
                                  Eigen::Map<Vector>(out.data(), directions) = d.transpose() * slope;
                                  space.sum(out);
                                }};
-  return gradient_complaint(along, span(Vector::Zero(directions)));
+  return gradient_complaint(along, span_of(Vector::Zero(directions)));
 }
 
 }  // namespace seiche

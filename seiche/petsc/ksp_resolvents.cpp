@@ -1,10 +1,19 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/petsc/ksp_resolvents.hpp>
 
+#include <vector>
+
 namespace seiche {
 namespace {
 
 using OwnedKsp = PetscHandle<KSP, KSPDestroy>;
+
+template <class Object>
+bool is_of_type(Object object, const char* type) {
+  PetscBool is = PETSC_FALSE;
+  require(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(object), type, &is));
+  return is == PETSC_TRUE;
+}
 
 // hB − p, or the real system of twice the size: the two parts of each unknown side by side.
 void make_shifted(Mat B, double h, std::complex<double> p, OwnedMat& shifted) {
@@ -13,13 +22,11 @@ void make_shifted(Mat B, double h, std::complex<double> p, OwnedMat& shifted) {
   require(MatCreate(communicator_of(B), shifted.make()));
   require(MatSetSizes(shifted, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));
   require(MatSetType(shifted, MATAIJ));
-  PetscInt widest = 0;
+  std::vector<PetscInt> widths;  // at most
   visit_rows(B, [&](Index, std::span<const PetscInt> columns, std::span<const double>) {
-    widest = std::max(widest, static_cast<PetscInt>(columns.size()));
+    widths.insert(widths.end(), static_cast<std::size_t>(parts), static_cast<PetscInt>(columns.size()) + 2);
   });
-  require(MatXAIJSetPreallocation(shifted, 1, nullptr, nullptr, nullptr, nullptr));
-  require(MatSeqAIJSetPreallocation(shifted, widest + 2, nullptr));
-  require(MatMPIAIJSetPreallocation(shifted, widest + 2, nullptr, widest, nullptr));
+  require(MatXAIJSetPreallocation(shifted, 1, widths.data(), widths.data(), nullptr, nullptr));
   const auto set = [&](PetscInt row, PetscInt column, double value) {
     require(MatSetValues(shifted, 1, &row, 1, &column, &value, ADD_VALUES));
   };
@@ -35,9 +42,16 @@ void make_shifted(Mat B, double h, std::complex<double> p, OwnedMat& shifted) {
   require(MatAssemblyEnd(shifted, MAT_FINAL_ASSEMBLY));
 }
 
-void make_solver(MPI_Comm communicator, OwnedKsp& ksp) {
+bool is_direct(KSP ksp) {
+  PC pc = nullptr;
+  require(KSPGetPC(ksp, &pc));
+  return is_of_type(ksp, KSPPREONLY) &&
+         (is_of_type(pc, PCLU) || is_of_type(pc, PCCHOLESKY) || is_of_type(pc, PCREDUNDANT));
+}
+
+void make_solver(MPI_Comm communicator, const std::string& prefix, KspResolvents::Tolerance tolerance, OwnedKsp& ksp) {
   require(KSPCreate(communicator, ksp.make()));
-  require(KSPSetOptionsPrefix(ksp, "seiche_"));
+  require(KSPSetOptionsPrefix(ksp, prefix.c_str()));
   require(KSPSetType(ksp, KSPPREONLY));
   PC pc = nullptr;
   require(KSPGetPC(ksp, &pc));
@@ -46,14 +60,30 @@ void make_solver(MPI_Comm communicator, OwnedKsp& ksp) {
   MPI_Comm_size(communicator, &processes);
   if (processes > 1) require(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   require(KSPSetFromOptions(ksp));
+  if (is_direct(ksp)) return;
+  if (is_of_type(static_cast<KSP>(ksp), KSPPREONLY)) {
+    PetscBool is_chosen = PETSC_FALSE;
+    require(PetscOptionsHasName(nullptr, prefix.c_str(), "-ksp_type", &is_chosen));
+    if (is_chosen)
+      throw Error(
+          "-{0}ksp_type preonly with a preconditioner that is no factorisation solves nothing: leave it out, or write "
+          "-{0}pc_type lu",
+          prefix);
+    require(KSPSetType(ksp, KSPGMRES));
+    require(KSPSetFromOptions(ksp));
+  }
+  if (tolerance == KspResolvents::Tolerance::round_off)
+    require(KSPSetTolerances(ksp, 1e-14, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
 }
 
 class KspResolvent final : public Resolvent {
  public:
-  KspResolvent(Mat B, double h, std::complex<double> p, std::int64_t& iterations) : p_(p), iterations_(iterations) {
+  KspResolvent(Mat B, double h, std::complex<double> p, std::string prefix, KspResolvents::Tolerance tolerance,
+               std::int64_t& iterations)
+      : p_(p), prefix_(std::move(prefix)), iterations_(iterations) {
     const MPI_Comm communicator = communicator_of(B);
     make_shifted(B, h, p, shifted_);
-    make_solver(communicator, ksp_);
+    make_solver(communicator, prefix_, tolerance, ksp_);
     require(KSPSetOperators(ksp_, shifted_, shifted_));
     require(KSPSetUp(ksp_));
     const Index size = local_rows(shifted_);
@@ -71,10 +101,8 @@ class KspResolvent final : public Resolvent {
   }
 
  private:
-  static std::span<const double> span(const Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
-
   void solve(const Vector& b, Vector& x) const {
-    require(KSPSolve(ksp_, right_.of(span(b)), solution_.of(span(x))));
+    require(KSPSolve(ksp_, right_.of(span_of(b)), solution_.of(span_of(x))));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     PetscInt iterations = 0;
     require(KSPGetConvergedReason(ksp_, &reason));
@@ -84,12 +112,13 @@ class KspResolvent final : public Resolvent {
     PetscReal residual = 0;
     require(KSPGetResidualNorm(ksp_, &residual));
     throw Error(
-        "the linear solver of the options -seiche_ksp_… stopped after {} iterations with a residual of {:.3g} ({}); without "
-        "them the solver is a factorisation",
-        iterations, residual, KSPConvergedReasons[reason]);
+        "the linear solver of the options -{}ksp_… stopped after {} iterations with a residual of {:.3g} ({}); without them "
+        "the solver is a factorisation",
+        prefix_, iterations, residual, KSPConvergedReasons[reason]);
   }
 
   std::complex<double> p_;
+  std::string prefix_;
   std::int64_t& iterations_;
   OwnedMat shifted_;
   OwnedKsp ksp_;
@@ -100,15 +129,13 @@ class KspResolvent final : public Resolvent {
 }  // namespace
 
 std::unique_ptr<Resolvent> KspResolvents::make(double h, std::complex<double> pole) const {
-  return std::make_unique<KspResolvent>(B_, h, pole, iterations_);
+  return std::make_unique<KspResolvent>(B_, h, pole, prefix_, tolerance_, iterations_);
 }
 
 bool KspResolvents::iterates() const {
   OwnedKsp ksp;
-  make_solver(communicator_of(B_), ksp);
-  PetscBool is_direct = PETSC_FALSE;
-  require(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<KSP>(ksp)), KSPPREONLY, &is_direct));
-  return is_direct == PETSC_FALSE;
+  make_solver(communicator_of(B_), prefix_, tolerance_, ksp);
+  return !is_direct(ksp);
 }
 
 }  // namespace seiche

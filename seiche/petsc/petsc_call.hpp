@@ -46,6 +46,11 @@ class PetscHandle {
   PetscHandle& operator=(const PetscHandle&) = delete;
 
   operator Object() const { return object_; }
+  void share(Object object) {  // which has other owners
+    if (object != nullptr) require(PetscObjectReference(reinterpret_cast<PetscObject>(object)));
+    require(destroy(&object_));
+    object_ = object;
+  }
   Object* make() {  // where a function of PETSc is to put a new one
     require(destroy(&object_));
     return &object_;

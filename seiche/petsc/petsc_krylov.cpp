@@ -37,10 +37,7 @@ class PetscKrylovOperators final : public KrylovOperators {
     const Vector inverse = scales.cwiseInverse();
     BorrowedVec left, right;
     for (BorrowedVec* v : {&left, &right}) v->set_layout(communicator_of(equation.S), scales.size());
-    const auto span = [](const Vector& v) {
-      return std::span<const double>(v.data(), static_cast<std::size_t>(v.size()));
-    };
-    require(MatDiagonalScale(L_itself_, left.of(span(inverse)), right.of(span(scales))));
+    require(MatDiagonalScale(L_itself_, left.of(span_of(inverse)), right.of(span_of(scales))));
     L = std::make_shared<PetscProduct>(L_itself_);
     S_support = std::make_shared<SupportProduct>(equation.S, support, scales);
     holds_s = equation.ranks->here().index == 0;
@@ -74,7 +71,7 @@ class PetscKrylovOperators final : public KrylovOperators {
     d.is_quadratic =
         space.all(!has_entries(sym_S, support) && (equation_.D == nullptr || !has_entries(equation_.D, support)));
     if (!d.is_zero) Q();
-    d.is_nonnegative = d.is_zero || sign_of(Q_itself_) == Sign::nonnegative;
+    d.is_nonnegative = d.is_zero || is_nonnegative(Q_itself_);
     dissipation_ = d;
     return d;
   }

@@ -6,8 +6,7 @@
 
 namespace seiche {
 
-// Whether Q ⪰ 0 is known up to some size only, and the kernel of S is taken to be {0}: a projection along z may move
-// Casimirs.
+// The kernel of S is taken to be {0}: a projection along z may move Casimirs.
 std::unique_ptr<PhiEvaluator> petsc_phi(const PetscEquation& equation, Potential::Support support, const Space& space);
 
 }  // namespace seiche

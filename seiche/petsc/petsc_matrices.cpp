@@ -1,4 +1,3 @@
-#include <seiche/core/numerics/definiteness.hpp>
 #include <seiche/petsc/petsc_matrices.hpp>
 
 #include <algorithm>
@@ -18,20 +17,6 @@ PetscInt first_row(Mat a) {
   PetscInt first = 0;
   require(MatGetOwnershipRange(a, &first, nullptr));
   return first;
-}
-
-SparseMatrix gathered(Mat a) {
-  OwnedMat whole;
-  require(MatCreateRedundantMatrix(a, 0, PETSC_COMM_SELF, MAT_INITIAL_MATRIX, whole.make()));
-  PetscInt n = 0;
-  require(MatGetSize(whole, &n, nullptr));
-  std::vector<Eigen::Triplet<double>> entries;
-  visit_rows(whole, [&](Index row, std::span<const PetscInt> columns, std::span<const double> values) {
-    for (std::size_t k = 0; k < columns.size(); ++k) entries.emplace_back(static_cast<int>(row), columns[k], values[k]);
-  });
-  SparseMatrix matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
 }
 
 }  // namespace
@@ -144,14 +129,13 @@ Vector balancing_scales(Mat a) {
   BorrowedVec in, out;
   const Index n = local_rows(a);
   for (BorrowedVec* v : {&in, &out}) v->set_layout(communicator_of(a), n);
-  const auto span = [](Vector& v) { return std::span<double>(v.data(), static_cast<std::size_t>(v.size())); };
   Vector exponents = Vector::Zero(n), d(n), inverse(n), row(n), column(n), diagonal(n);
-  require(MatGetDiagonal(sizes, out.of(span(diagonal))));
+  require(MatGetDiagonal(sizes, out.of(span_of(diagonal))));
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     d = exponents.unaryExpr([](double x) { return std::exp2(x); });
     inverse = d.cwiseInverse();
-    require(MatMult(sizes, in.of(span(d)), out.of(span(row))));
-    require(MatMultTranspose(sizes, in.of(span(inverse)), out.of(span(column))));
+    require(MatMult(sizes, in.of(span_of(d)), out.of(span_of(row))));
+    require(MatMultTranspose(sizes, in.of(span_of(inverse)), out.of(span_of(column))));
     row = row.cwiseProduct(inverse) - diagonal;
     column = column.cwiseProduct(d) - diagonal;
     for (Index i = 0; i < n; ++i)
@@ -161,7 +145,7 @@ Vector balancing_scales(Mat a) {
   return exponents.unaryExpr([](double x) { return std::exp2(std::round(x)); });
 }
 
-Sign sign_of(Mat a) {
+bool is_nonnegative(Mat a) {
   double least = 0;  // over all rows, of the diagonal less the sizes of the rest
   double least_diagonal = 0;
   visit_rows(a, [&](Index row, std::span<const PetscInt> columns, std::span<const double> values) {
@@ -172,13 +156,35 @@ Sign sign_of(Mat a) {
     }
     least = std::min(least, bound);
   });
-  if (joint(a, least, MPI_MIN) >= 0) return Sign::nonnegative;
-  if (joint(a, least_diagonal, MPI_MIN) < 0) return Sign::negative;
-  constexpr PetscInt most = 200'000;  // rows that every process factorises
-  PetscInt rows = 0;
-  require(MatGetSize(a, &rows, nullptr));
-  if (rows > most) return Sign::unknown;
-  return negative_direction(gathered(a)) ? Sign::negative : Sign::nonnegative;
+  if (joint(a, least, MPI_MIN) >= 0) return true;
+  if (joint(a, least_diagonal, MPI_MIN) < 0) return false;
+  // Sylvester's law: LDLᵀ has as many negative pivots as a has negative eigenvalues. Zero ones are moved off zero.
+  OwnedMat shifted, factors;
+  PetscReal size = 0;
+  require(MatNorm(a, NORM_INFINITY, &size));
+  require(MatDuplicate(a, MAT_COPY_VALUES, shifted.make()));
+  require(MatShift(shifted, 1e-12 * size));
+  require(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
+  require(MatGetFactor(shifted, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factors.make()));
+  require(MatMumpsSetIcntl(factors, 13, 1));  // no part of the factors is taken whose pivots are not counted …
+  require(MatMumpsSetIcntl(factors, 24, 1));  // … and those near zero are found
+  MatFactorInfo info;
+  require(MatFactorInfoInitialize(&info));
+  require(MatCholeskyFactorSymbolic(factors, shifted, nullptr, &info));
+  require(MatCholeskyFactorNumeric(factors, shifted, &info));
+  PetscInt negative = 0, zero = 0, positive = 0;
+  require(MatGetInertia(factors, &negative, &zero, &positive));
+  return negative == 0;
+}
+
+SparseMatrix sparse_matrix(Mat a) {
+  std::vector<Eigen::Triplet<double>> entries;
+  visit_rows(a, [&](Index row, std::span<const PetscInt> columns, std::span<const double> values) {
+    for (std::size_t k = 0; k < columns.size(); ++k) entries.emplace_back(static_cast<int>(row), columns[k], values[k]);
+  });
+  SparseMatrix matrix(local_rows(a), local_rows(a));
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
 }  // namespace seiche

@@ -48,8 +48,12 @@ void visit_rows(Mat a,
                 FunctionRef<void(Index row, std::span<const PetscInt> columns, std::span<const double> values)> visit);
 double spectral_radius_bound(Mat a);  // as that of sparse matrices
 Vector balancing_scales(Mat a);       // of rows that are here; powers of two
-enum class Sign { nonnegative, negative, unknown };
-// Whether xᵀax ≥ 0 for every x, of a symmetric a: by the dominance of its diagonal, or, up to some size, by factors.
-Sign sign_of(Mat a);
+// Whether xᵀax ≥ 0 for every x but for round-off, of a symmetric a: by the dominance of its diagonal, or by the inertia
+// of its factors.
+bool is_nonnegative(Mat a);
+SparseMatrix sparse_matrix(Mat a);  // of one process
+
+inline std::span<const double> span_of(const Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+inline std::span<double> span_of(Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
 }  // namespace seiche

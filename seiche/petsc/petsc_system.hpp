@@ -1,7 +1,6 @@
 // An equation whose matrices several processes hold together, as a System.
 #pragma once
 
-#include <seiche/core/run_report.hpp>
 #include <seiche/core/system.hpp>
 #include <seiche/petsc/petsc_matrices.hpp>
 
@@ -16,20 +15,12 @@ namespace seiche {
 struct PetscEquation {
   Mat S = nullptr, M = nullptr, D = nullptr;
   const Ranks* ranks = nullptr;
+  std::string prefix = "seiche_";  // of the options for its linear solvers
 };
-
-// Throws Error where M is not symmetric or M ⪰ 0 fails.
-void require_hypotheses(const PetscEquation& equation);
-
-// S ← S − D and no D, for methods that take the damping as part of S; `S_less_D` holds that. Throws Error, which names
-// the method, where Dz is not D∇H(z): D is to act on components with ∂H/∂zᵢ = zᵢ alone.
-void merge_damping(PetscEquation& equation, Potential::Support support, const std::string& method, OwnedMat& S_less_D);
-
-// What is promised of H along exact solutions, by the signs of sym(S) and sym(MD).
-LawPromise promise_energy_law(const PetscEquation& equation, Potential::Support support, const Space& space);
 
 // What KSP has done for propagators, and the largest relative move by which they restored their contract.
 struct SolverShare {
+  bool iterates = false;  // and holds to a tolerance
   std::int64_t iterations = 0;
   double restored = 0.0;
 };

@@ -3,14 +3,14 @@
 #include <seiche/potential/own_potential.hpp>
 #include <seiche/problem/sparse.hpp>
 
+#include <petsc/private/petscimpl.h>
+
 #include <algorithm>
+#include <array>
 #include <random>
 
 namespace seiche {
 namespace {
-
-std::span<const double> span(const Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
-std::span<double> span(Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
 // States near a start, at random and the same in every run.
 class Probes {
@@ -37,19 +37,10 @@ bool differ(Mat a, Mat b) {
   return !is_zero(difference);
 }
 
-SparseMatrix sparse_matrix(Mat a) {
-  std::vector<Eigen::Triplet<double>> entries;
-  visit_rows(a, [&](Index row, std::span<const PetscInt> columns, std::span<const double> values) {
-    for (std::size_t k = 0; k < columns.size(); ++k) entries.emplace_back(static_cast<int>(row), columns[k], values[k]);
-  });
-  SparseMatrix matrix(local_rows(a), local_rows(a));
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
 }  // namespace
 
-TsEquation::TsEquation(TS ts, const TsFormulation& formulation, Vec u, bool is_separable) {
+TsEquation::TsEquation(TS ts, const TsFormulation& formulation, Vec u, bool is_separable)
+    : ts_(ts), given_(given_now()) {
   Mat M = composed<Mat>(ts, "M", MAT_CLASSID, "Mat");
   if (M == nullptr)
     throw Error(
@@ -58,13 +49,26 @@ TsEquation::TsEquation(TS ts, const TsFormulation& formulation, Vec u, bool is_s
   functions_ = std::make_shared<TsFunctions>(ts, formulation, M, u);
   Vector start;
   to_state(u, start);
-  functions_->set(span(start));
+  functions_->set(span_of(start));
   const MPI_Comm communicator = PetscObjectComm(reinterpret_cast<PetscObject>(ts));
   if (is_separable && functions_->has_V()) find_positions(communicator, start);
   to_state(u, start);
   take(M, "M", start.size(), M_);
   find_structure(ts, formulation, start);
   if (Mat D = composed<Mat>(ts, "D", MAT_CLASSID, "Mat")) take(D, "D", start.size(), D_);
+}
+
+std::vector<TsEquation::Given> TsEquation::given_now() const {
+  std::vector<Given> all;
+  for (const char* name : {"M", "S", "D", "V"}) {
+    PetscObject object = nullptr;
+    require(PetscObjectQuery(reinterpret_cast<PetscObject>(ts_), name, &object));
+    Given& given = all.emplace_back();
+    if (object == nullptr) continue;
+    require(PetscObjectGetId(object, &given.id));
+    if (*name != 'V') require(PetscObjectStateGet(object, &given.state));
+  }
+  return all;
 }
 
 void TsEquation::find_positions(MPI_Comm communicator, const Vector& start) {
@@ -74,7 +78,7 @@ void TsEquation::find_positions(MPI_Comm communicator, const Vector& start) {
   Probes probes(start);
   Vector slope(start.size());
   for (int k = 0; k < states; ++k) {
-    functions_->gradient(span(probes.next()), span(slope));
+    functions_->gradient(span_of(probes.next()), span_of(slope));
     for (std::size_t i = 0; i < order.size(); ++i) is_position[i] = is_position[i] || slope[static_cast<Index>(i)] != 0;
   }
   const auto positions = std::count(is_position.begin(), is_position.end(), true);
@@ -94,10 +98,10 @@ void TsEquation::find_structure(TS ts, const TsFormulation& formulation, const V
         "set (TSSetType, TSSetFromOptions), or compose a matrix with it: PetscObjectCompose((PetscObject)ts, \"S\", "
         "(PetscObject)S), ts.compose(\"S\", S) of petsc4py");
   OwnedMat here, elsewhere;
-  functions_->set(span(start));
+  functions_->set(span_of(start));
   functions_->make_structure(here);
   Probes probes(start);
-  functions_->set(span(probes.next()));
+  functions_->set(span_of(probes.next()));
   functions_->make_structure(elsewhere);
   if (differ(here, elsewhere))
     throw Error("S changes with u, and these methods take one that is the same everywhere; keep -ts_type discgrad");
@@ -127,7 +131,7 @@ void TsEquation::take(Mat given, const char* name, Index rows, OwnedMat& taken) 
 }
 
 void TsEquation::hold_momenta(const Vector& z) const {
-  functions_->set(span(z).subspan(static_cast<std::size_t>(functions_->support())), functions_->support());
+  functions_->set(span_of(z).subspan(static_cast<std::size_t>(functions_->support())), functions_->support());
 }
 
 void TsEquation::to_state(Vec u, Vector& z) const {

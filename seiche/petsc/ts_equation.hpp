@@ -19,6 +19,9 @@ class TsEquation {
   // u, or a matrix does not fit; PetscFailure where a function of the user's fails.
   TsEquation(TS ts, const TsFormulation& formulation, Vec u, bool is_separable);
 
+  // False where another matrix or Tao is composed with the TS by now, or a matrix has changed.
+  bool is_current() const { return given_ == given_now(); }
+
   // In the coordinates z.
   Mat S() const { return S_; }
   Mat M() const { return M_; }
@@ -32,10 +35,18 @@ class TsEquation {
   void to_solution(const Vector& z, Vec u) const;
 
  private:
+  struct Given {  // PETSc counts its objects and the changes of each
+    PetscObjectId id = 0;
+    PetscObjectState state = 0;
+    bool operator==(const Given&) const = default;
+  };
+  std::vector<Given> given_now() const;
   void find_positions(MPI_Comm communicator, const Vector& start);
   void find_structure(TS ts, const TsFormulation& formulation, const Vector& start);
   void take(Mat given, const char* name, Index rows, OwnedMat& taken) const;
 
+  TS ts_;
+  std::vector<Given> given_;
   std::shared_ptr<TsFunctions> functions_;
   bool is_separable_ = false;
   OwnedMat S_, M_, D_;

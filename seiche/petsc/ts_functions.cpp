@@ -23,9 +23,10 @@ Object composed(TS ts, const char* name, PetscClassId kind, const char* what) {
 }
 template Mat composed<Mat>(TS, const char*, PetscClassId, const char*);
 
-TsFunctions::TsFunctions(TS ts, const TsFormulation& formulation, Mat M, Vec u)
-    : ts_(ts), formulation_(formulation), M_(M), V_(composed<Tao>(ts, "V", TAO_CLASSID, "Tao")) {
-  if (V_ == nullptr && (formulation.F == nullptr) != (formulation.gradient == nullptr))
+TsFunctions::TsFunctions(TS ts, const TsFormulation& formulation, Mat M, Vec u) : ts_(ts), formulation_(formulation) {
+  M_.share(M);
+  V_.share(composed<Tao>(ts, "V", TAO_CLASSID, "Tao"));
+  if (!has_V_by_tao() && (formulation.F == nullptr) != (formulation.gradient == nullptr))
     throw Error("TSDiscGradSetFormulation was given one of F and its gradient, and both are needed");
   int processes = 1;
   MPI_Comm_size(communicator(ts), &processes);
@@ -53,7 +54,7 @@ void TsFunctions::set(std::span<const double> z, Index first) const {
 double TsFunctions::value(std::span<const double> support) const {
   set(support);
   PetscReal V = 0;
-  if (V_ != nullptr) {
+  if (has_V_by_tao()) {
     require(TaoComputeObjective(V_, u_, &V));
     return V;
   }
@@ -66,7 +67,7 @@ double TsFunctions::value(std::span<const double> support) const {
 
 void TsFunctions::gradient(std::span<const double> support, std::span<double> out) const {
   set(support);
-  if (V_ != nullptr) {
+  if (has_V_by_tao()) {
     require(TaoComputeGradient(V_, u_, slope_));
   } else {
     require(formulation_.gradient(ts_, time(), u_, slope_, formulation_.context));

@@ -22,7 +22,9 @@ struct TsFormulation {
 // ∇V has an entry where it had none before: V depends on more components of u than was thought.
 class SupportGrew : public std::exception {
  public:
-  const char* what() const noexcept override { return "V depends on components of u that its gradient did not show"; }
+  const char* what() const noexcept override {
+    return "V depends on components of u that its gradient did not show near the start: say so by -ts_seiche_separable 0";
+  }
 };
 
 // A Tao that is composed with the TS as "V" knows V and ∇V; without one V is F − ½uᵀMu by the formulation, and 0
@@ -34,7 +36,7 @@ class TsFunctions {
   TsFunctions(TS ts, const TsFormulation& formulation, Mat M, Vec u);
 
   Vec layout() const { return u_; }
-  bool has_V() const { return V_ != nullptr || formulation_.F != nullptr; }
+  bool has_V() const { return has_V_by_tao() || formulation_.F != nullptr; }
   // Component i of z is component order[i] of u, as both are held here; the first `support` of them are those that V
   // depends on.
   void use(std::vector<Index> order, Index support);
@@ -49,12 +51,13 @@ class TsFunctions {
   void make_structure(OwnedMat& S) const;  // at the components that are set
 
  private:
+  bool has_V_by_tao() const { return static_cast<Tao>(V_) != nullptr; }
   PetscReal time() const;
 
   TS ts_;
   TsFormulation formulation_;
-  Mat M_;
-  Tao V_;
+  OwnedMat M_;
+  PetscHandle<Tao, TaoDestroy> V_;
   bool is_alone_;
   OwnedVec u_, slope_, Mu_;
   std::vector<Index> order_;

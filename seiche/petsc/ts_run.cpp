@@ -1,11 +1,13 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/mpi/mpi_ranks.hpp>
 #include <seiche/petsc/joint_potential.hpp>
+#include <seiche/petsc/petsc_law.hpp>
 #include <seiche/petsc/ts_run.hpp>
 #include <seiche/simulation/dense_output.hpp>
 
 #include <petsc/private/petscimpl.h>
 
+#include <array>
 #include <limits>
 
 namespace seiche {
@@ -16,6 +18,15 @@ TsRun::TsRun(TS ts, const TsFormulation& formulation, TsOptions options, Vec u)
 }
 
 void TsRun::make(Vec u) {
+  try {
+    build(u);
+  } catch (const SupportGrew&) {
+    options_.is_separable = false;
+    build(u);
+  }
+}
+
+void TsRun::build(Vec u) {
   simulation_.reset();
   joint_.reset();
   equation_.emplace(ts_, formulation_, u, options_.is_separable);
@@ -30,10 +41,18 @@ void TsRun::make(Vec u) {
 
 void TsRun::make_joint(Vec u) {
   const SimulationOptions& options = options_.simulation;
+  if (options.backend_options.sparse.exponential == ExponentialKind::lanczos)
+    throw Error("-ts_seiche_exponential lanczos factorises M on one process; leave it out where KSP solves");
   joint_ = std::make_unique<Joint>();
   joint_->ranks = mpi_ranks(MPI_Comm_c2f(communicator_of(equation_->M())));
   PetscEquation& equation = joint_->equation;
-  equation = {equation_->S(), equation_->M(), equation_->D(), joint_->ranks.get()};
+  const char* prefix = nullptr;
+  require(TSGetOptionsPrefix(ts_, &prefix));
+  equation = {.S = equation_->S(),
+              .M = equation_->M(),
+              .D = equation_->D(),
+              .ranks = joint_->ranks.get(),
+              .prefix = std::string(prefix != nullptr ? prefix : "") + "seiche_"};
   require_hypotheses(equation);
   const TsFunctions& functions = *equation_->functions();
   const Potential::Support support{0, functions.has_V() ? functions.support() : 0};
@@ -53,15 +72,31 @@ void TsRun::make_joint(Vec u) {
     joint_->stepper = make_stepper(method(), system, options.method_options);
   }
   joint_->state.z = system.initial;
+  joint_->stepper->begin(joint_->state);
 }
 
 EnergyReading TsRun::energy() const { return joint_ ? joint_->stepper->energy(joint_->state) : simulation_->energy(); }
+
+EnergyReading TsRun::energy(Vec u) const {
+  Vector z;
+  equation_->to_state(u, z);
+  if (!system().space->any(z != state().z)) return energy();
+  const double H = system().energy(z);
+  return {.H = H, .modified = H};
+}
 
 LawPromise TsRun::law(double t_end) const {
   if (!joint_) return promise_energy_law(*simulation_, t_end);
   LawPromise promise = promise_energy_law(joint_->equation, system().potential->support(), *system().space);
   const std::string objection = options_.simulation.method_options.objection(method());
   if (!objection.empty()) promise.withdraw(objection);
+  if (solver_share(joint_->system).iterates) {
+    Vector scratch(state().z.size());
+    if (system().linear->apply_symmetric_S(state().z, scratch))
+      promise.withdraw("the linear solver holds to its tolerance, and S is not skew");
+    else if (method().kind.closure == "avf")
+      promise.withdraw("the linear solver holds to its tolerance, and so does the equation of avf");
+  }
   return promise;
 }
 
@@ -77,26 +112,33 @@ std::string TsRun::solver() const {
 void TsRun::follow(Vec u, double t, bool restart) {
   PetscObjectState changes = 0;
   require(PetscObjectStateGet(reinterpret_cast<PetscObject>(u), &changes));
-  State& state = this->state();
-  if (is_under_way_) {
-    state.t = t;             // as PETSc has added up its steps
-    bool changed = restart;  // as this process has seen
-    if (!restart && changes != left_at_) {
-      Vector z;
-      equation_->to_state(u, z);
-      changed = z != state.z;
-      left_at_ = changes;
-    }
-    if (!system().space->any(changed)) return;
+  bool changed = restart || !is_under_way_;
+  if (!changed && changes != left_at_) {
+    Vector z;
+    equation_->to_state(u, z);
+    changed = z != state().z;
   }
-  equation_->to_state(u, state.z);
-  state.t = t;
-  if (options_.simulation.variable_steps && is_under_way_)
-    adaptive_stepper().restart(state);
-  else
-    stepper().begin(state);
-  is_under_way_ = true;
   left_at_ = changes;
+  // What one process has seen, all of them do.
+  std::array<double, 2> seen = {changed ? 1.0 : 0.0, equation_->is_current() ? 0.0 : 1.0};
+  system().space->max(seen);
+  if (seen[1] != 0) make(u);
+  State& state = this->state();
+  state.t = t;  // as PETSc has added up its steps
+  if (seen[0] == 0 && seen[1] == 0) return;
+  try {
+    equation_->to_state(u, state.z);
+    equation_->hold_momenta(state.z);
+    if (options_.simulation.variable_steps && is_under_way_)
+      adaptive_stepper().restart(state);
+    else
+      stepper().begin(state);
+  } catch (const SupportGrew&) {
+    options_.is_separable = false;
+    make(u);
+    this->state().t = t;
+  }
+  is_under_way_ = true;
 }
 
 StepReport TsRun::attempt(double h) {
@@ -108,19 +150,22 @@ StepReport TsRun::attempt(double h) {
 StepReport TsRun::step(double h, Vec u) {
   if (!(h > 0)) throw Error("the time step {} must be > 0: what friction takes does not come back", h);
   const double t = state().t;
-  before_ = state();
+  const auto take = [&] {
+    before_ = state();
+    StepReport report = attempt(h);
+    if (report.solved() && options_.simulation.variable_steps) learn_error(h);
+    return report;
+  };
   StepReport report;
   try {
-    report = attempt(h);
+    report = take();
   } catch (const SupportGrew&) {
     options_.is_separable = false;
     make(u);
     follow(u, t, true);
-    before_ = state();
-    report = attempt(h);
+    report = take();
   }
   if (!report.solved()) return report;
-  if (options_.simulation.variable_steps) learn_error(h);
   equation_->to_solution(state().z, u);
   require(PetscObjectStateGet(reinterpret_cast<PetscObject>(u), &left_at_));
   return report;

@@ -32,9 +32,11 @@ class TsRun {
   // Nothing for steps of one size.
   std::optional<double> error() const { return error_; }
 
+  bool takes_variable_steps() const { return options_.simulation.variable_steps; }
   const MethodEntry& method() const { return find_method(options_.simulation.method); }
   const System& system() const { return joint_ ? joint_->system : simulation_->system(); }
   EnergyReading energy() const;
+  EnergyReading energy(Vec u) const;  // of another state H alone
   LawPromise law(double t_end) const;
   std::string solver() const;  // "sparse", "KSP (1200 iterations)"
 
@@ -50,10 +52,12 @@ class TsRun {
     State state;
   };
 
-  void make(Vec u);
+  void make(Vec u);  // begins at u
+  void build(Vec u);
   void make_joint(Vec u);
   StepReport attempt(double h);
   void learn_error(double h);
+  const State& state() const { return joint_ ? joint_->state : simulation_->state(); }
   State& state() { return joint_ ? joint_->state : simulation_->state(); }
   Stepper& stepper() { return joint_ ? *joint_->stepper : simulation_->stepper(); }
   AdaptiveStepper& adaptive_stepper() { return joint_ ? *joint_->adaptive : simulation_->adaptive_stepper(); }

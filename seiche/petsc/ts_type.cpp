@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 namespace seiche {
 namespace {
@@ -17,6 +18,7 @@ struct TsData {
   TsFormulation formulation;
   TsOptions options;
   std::unique_ptr<TsRun> run;  // null before TSSetUp
+  bool is_stale = false;       // since then there are other options
 };
 
 TsData& data_of(TS ts) { return *static_cast<TsData*>(ts->data); }
@@ -26,19 +28,26 @@ MPI_Comm communicator(TS ts) { return PetscObjectComm(reinterpret_cast<PetscObje
 PetscErrorCode set_formulation(TS ts, decltype(TsFormulation::S) S, decltype(TsFormulation::F) F,
                                decltype(TsFormulation::gradient) gradient, void* context) {
   data_of(ts).formulation = {S, F, gradient, context};
+  data_of(ts).is_stale = true;
   return 0;
 }
 
+bool wants_variable_steps(TS ts) {
+  TSAdaptType type = nullptr;
+  require(TSAdaptGetType(ts->adapt, &type));
+  return std::string_view(type) != TSADAPTNONE;
+}
+
+void make_run(TS ts) {
+  TsData& data = data_of(ts);
+  data.options.simulation.variable_steps = wants_variable_steps(ts);
+  data.run.reset();
+  data.run = std::make_unique<TsRun>(ts, data.formulation, data.options, ts->vec_sol);
+  data.is_stale = false;
+}
+
 PetscErrorCode set_up(TS ts) {
-  return told_to_petsc(communicator(ts), "TSSetUp_Seiche", [ts] {
-    TsData& data = data_of(ts);
-    TSAdaptType type = nullptr;
-    require(TSAdaptGetType(ts->adapt, &type));
-    PetscBool is_fixed = PETSC_FALSE;
-    require(PetscStrcmp(type, TSADAPTNONE, &is_fixed));
-    data.options.simulation.variable_steps = is_fixed == PETSC_FALSE;
-    data.run = std::make_unique<TsRun>(ts, data.formulation, data.options, ts->vec_sol);
-  });
+  return told_to_petsc(communicator(ts), "TSSetUp_Seiche", [ts] { make_run(ts); });
 }
 
 // A step that the method could not take: a shorter one is to be tried, where PETSc may choose one.
@@ -54,6 +63,7 @@ void answer_failure(TS ts, const StepReport& report) {
 
 PetscErrorCode step(TS ts) {
   return told_to_petsc(communicator(ts), "TSStep_Seiche", [ts] {
+    if (data_of(ts).is_stale || data_of(ts).run->takes_variable_steps() != wants_variable_steps(ts)) make_run(ts);
     TsRun& run = *data_of(ts).run;
     run.follow(ts->vec_sol, ts->ptime, ts->steprestart);
     for (PetscInt rejections = 0; !ts->reason;) {
@@ -113,12 +123,12 @@ PetscErrorCode evaluate_error(TS ts, NormType, PetscInt* order, PetscReal* weigh
 }
 
 // A line for every step: H, which no step raises, or the energy that the method keeps in its place.
-PetscErrorCode print_energy(TS ts, PetscInt step, PetscReal t, Vec u, void*) {
+PetscErrorCode print_energy(TS ts, PetscInt count, PetscReal t, Vec u, void*) {
   return told_to_petsc(communicator(ts), "TSMonitorEnergy_Seiche", [=] {
+    if (ts->ops->step != step) return;  // of another type by now
     TsRun& run = *data_of(ts).run;
-    if (step == 0 || ts->steprestart) run.follow(u, t, false);
-    const EnergyReading energy = run.energy();
-    require(PetscPrintf(communicator(ts), "%" PetscInt_FMT " TS time %g H %.15g %s %.15g\n", step,
+    const EnergyReading energy = run.energy(u);
+    require(PetscPrintf(communicator(ts), "%" PetscInt_FMT " TS time %g H %.15g %s %.15g\n", count,
                         static_cast<double>(t), energy.H, std::string(run.method().kept_energy).c_str(),
                         energy.modified));
   });
@@ -142,8 +152,7 @@ PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
                                    degree, &degree, nullptr, 0));
   PetscCall(PetscOptionsBool("-ts_seiche_separable", "Tell positions from momenta by the gradient of V", "", separable,
                              &separable, nullptr));
-  PetscCall(PetscOptionsBool("-ts_seiche_ksp", "Solve by KSP on one process too (options -seiche_ksp_…)", "", ksp, &ksp,
-                             nullptr));
+  PetscCall(PetscOptionsBool("-ts_seiche_ksp", "Solve by KSP on one process too", "", ksp, &ksp, nullptr));
   PetscCall(PetscOptionsName("-ts_seiche_monitor", "Print H and the energy that the method keeps at every step", "",
                              &monitor));
   PetscOptionsHeadEnd();
@@ -154,6 +163,7 @@ PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
     options.backend_options.sparse.pade_degree = static_cast<int>(degree);
     options.backend_options.sparse.validate();
     options.method_options.validate(find_method(options.method));
+    data_of(ts).is_stale = true;
     data_of(ts).options.is_separable = separable == PETSC_TRUE;
     data_of(ts).options.by_ksp = ksp == PETSC_TRUE;
     if (monitor) require(TSMonitorSet(ts, print_energy, nullptr, nullptr));
@@ -177,7 +187,11 @@ PetscErrorCode view(TS ts, PetscViewer viewer) {
           law.promised ? "promised" : "not promised", law.reason, energy.H, method.kept_energy, energy.modified,
           run->solver(), counts.gradients, counts.values);
     }
-    require(PetscViewerASCIIPrintf(viewer, "%s", text.c_str()));
+    for (std::size_t begin = 0; begin < text.size();) {  // PETSc indents what is printed by one call
+      const std::size_t end = text.find('\n', begin) + 1;
+      require(PetscViewerASCIIPrintf(viewer, "%s", text.substr(begin, end - begin).c_str()));
+      begin = end;
+    }
   });
 }
 

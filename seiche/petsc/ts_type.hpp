@@ -3,6 +3,6 @@
 
 #include <petscts.h>
 
-// Registers them with PETSc, once; -dll_append libseiche_ts.so does so without a line of code.
+// Registers them with PETSc, once; -dll_append with the path of libseiche_ts.so does so without a line of code.
 extern "C" PetscErrorCode TSSeicheRegisterAll(void);
 extern "C" PetscErrorCode PetscDLLibraryRegister_seiche_ts(void);

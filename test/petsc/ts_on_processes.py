@@ -1,4 +1,4 @@
-"""Steps of every method on several processes are those on one, which solves by other means.
+"""Steps of every method on several processes, by PETSc's solvers, are those on one by Seiche's own.
 
     mpiexec -n 3 python3 -m mpi4py ts_on_processes.py libseiche_ts.so SEICHE
 
@@ -67,8 +67,7 @@ class RingOfAll:
     def solve(self, method, h, end, **how):
         u = self.vector()
         ts = self.ts(method, h, end, **how)
-        if method in ("seimp", "egc6"):  # by the solver on one process, too
-            one.with_options(ts, ts_seiche_ksp=True)
+        one.with_options(ts, ts_seiche_ksp=True)  # which matters on one process
         ts.solve(u)
         return u
 
@@ -89,7 +88,7 @@ for method in one.methods:
     # The multiplier of the lm family is found to a tolerance, from which round-off starts anew.
     assert miss < (1e-7 if name.endswith("lm") else 1e-12), f"{name}: {miss}"
 
-# Friction in S, events, adaptivity, interpolation, and a change of the solution on one process alone.
+# Friction in S, adaptivity, events, a change of the solution on one process alone, and interpolation.
 exact = ring.exact(2.0)
 assert shared.miss(shared.solve("egc6", 0.05, 2.0, damping="S"), exact) < 1e-8
 steps = []
@@ -120,8 +119,27 @@ u, v = shared.vector(), ring.vector()
 ts.solve(u)
 alone.solve(v)
 assert shared.miss(u, v.array_r) < 1e-12
-ts.setMaxTime(2.0625)
-ts.setExactFinalTime(PETSc.TS.ExactFinalTime.INTERPOLATE)
-ts.solve(u)
+ts, alone = shared.ts("egc4", 0.05, 1.03), ring.ts("egc4", 0.05, 1.03)
+u, v = shared.vector(), ring.vector()
+for stepper, solution in ((ts, u), (alone, v)):
+    stepper.setExactFinalTime(PETSc.TS.ExactFinalTime.INTERPOLATE)
+    stepper.solve(solution)
+assert shared.miss(u, v.array_r) < 1e-12
+assert shared.miss(u, ring.exact(1.03)) < 1e-5
+
+mpi, middle = WORLD.tompi4py(), n  # u of the point in the middle, side by side with its velocity
+times = []
+for stepper, solution, first in ((shared.ts("egc6", 0.1, 3.0), shared.vector(), shared.here), (ring.ts("egc6", 0.1, 3.0), ring.vector(), slice(0, 2 * n))):
+    found, communicator = [], mpi if first is shared.here else None
+
+    def crossing(ts, t, u, values, first=first, communicator=communicator):
+        here = float(u.array_r[middle - first.start]) if first.start <= middle < first.stop else 0.0
+        values[0] = here if communicator is None else communicator.allreduce(here)
+
+    stepper.setEventHandler([0], [False], crossing, lambda ts, events, t, u, forward, found=found: found.append(t))
+    stepper.setEventTolerances(1e-10)
+    stepper.solve(solution)
+    times.append(found)
+assert times[0] and np.allclose(times[0], times[1], rtol=0, atol=1e-9), times
 
 PETSc.Sys.Print(f"the same steps on {count} processes")

@@ -5,6 +5,7 @@
 Exits with 77 where petsc4py or SciPy is missing.
 """
 
+import gc
 import json
 import subprocess
 import sys
@@ -238,12 +239,104 @@ class Types(unittest.TestCase):
         found = ring.solve("egc4", 0.02)
         np.testing.assert_allclose(found, ring.exact(), rtol=0, atol=1e-5)
 
+    def test_they_are_seen_whatever_the_steps(self):
+        n = 16
+
+        def at(c):  # V that p₈ enters once q₈ has fallen below c
+            def below(z):
+                return np.maximum(0, c - z[8]) ** 2
+
+            def slope(z):
+                g = np.r_[z[:n] ** 3, np.zeros(n)]
+                g[8] -= np.maximum(0, c - z[8]) * z[n + 8] ** 2
+                g[n + 8] += below(z) * z[n + 8]
+                return g
+
+            return Ring(gamma=0, V=lambda z: (z[:n] ** 4).sum() / 4 + below(z) * z[n + 8] ** 2 / 2, slope=slope)
+
+        for c in np.linspace(-0.5, 1.2, 7):
+            ring = at(c)
+            ts = ring.ts("seisav", 0.05, 2.0)
+            with_options(ts, ts_adapt_type="basic", ts_rtol=1e-6, ts_atol=1e-6)
+            u = ring.vector()
+            ts.solve(u)
+            np.testing.assert_allclose(u.array, ring.exact(), rtol=0, atol=2e-2)
+
     def test_without_V_the_solution_is_that_of_the_linear_equation(self):
         n = 16
         ring = Ring(V=lambda z: 0.0, slope=lambda z: np.zeros(2 * n))
         u = ring.vector()
         ring.ts("eisav", 0.5, V=None, D=None, S=sparse(ring.S - np.diag(np.r_[np.zeros(n), np.full(n, 0.2)]))).solve(u)
         np.testing.assert_allclose(u.array, ring.exact(), rtol=0, atol=1e-11)
+
+
+class Reuse(unittest.TestCase):
+    """A TS that solves again, with something changed in between, does what a fresh one does."""
+
+    def again(self, change, ring=None, changed=None, method="seisav", **options):
+        ring = ring or Ring()
+        ts = ring.ts(method, 0.1, 1.0)
+        with_options(ts, **options)
+        u = ring.vector()
+        ts.solve(u)
+        between = u.array.copy()
+        change(ts)
+        gc.collect()
+        ts.setMaxTime(2.0)
+        ts.solve(u)
+        fresh = (changed or ring).ts(method, 0.1, 1.0)
+        with_options(fresh, **options)
+        change(fresh)
+        other = PETSc.Vec().createWithArray(between, comm=SELF)
+        fresh.solve(other)
+        return ts, fresh, np.abs(u.array - other.array).max(), np.abs(other.array - ring.exact()).max()
+
+    def test_another_potential(self):
+        n = 16
+        changed = Ring(V=lambda z: 0.0, slope=lambda z: np.zeros(2 * n))
+
+        def change(ts):
+            tao = PETSc.TAO().create(comm=SELF)
+            tao.setObjective(lambda _, u: 0.0)
+            tao.setGradient(lambda _, u, g: g.set(0), None)
+            ts.compose("V", tao)
+
+        _, _, miss, effect = self.again(change)
+        self.assertLess(miss, 1e-12)
+        self.assertGreater(effect, 1e-2)
+
+    def test_other_matrices_and_matrices_that_change(self):
+        ring = Ring()
+        other = sparse(1.5 * ring.M)
+        _, _, miss, effect = self.again(lambda ts: ts.compose("M", other))
+        self.assertLess(miss, 1e-12)
+        self.assertGreater(effect, 1e-2)
+        for ksp in (False, True):
+            _, _, miss, effect = self.again(lambda ts: ts.query("M").scale(1.5), ts_seiche_ksp=ksp)
+            self.assertLess(miss, 1e-12)
+            self.assertGreater(effect, 1e-2)
+
+    def test_other_options(self):
+        def choose(ts):
+            with_options(ts, ts_adapt_type="basic", ts_rtol=0.0, ts_atol=1e-9)
+
+        ts, fresh, miss, _ = self.again(choose, method="egc4")
+        self.assertLess(miss, 1e-7)
+        self.assertGreater(fresh.getStepNumber(), 20)
+        self.assertGreater(ts.getStepNumber(), 10 + 20)
+
+    def test_another_type_beside_our_monitor(self):
+        ring = Ring()
+        ts = ring.ts("seisav", 0.1, 0.5)
+        with_options(ts, ts_seiche_monitor=True)
+        u = ring.vector()
+        ts.solve(u)
+        ts.setType("rk")
+        ts.setRHSFunction(lambda ts, t, u, f: f.setArray(ring.right_hand_side(u.array_r)))
+        ts.setMaxTime(1.0)
+        ts.setTimeStep(0.01)
+        ts.solve(u)
+        np.testing.assert_allclose(u.array, ring.exact(1.0), rtol=0, atol=2e-2)
 
 
 class Refusals(unittest.TestCase):
@@ -278,6 +371,54 @@ class Refusals(unittest.TestCase):
         n = 16
         ring = Ring(V=lambda z: np.inf if z[n // 2] < 0.5 else 0.0, slope=lambda z: np.zeros(2 * n))
         self.refused("no longer finite", ring)
+
+    def test_what_only_some_solvers_do(self):
+        ring = Ring()
+        for options, message in (
+            ({"ts_seiche_exponential": "lanczos", "ts_seiche_ksp": True}, "leave it out where KSP solves"),
+            ({"ts_seiche_ksp": True, "seiche_ksp_type": "preonly", "seiche_pc_type": "jacobi"}, "solves nothing"),
+        ):
+            for name, value in options.items():
+                PETSc.Options()[name] = value
+            try:
+                ts = ring.ts("seisav")
+                ts.setFromOptions()
+                with self.assertRaises(PETSc.Error) as refused:
+                    ts.solve(ring.vector())
+                self.assertIn(message, str(refused.exception))
+            finally:
+                for name in options:
+                    PETSc.Options().delValue(name)
+
+    def test_a_metric_that_is_not_semidefinite(self):
+        n = 400
+        indefinite = np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1)
+        semidefinite = 2 * np.eye(n) - np.roll(np.eye(n), 1, 0) - np.roll(np.eye(n), -1, 0)  # of a free ring
+        for ksp in (False, True):
+            for K, is_allowed in ((indefinite, False), (semidefinite, True)):
+                ring = Ring(n=n)
+                ring.M[:n, :n] = K
+                ts = ring.ts("seisav", 0.01, 0.02)
+                with_options(ts, ts_seiche_ksp=ksp)
+                if is_allowed:
+                    ts.solve(ring.vector())
+                    continue
+                with self.assertRaises(PETSc.Error) as refused:
+                    ts.solve(ring.vector())
+                self.assertIn("M must be positive semidefinite", str(refused.exception))
+
+    def test_options_have_the_prefix_of_their_ts(self):
+        ring = Ring()
+        ts = ring.ts("seisav", 0.1, 0.2)
+        ts.setOptionsPrefix("mine_")
+        with_options(ts, mine_ts_seiche_ksp=True)
+        PETSc.Options()["mine_seiche_ksp_type"] = "nonsense"
+        try:
+            with self.assertRaises(PETSc.Error) as refused:
+                ts.solve(ring.vector())
+            self.assertIn("nonsense", str(refused.exception))
+        finally:
+            PETSc.Options().delValue("mine_seiche_ksp_type")
 
     def test_an_option_that_is_wrong(self):
         ts = Ring().ts("seilm")

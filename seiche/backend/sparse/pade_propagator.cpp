@@ -81,8 +81,7 @@ class Restoration {
   }
   // Of what follows the first and the second vector, each is restored against these two.
   void follow(const Vector& f, Vector& q) {
-    for (int round = 0; round < 3; ++round)
-      if (!(move(f, q) > epsilon)) break;
+    for (int round = 0; round < most_rounds && misses(f, q); ++round) move(f, q);
     if (known_ == before_.size()) return;
     Pair& pair = before_[known_++];
     pair.w = f;
@@ -94,37 +93,68 @@ class Restoration {
   struct Pair {
     Vector w, y, My;
   };
-  static constexpr int most = 3;
+  static constexpr int most = 3, most_rounds = 8;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
   using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>;
 
   double dot(const Vector& a, const Vector& b) const { return space_.dot(a, b); }
 
-  // The largest a of one step of Newton's method.
-  double move(const Vector& f, Vector& q) {
+  const Vector& y(Index i, const Vector& q) const {
+    return i < std::ssize(before_) && i < static_cast<Index>(known_) ? before_[static_cast<std::size_t>(i)].y : q;
+  }
+
+  // Sets e, in units of the sizes of its terms; true where one is more than round-off.
+  bool misses(const Vector& f, const Vector& q) {
     const auto n = static_cast<Index>(known_);
+    const auto length = [this](const Vector& v) { return space_.norm(v); };
     M_.apply(q, Mq_);
-    Matrix J(n + 1, n + 1);
-    Coefficients e(n + 1);
-    const auto y = [&](Index i) -> const Vector& { return i < n ? before_[static_cast<std::size_t>(i)].y : q; };
+    e_.resize(n + 1);
+    size_.resize(n + 1);
+    const double of_f = length(f), of_q = length(q);
     for (Index j = 0; j < n; ++j) {
       const Pair& pair = before_[static_cast<std::size_t>(j)];
-      e[j] = dot(pair.w, q) + dot(f, pair.y) + dot(pair.My, q);
-      for (Index i = 0; i <= n; ++i) J(j, i) = dot(pair.w, y(i)) + dot(pair.My, y(i));
+      size_[j] = of_q * (length(pair.w) + length(pair.My)) + of_f * length(pair.y);
+      e_[j] = dot(pair.w, q) + dot(f, pair.y) + dot(pair.My, q);
     }
-    e[n] = 2 * dot(f, q) + dot(q, Mq_);
-    for (Index i = 0; i <= n; ++i) J(n, i) = 2 * dot(f, y(i)) + 2 * dot(Mq_, y(i));
-    // Without a force, at rest, or where two forces are nearly one, there are fewer directions to move in.
+    size_[n] = of_q * (2 * of_f + length(Mq_));
+    e_[n] = 2 * dot(f, q) + dot(q, Mq_);
+    bool misses = false;
+    for (Index j = 0; j <= n; ++j) {
+      if (size_[j] == 0) size_[j] = 1;  // at rest, or without a force
+      e_[j] /= size_[j];
+      misses = misses || std::abs(e_[j]) > 2 * epsilon;
+    }
+    return misses;
+  }
+
+  // One step of Newton's method from there.
+  void move(const Vector& f, Vector& q) {
+    const auto n = static_cast<Index>(known_);
+    const double of_q = space_.norm(q);
+    Matrix J(n + 1, n + 1);
+    for (Index i = 0; i <= n; ++i) {
+      const Vector& direction = y(i, q);
+      const double length = space_.norm(direction);
+      const double unit = length > 0 ? of_q / length : 0;  // every direction as long as q
+      for (Index j = 0; j < n; ++j) {
+        const Pair& pair = before_[static_cast<std::size_t>(j)];
+        J(j, i) = unit * (dot(pair.w, direction) + dot(pair.My, direction)) / size_[j];
+      }
+      J(n, i) = unit * 2 * (dot(f, direction) + dot(Mq_, direction)) / size_[n];
+    }
+    // At rest, without a force, or where two forces are nearly one, there are fewer directions to move in.
     Eigen::JacobiSVD<Matrix> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    svd.setThreshold(1e-9);
-    if (svd.rank() == 0) return 0;
-    const Coefficients a = svd.solve(-e);
-    const double largest = a.cwiseAbs().maxCoeff();
-    if (!std::isfinite(largest)) return 0;
-    moved_ = std::max(moved_, largest);
+    svd.setThreshold(1e-12);
+    if (svd.rank() == 0) return;
+    const Coefficients a = svd.solve(-e_);
+    if (!a.allFinite()) return;
+    moved_ = std::max(moved_, a.cwiseAbs().maxCoeff());
     q *= 1 + a[n];
-    for (Index i = 0; i < n; ++i) q += a[i] * y(i);
-    return largest;
+    for (Index i = 0; i < n; ++i) {
+      const Vector& direction = y(i, q);
+      const double length = space_.norm(direction);
+      if (length > 0) q += (a[i] * of_q / length) * direction;
+    }
   }
 
   const Product& M_;
@@ -132,6 +162,7 @@ class Restoration {
   double& moved_;
   std::array<Pair, most - 1> before_;
   std::size_t known_ = 0;
+  Coefficients e_, size_;
   Vector Mq_;
 };
 
