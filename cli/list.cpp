@@ -39,7 +39,7 @@ std::string problems_text() {
 
 std::string backends_text() {
   std::string text;
-  for (const BackendEntry& backend : backends()) text += fmt::format("{:<9} {}\n", backend.name, backend.summary);
+  for (const std::string& name : backend_names()) text += fmt::format("{:<9} {}\n", name, find_backend(name).summary);
   return text;
 }
 

@@ -19,7 +19,7 @@ Method = Literal[
     "avf", "sav", "lm", "savf", "ssav", "slm", "eavf", "eisav", "eilm", "seavf", "seisav", "seilm", "seidm", "egc2", "egc4",
     "egc6", "egc8", "seimp", "etdrk4", "crkn4", "crkn6", "strang_exact", "chin4", "auto",
 ]
-Backend = Literal["auto", "dense", "modal", "sparse", "reference"]
+Backend = Literal["auto", "dense", "modal", "sparse", "reference", "petsc"]
 ProblemName = Literal[
     "klein_gordon", "alpha_fpu", "gkdv", "sine_gordon", "oscillator", "nls", "beta_fpu", "chain", "wave", "truss", "network",
     "sparse", "burgers", "rigid_body", "custom",

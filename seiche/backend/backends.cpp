@@ -5,6 +5,7 @@
 #include <seiche/backend/sparse/sparse.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/base/listed.hpp>
+#include <seiche/core/base/loaded_library.hpp>
 
 #include <fftw3.h>
 
@@ -32,14 +33,40 @@ constexpr std::array list = {
                  .system = reference_system},
 };
 
+System petsc_system_of(const Problem& problem, const BackendOptions& options) {
+  using Make = System*(const Problem&, const BackendOptions&);
+  static Make* const make = reinterpret_cast<Make*>(
+      function_of_library("libseiche_ts.so", "seiche_petsc_version", "seiche_petsc_system", {"../.."}));
+  if (make == nullptr)
+    throw Error(
+        "the backend \"petsc\" is not here: this copy of Seiche was built without PETSc (scripts/install-deps --petsc); use "
+        "\"sparse\"");
+  const std::unique_ptr<System> system(make(problem, options));
+  return std::move(*system);
+}
+
+constexpr std::array loaded_list = {
+    BackendEntry{.name = "petsc",
+                 .summary = "the same by PETSc's matrices and solvers, on any number of processes",
+                 .system = petsc_system_of,
+                 .exponentials_by_krylov = true,
+                 .bytes = sparse_bytes},
+};
+
 }  // namespace
 
 std::span<const BackendEntry> backends() { return list; }
+std::span<const BackendEntry> loaded_backends() { return loaded_list; }
 
-std::vector<std::string> backend_names() { return names_of(backends()); }
+std::vector<std::string> backend_names() {
+  std::vector<std::string> names = names_of(backends());
+  for (const BackendEntry& entry : loaded_backends()) names.emplace_back(entry.name);
+  return names;
+}
 
 const BackendEntry& find_backend(std::string_view name) {
-  if (const BackendEntry* entry = find_row(backends(), name)) return *entry;
+  for (const std::span<const BackendEntry> rows : {backends(), loaded_backends()})
+    if (const BackendEntry* entry = find_row(rows, name)) return *entry;
   std::vector<std::string> allowed = backend_names();
   allowed.emplace_back("auto");
   throw unknown_name("backend", name, allowed);

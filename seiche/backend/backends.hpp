@@ -23,7 +23,9 @@ struct BackendEntry {
 };
 
 std::span<const BackendEntry> backends();
-std::vector<std::string> backend_names();
+// By libraries that are loaded when they are asked for: theirs may be missing, which `system` then says by an Error.
+std::span<const BackendEntry> loaded_backends();
+std::vector<std::string> backend_names();                 // of all
 const BackendEntry& find_backend(std::string_view name);  // throws Error with the nearest name
 
 // What `auto` stands for: a stored table of sizes, never a timing. by_kicks: for a method that asks for no exponential,

@@ -100,8 +100,10 @@ std::string write_for_readers(const Folder& folder, const RunSpec& spec, const S
 
 Problem problem_here(const RunSpec& spec, const RunCaseOptions& options) {
   std::optional<Problem> problem;
-  together(options.ranks,
-           [&] { problem = make_problem(spec, options.ranks != nullptr ? options.ranks->here() : Rank()); });
+  together(options.ranks, [&] {
+    const bool is_whole = options.ranks == nullptr || spec.backend == "petsc";  // which divides it
+    problem = make_problem(spec, is_whole ? Rank() : options.ranks->here());
+  });
   return std::move(*problem);
 }
 

@@ -1,9 +1,12 @@
 // Calls of PETSc from code that throws, and of such code from PETSc.
 #pragma once
 
+#include <seiche/core/base/error.hpp>
+
 #include <petscsys.h>
 
 #include <exception>
+#include <string>
 
 namespace seiche {
 
@@ -18,8 +21,17 @@ class PetscFailure : public std::exception {
   PetscErrorCode code_;
 };
 
+// What PETSc has said of the last error, where a program of ours has loaded it; "" in a program of PETSc's, which is
+// told by PETSc itself.
+inline std::string& message_of_petsc() {
+  static std::string message;
+  return message;
+}
+
 inline void require(PetscErrorCode code) {
-  if (code != 0) throw PetscFailure(code);
+  if (code == 0) return;
+  if (!message_of_petsc().empty()) throw Error("PETSc could not go on: {}", message_of_petsc());
+  throw PetscFailure(code);
 }
 
 // What PETSc is to get of an action that may throw: 0, or the code of an error that its handler has been told.

@@ -32,7 +32,8 @@ Vec BorrowedVec::of(std::span<const double> values) const {
   return vec_;
 }
 
-PetscProduct::PetscProduct(Mat a) : a_(a) {
+PetscProduct::PetscProduct(Mat a) {
+  a_.share(a);
   for (BorrowedVec* v : {&x_, &y_}) v->set_layout(communicator_of(a), local_rows(a));
 }
 
@@ -163,6 +164,7 @@ bool is_nonnegative(Mat a) {
   PetscReal size = 0;
   require(MatNorm(a, NORM_INFINITY, &size));
   require(MatDuplicate(a, MAT_COPY_VALUES, shifted.make()));
+  require(MatSetOption(shifted, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));  // of rows without a diagonal entry
   require(MatShift(shifted, 1e-12 * size));
   require(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
   require(MatGetFactor(shifted, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factors.make()));

@@ -27,12 +27,12 @@ class BorrowedVec {
 
 class PetscProduct final : public Product {
  public:
-  explicit PetscProduct(Mat a);  // which outlives it, or has another owner
+  explicit PetscProduct(Mat a);  // whose owner it becomes, beside others
   using Product::apply;
   void apply(std::span<const double> x, std::span<double> y) const override;
 
  private:
-  Mat a_;
+  OwnedMat a_;
   BorrowedVec x_, y_;
 };
 

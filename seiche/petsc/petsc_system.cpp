@@ -10,7 +10,6 @@
 namespace seiche {
 namespace {
 
-// Rows side by side, those of each process in one array.
 class RowSpace final : public Space {
  public:
   RowSpace(Index rows, const Ranks& ranks) : rows_(rows), ranks_(ranks) {}
@@ -105,15 +104,19 @@ SolverShare solver_share(const System& system) {
   return dynamic_cast<const PetscLinear&>(*system.linear).solver_share();
 }
 
-System petsc_system(const PetscEquation& equation, Potential::Support support, const SparseOptions& options) {
+std::unique_ptr<Space> row_space(Index rows, const Ranks& ranks) { return std::make_unique<RowSpace>(rows, ranks); }
+
+System petsc_system(const PetscEquation& equation, std::unique_ptr<Space> of_states, Potential::Support support,
+                    const SparseOptions& options) {
   System system;
-  system.space = std::make_unique<RowSpace>(local_rows(equation.M), *equation.ranks);
+  system.space = std::move(of_states);
   const Space& space = *system.space;
   system.linear = std::make_unique<PetscLinear>(equation, space, support, options);
   system.damping = petsc_damping(equation.D, space, support, equation.prefix);
   system.make_phi = [equation, support, &space] { return petsc_phi(equation, support, space); };
-  system.make_undamped_phi = [equation = PetscEquation{equation.S, equation.M, nullptr, equation.ranks}, support,
-                              &space] { return petsc_phi(equation, support, space); };
+  PetscEquation undamped = equation;
+  undamped.D = nullptr;
+  system.make_undamped_phi = [undamped, support, &space] { return petsc_phi(undamped, support, space); };
   return system;
 }
 

@@ -10,8 +10,8 @@
 
 namespace seiche {
 
-// ż = S∇H − Dz, H = ½zᵀMz + V, with S, M and D of AIJ kinds and one layout of rows; D null: none. They outlive the
-// system, and so does `ranks`, the processes of their communicator.
+// ż = S∇H − Dz, H = ½zᵀMz + V, with S, M and D of AIJ kinds and one layout of rows; D null: none. `ranks`, the
+// processes of their communicator, outlives the system.
 struct PetscEquation {
   Mat S = nullptr, M = nullptr, D = nullptr;
   const Ranks* ranks = nullptr;
@@ -29,7 +29,10 @@ struct SolverShare {
 // spaces. `support`: of V, in the part of z that is here.
 // An iterative solver holds to its tolerance; closures keep their law to round-off all the same, by
 // restoring_pade_propagator, where S is skew.
-System petsc_system(const PetscEquation& equation, Potential::Support support, const SparseOptions& options);
+System petsc_system(const PetscEquation& equation, std::unique_ptr<Space> of_states, Potential::Support support,
+                    const SparseOptions& options);
+// Rows side by side, those of each process in one array.
+std::unique_ptr<Space> row_space(Index rows, const Ranks& ranks);
 SolverShare solver_share(const System& system);  // of such a system
 
 }  // namespace seiche

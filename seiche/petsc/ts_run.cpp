@@ -59,7 +59,8 @@ void TsRun::make_joint(Vec u) {
   if (method().kind.merges_damping && equation.D != nullptr)
     merge_damping(equation, support, std::string(method().name), joint_->S_less_D);
   System& system = joint_->system;
-  system = petsc_system(equation, support, options.backend_options.sparse);
+  system = petsc_system(equation, row_space(local_rows(equation.M), *equation.ranks), support,
+                        options.backend_options.sparse);
   system.potential = joint_potential(equation_->functions(), *system.space);
   equation_->to_state(u, system.initial);
   if (const std::string complaint = gradient_complaint(functions, *system.space, system.initial); !complaint.empty())

@@ -147,7 +147,9 @@ std::string on_line(const Problem& problem, const System& system, const Vector& 
 std::string end_of_potential(const Problem& problem, const System& system, const Vector& initial, const State& s,
                              double h) {
   if (problem.grid.here.count > 1) return "";  // the line ahead is followed on one process alone
-  if (!problem.potential || initial.size() != problem.size() || !system.space->is_finite(s.z)) return "";
+  if (!problem.potential || initial.size() != problem.size() || system.space->physical_size() != problem.size() ||
+      !system.space->is_finite(s.z))
+    return "";
   try {
     return on_line(problem, system, initial, s, h);
   } catch (const std::exception&) {  // of a function of the user's own, which has said it in the step

@@ -28,9 +28,12 @@ bool kicks_suit(const SimulationOptions& options) {
 const BackendEntry& choose_backend(const SimulationOptions& options, const Problem& problem,
                                    const MethodOptions& method_options) {
   if (options.backend_options.ranks != nullptr) {
+    if (options.backend == "petsc") return find_backend("petsc");
     if (options.backend != "auto" && options.backend != "modal")
-      throw Error("only the modal backend runs on several processes, and not \"{}\"; write backend = \"modal\"",
-                  options.backend);
+      throw Error(
+          "the backends modal and petsc run on several processes, and not \"{}\"; write backend = \"modal\" for a grid of two "
+          "or three axes, and else \"petsc\"",
+          options.backend);
     return find_backend("modal");
   }
   if (options.backend != "auto") return find_backend(options.backend);

@@ -63,7 +63,8 @@ std::string problems_json() {
 
 std::string backends_json() {
   Json list = Json::array();
-  for (const BackendEntry& backend : backends()) list.push_back({{"name", backend.name}, {"summary", backend.summary}});
+  for (const std::string& name : backend_names())
+    list.push_back({{"name", name}, {"summary", find_backend(name).summary}});
   return list.dump(2);
 }
 

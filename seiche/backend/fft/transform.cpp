@@ -17,9 +17,12 @@ namespace {
 // Physical values as coordinates.
 class IdentityTransform final : public FieldTransform {
  public:
-  explicit IdentityTransform(Index n) : n_(n) {}
-  Index unknowns() const override { return n_; }
-  Index slots() const override { return n_; }
+  explicit IdentityTransform(const FieldPart& part)
+      : part_(part), sums_(static_cast<std::size_t>(part.units.count())) {}
+  Index unknowns() const override { return part_.size; }
+  Index slots() const override { return part_.size; }
+  FieldPart value_field() const override { return part_; }
+  FieldPart slot_field() const override { return part_; }
   bool is_identity() const override { return true; }
   void to_slots(std::span<const double> values, std::span<double> slots) const override {
     std::copy(values.begin(), values.end(), slots.begin());
@@ -30,13 +33,18 @@ class IdentityTransform final : public FieldTransform {
   std::span<const double> through_values(std::span<const double> from, std::span<double> slots,
                                          const Pointwise& f) const override {
     if (from.data() != slots.data()) std::copy(from.begin(), from.end(), slots.begin());
-    sum_ = f(slots);
-    return {&sum_, 1};
+    std::fill(sums_.begin(), sums_.end(), 0.0);
+    for (Index unit = 0; unit < part_.units.count(); ++unit)
+      part_.for_parts(std::ssize(slots), unit, [&](Index begin, Index length) {
+        sums_[static_cast<std::size_t>(unit)] +=
+            f(slots.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(length)));
+      });
+    return sums_;
   }
 
  private:
-  Index n_;
-  mutable double sum_ = 0;
+  FieldPart part_;
+  mutable std::vector<double> sums_;  // of units
 };
 
 // Rows along the last axis, then columns along the others, axis 0 last, which turns the planes: the same small
@@ -223,8 +231,10 @@ void FieldTransform::inverse(std::span<const double> slots, std::span<double> va
   to_values(scaled, values);
 }
 
-std::unique_ptr<FieldTransform> identity_transform(Index unknowns) {
-  return std::make_unique<IdentityTransform>(unknowns);
+std::unique_ptr<FieldTransform> identity_transform(Index unknowns) { return identity_transform(FieldPart{unknowns}); }
+
+std::unique_ptr<FieldTransform> identity_transform(const FieldPart& part) {
+  return std::make_unique<IdentityTransform>(part);
 }
 
 std::unique_ptr<FieldTransform> modal_transform(const Grid& grid, const TransformOptions& options) {

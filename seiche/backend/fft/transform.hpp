@@ -42,6 +42,7 @@ class FieldTransform {
 };
 
 std::unique_ptr<FieldTransform> identity_transform(Index unknowns);
+std::unique_ptr<FieldTransform> identity_transform(const FieldPart& part);  // of what one of several processes holds
 
 struct TransformOptions {
   bool measure_plans = false;  // let FFTW try plans, which then differ from run to run in the last bits

@@ -1,0 +1,113 @@
+"""Cases on the backend "petsc", on one process and on several, are those on the backend "sparse".
+
+    backend_test.py SEICHE MPIEXEC CASES
+
+Exits with 77 where NumPy is missing.
+"""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+try:
+    import numpy as np
+except ImportError:
+    print("backend_test: skipped for want of numpy")
+    sys.exit(77)
+
+program, mpiexec, cases = sys.argv[1:]
+os.chdir(tempfile.mkdtemp())
+
+
+def command(processes, *words):
+    return [*([mpiexec, "-n", str(processes)] if processes > 1 else []), program, *words]
+
+
+def seiche(*words, processes=1, options="", code=0):
+    environment = os.environ | {"PETSC_OPTIONS": options}
+    done = subprocess.run(command(processes, *words), capture_output=True, text=True, env=environment, timeout=100)
+    assert done.returncode == code, f"{words} on {processes}\n{done.stdout}{done.stderr}"
+    return done.stdout + done.stderr
+
+
+def run(case, folder, *overrides, **how):
+    file = case if "/" in case else f"{cases}/{case}.toml"
+    return seiche("run", file, "--quiet", "--out", folder, "--set", *overrides, **how)
+
+
+def final(folder):
+    return np.loadtxt(f"{folder}/final.txt")
+
+
+def near(folder, expected, tolerance=1e-12):
+    found = final(folder)
+    assert found.shape == expected.shape, (folder, found.shape, expected.shape)
+    miss = np.abs(found - expected).max() / np.abs(expected).max()
+    assert miss < tolerance, f"{folder}: {miss}"
+
+
+# Chains, graphs, trusses, files, differences on a line and a plane, waves through layers; V that adds up over points, and
+# that does not.
+every = {
+    "chain": [], "network": [], "truss": [], "sparse": [], "fput_load": [],
+    "klein_gordon": ['problem.discretisation="fd4"'],
+    "klein_gordon_2d": ['problem.discretisation="fd2"', "problem.points=[12,10]"],
+    "wave": ["problem.points=[10,9]"],
+}
+for case, overrides in every.items():
+    for method in ("seisav", "egc4", "etdrk4"):
+        name = pathlib.Path(case).stem + method
+        chosen = [f"method.name={method}", "time.end=0.5", *overrides]
+        run(case, f"sparse_{name}", "backend.name=sparse", *chosen)
+        expected = final(f"sparse_{name}")
+        for processes in (1, 2, 3):
+            if processes > 1 and method == "etdrk4" and case != "truss":
+                continue
+            folder = f"petsc_{name}_{processes}"
+            run(case, folder, "backend.name=petsc", *chosen, processes=processes)
+            near(folder, expected)
+            summary = json.loads(pathlib.Path(folder, "summary.json").read_text())
+            assert summary["backend"] == "petsc" and summary["energy"]["law"] != "violated", summary
+        seiche("audit", folder)
+
+# The law by an iteration that ends early.
+for case in ("chain", "network"):
+    for processes in (1, 2):
+        folder = f"early_{case}_{processes}"
+        options = "-seiche_ksp_type gmres -seiche_pc_type bjacobi -seiche_ksp_rtol 1e-6"
+        run(case, folder, "backend.name=petsc", "time.end=2", processes=processes, options=options)
+        rows = np.genfromtxt(f"{folder}/energy.csv", delimiter=",", names=True)
+        kept = rows["H_modified"] if "H_modified" in rows.dtype.names else rows["H"]
+        assert np.diff(kept).max() <= 1e-14 * kept[0], folder
+
+# Stopped on three, resumed on two.
+long = ["backend.name=petsc", "time.end=100", "output.snapshot_every=64"]
+run("network", "whole", *long)
+words = command(3, "run", f"{cases}/network.toml", "--quiet", "--out", "stopped", "--set", *long)
+process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+while process.poll() is None and not list(pathlib.Path("stopped").glob("*")):
+    time.sleep(0.05)
+time.sleep(2.0)
+process.send_signal(signal.SIGTERM)
+process.wait(60)
+assert list(pathlib.Path("stopped").glob("checkpoint*")), os.listdir("stopped")
+seiche("resume", "stopped", processes=2)
+near("stopped", final("whole"), 1e-8)
+
+refused = {
+    "run it without mpiexec": ("dry_friction", [], 2),
+    "takes rational functions by KSP": ("chain", ["backend.exponential=lanczos"], 1),
+    "the backends modal and petsc run on several processes": ("chain", ["backend.name=sparse"], 2),
+    'use discretisation "fd2" or "fd4"': ("klein_gordon_2d", [], 2),
+}
+for sentence, (case, overrides, processes) in refused.items():
+    said = run(case, "refused", "backend.name=petsc", "time.end=0.1", *overrides, processes=processes, code=2)
+    assert sentence in said, said
+said = run("chain", "refused", "backend.name=petsc", options="-seiche_ksp_type nonsense", code=2)
+assert "PETSc could not go on: " in said and "nonsense" in said, said
+print("backend_test: all is as it should be")
