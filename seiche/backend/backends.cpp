@@ -50,6 +50,7 @@ constexpr std::array loaded_list = {
                  .summary = "the same by PETSc's matrices and solvers, on any number of processes",
                  .system = petsc_system_of,
                  .exponentials_by_krylov = true,
+                 .takes_one_thread = true,
                  .bytes = sparse_bytes},
 };
 

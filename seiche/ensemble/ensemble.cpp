@@ -43,6 +43,12 @@ class Run {
 
   EnsembleResult run() {
     require_thread_count(options_.threads);
+    if (const std::string& name = options_.simulation.backend;
+        options_.threads > 1 && name != "auto" && find_backend(name).takes_one_thread)
+      throw Error(
+          "the backend {} is for one thread of a program, and {} are to run members side by side: write --threads 1, or "
+          "backend = \"sparse\"",
+          name, options_.threads);
     require_one_size();
     make_blocks();
     if (options_.resumption.from != nullptr) archive(*options_.resumption.from);

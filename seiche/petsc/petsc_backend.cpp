@@ -13,6 +13,7 @@
 #include <petscsys.h>
 
 #include <cstdlib>
+#include <thread>
 
 namespace seiche {
 namespace {
@@ -88,8 +89,18 @@ SparseMatrix matrix_of(const Problem& problem, const BlockStencil& stencil) {
   }
 }
 
+// PETSc knows nothing of threads.
+void require_one_thread() {
+  static const std::thread::id first = std::this_thread::get_id();
+  if (std::this_thread::get_id() != first)
+    throw Error(
+        "PETSc is for one thread of a program, and here several ask for it; use the backend \"sparse\" where members or runs "
+        "are computed side by side");
+}
+
 System make_system(const Problem& problem, const BackendOptions& options) {
   options.sparse.validate();
+  require_one_thread();
   if (options.sparse.exponential == ExponentialKind::lanczos)
     throw Error("exponential = \"lanczos\" belongs to the sparse backend; petsc takes rational functions by KSP");
   begin_petsc();

@@ -108,6 +108,11 @@ refused = {
 for sentence, (case, overrides, processes) in refused.items():
     said = run(case, "refused", "backend.name=petsc", "time.end=0.1", *overrides, processes=processes, code=2)
     assert sentence in said, said
+ensemble = ["backend.name=petsc", 'problem.discretisation="fd2"', "ensemble.members=20", "time.end=0.1"]
+file = f"{cases}/klein_gordon_ensemble.toml"
+said = seiche("run", file, "--threads", "2", "--out", "refused", "--set", *ensemble, code=2)
+assert "the backend petsc is for one thread of a program" in said, said
+seiche("run", file, "--quiet", "--threads", "1", "--out", "members", "--set", *ensemble)
 said = run("chain", "refused", "backend.name=petsc", options="-seiche_ksp_type nonsense", code=2)
 assert "PETSc could not go on: " in said and "nonsense" in said, said
 print("backend_test: all is as it should be")
