@@ -17,15 +17,17 @@ namespace seiche {
 // Throws Error where the options ask for a preconditioner and no iteration, and where a solver does not converge.
 class KspResolvents final : public Resolvents {
  public:
-  enum class Tolerance { of_options, round_off };                                        // of an iteration
-  KspResolvents(Mat B, std::string prefix, Tolerance tolerance = Tolerance::of_options)  // B outlives it
-      : B_(B), prefix_(std::move(prefix)), tolerance_(tolerance) {}
+  enum class Tolerance { of_options, round_off };  // of an iteration
+  KspResolvents(Mat B, std::string prefix, Tolerance tolerance = Tolerance::of_options)
+      : prefix_(std::move(prefix)), tolerance_(tolerance) {
+    B_.share(B);
+  }
   std::unique_ptr<Resolvent> make(double h, std::complex<double> pole) const override;
   bool iterates() const;  // by the options: results hold to a tolerance only
   std::int64_t iterations() const { return iterations_; }
 
  private:
-  Mat B_;
+  OwnedMat B_;
   std::string prefix_;
   Tolerance tolerance_;
   mutable std::int64_t iterations_ = 0;

@@ -52,22 +52,6 @@ class OneRank final : public Ranks {
 };
 const OneRank one_rank;
 
-// A damping that does not change in time, as maps.
-class DampingMap final : public LinearMap {
- public:
-  explicit DampingMap(std::shared_ptr<const Damping> damping, std::optional<double> flow = {})
-      : damping_(std::move(damping)), flow_(flow) {}
-  void apply(const Vector& in, Vector& out) const override {
-    if (!flow_) return damping_->apply_D0(in, out);
-    out = in;
-    damping_->flow(0, *flow_, out);
-  }
-
- private:
-  std::shared_ptr<const Damping> damping_;
-  std::optional<double> flow_;  // over such a time; else D itself
-};
-
 void require_divisible(const Problem& problem) {
   const auto refuse = [&](bool holds, std::string_view what) {
     if (holds)
@@ -141,9 +125,8 @@ System make_system(const Problem& problem, const BackendOptions& options) {
   std::unique_ptr<LinearMap> map;
   GridDamping::MakeFlow make_flow;
   if (constant.nonZeros() > 0) {
-    const std::shared_ptr<const Damping> damping = petsc_damping(D, *system.space, support, equation.prefix);
-    map = std::make_unique<DampingMap>(damping);
-    make_flow = [damping](double h) { return std::make_unique<DampingMap>(damping, h); };
+    map = petsc_map(D);
+    make_flow = petsc_damping_flow(D, *system.space, equation.prefix);
   }
   system.damping = std::make_unique<GridDamping>(problem, identity, std::move(map), std::move(make_flow));
   add_beyond_linear(system, problem, identity, [&]() -> std::unique_ptr<LinearMap> {

@@ -2,15 +2,22 @@
 #pragma once
 
 #include <seiche/core/damping.hpp>
+#include <seiche/core/numerics/linear_map.hpp>
 #include <seiche/petsc/petsc_matrices.hpp>
 
+#include <functional>
 #include <memory>
 #include <string>
 
 namespace seiche {
 
-// Its flow takes one exponential for each row where D is diagonal; otherwise it is that of S = −I, M = D by
-// KspResolvents with `prefix`, whose iterations go to round-off. D null: none. D and `space` outlive it.
+std::unique_ptr<LinearMap> petsc_map(Mat a);  // z ↦ az
+
+// As sparse_damping_flow: of D that is not diagonal by KspResolvents with `prefix`, whose iterations go to round-off.
+std::function<std::unique_ptr<LinearMap>(double h)> petsc_damping_flow(Mat D, const Space& space,
+                                                                       const std::string& prefix);
+
+// Dz alone, for systems that no Problem states. D null: none. `space` outlives it.
 std::unique_ptr<Damping> petsc_damping(Mat D, const Space& space, Potential::Support support,
                                        const std::string& prefix);
 

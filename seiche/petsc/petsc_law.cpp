@@ -19,10 +19,8 @@ void require_hypotheses(const PetscEquation& equation) {
 
 void merge_damping(PetscEquation& equation, Potential::Support support, const std::string& method, OwnedMat& S_less_D) {
   OwnedMat DM;
-  PetscInt first = 0;
   multiply(equation.D, equation.M, DM);
   add(-1, equation.D, DM);
-  require(MatGetOwnershipRange(equation.D, &first, nullptr));
   // Columns of D that V depends on: those that D takes from ones in the support.
   Vector ones = Vector::Zero(local_rows(equation.D)), image = ones;
   ones.segment(support.begin, support.size).setOnes();

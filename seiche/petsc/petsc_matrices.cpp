@@ -13,12 +13,6 @@ double joint(Mat a, double local, Operation operation) {
   return local;
 }
 
-PetscInt first_row(Mat a) {
-  PetscInt first = 0;
-  require(MatGetOwnershipRange(a, &first, nullptr));
-  return first;
-}
-
 }  // namespace
 
 void BorrowedVec::set_layout(MPI_Comm communicator, Index local_size) {
@@ -47,6 +41,12 @@ Index local_rows(Mat a) {
   PetscInt rows = 0;
   require(MatGetLocalSize(a, &rows, nullptr));
   return rows;
+}
+
+PetscInt first_row(Mat a) {
+  PetscInt first = 0;
+  require(MatGetOwnershipRange(a, &first, nullptr));
+  return first;
 }
 
 void multiply(Mat a, Mat b, OwnedMat& product) {
@@ -95,8 +95,7 @@ bool is_zero(Mat a) {
 }
 
 bool has_entries(Mat a, Potential::Support rows) {
-  PetscInt first = 0;
-  require(MatGetOwnershipRange(a, &first, nullptr));
+  const PetscInt first = first_row(a);
   bool has = false;
   visit_rows(a, [&](Index row, std::span<const PetscInt>, std::span<const double> values) {
     const Index here = row - first;
@@ -110,14 +109,12 @@ double spectral_radius_bound(Mat a) {
   OwnedMat square, cube;
   multiply(a, a, square);
   multiply(square, a, cube);
-  double bound = 0;
   const auto norm = [](Mat of) {
     PetscReal value = 0;
     require(MatNorm(of, NORM_1, &value));
     return static_cast<double>(value);
   };
-  bound = std::min({norm(a), std::sqrt(norm(square)), std::cbrt(norm(cube))});
-  return bound;
+  return std::min({norm(a), std::sqrt(norm(square)), std::cbrt(norm(cube))});
 }
 
 // dᵢ with the sums of |aᵢⱼ| dⱼ/dᵢ over a row and a column nearly the same, all at once and by half of what is missing:

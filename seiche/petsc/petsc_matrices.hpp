@@ -38,6 +38,7 @@ class PetscProduct final : public Product {
 
 MPI_Comm communicator_of(Mat a);
 Index local_rows(Mat a);
+PetscInt first_row(Mat a);  // that is here
 void multiply(Mat a, Mat b, OwnedMat& product);
 void add(double factor, Mat b, Mat a);  // a += factor · b
 void make_symmetric_part(Mat a, OwnedMat& part);

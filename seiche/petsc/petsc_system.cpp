@@ -1,6 +1,5 @@
 #include <seiche/backend/sparse/pade_propagator.hpp>
 #include <seiche/petsc/ksp_resolvents.hpp>
-#include <seiche/petsc/petsc_damping.hpp>
 #include <seiche/petsc/petsc_krylov.hpp>
 #include <seiche/petsc/petsc_system.hpp>
 
@@ -43,7 +42,7 @@ class PetscLinear final : public LinearPart {
     make_symmetric_part(equation.S, symmetric_S_itself_);
     if (!is_zero(symmetric_S_itself_)) symmetric_S_.emplace(symmetric_S_itself_);
     resolvents_.emplace(SM_, equation.prefix);
-    restores_ = !symmetric_S_ && resolvents_->iterates();
+    iterates_ = resolvents_->iterates();
     for (Vector* v : {&image_, &sizes_}) v->resize(space.size());
   }
 
@@ -68,19 +67,15 @@ class PetscLinear final : public LinearPart {
     return propagator(force(h, plan(h)), force(h / 2, plan(h / 2)));
   }
   SolverShare solver_share() const {
-    return {.iterates = resolvents_->iterates(), .iterations = resolvents_->iterations(), .restored = moved_};
+    return {.iterates = iterates_, .iterations = resolvents_->iterations(), .restored = moved_};
   }
 
  private:
   std::unique_ptr<Propagator> propagator(std::unique_ptr<PadeForce> F, std::unique_ptr<PadeForce> Q) const {
-    if (!restores_) return pade_propagator(M_, space_, support_, std::move(F), std::move(Q));
+    if (!iterates_ || symmetric_S_) return pade_propagator(M_, space_, support_, std::move(F), std::move(Q));
     return restoring_pade_propagator(M_, space_, support_, std::move(F), std::move(Q), moved_);
   }
-  PadePlan plan(double h) const {
-    constexpr double exponential_tolerance = 1e-14;
-    if (options_.pade_degree > 0) return {options_.pade_degree, 1};
-    return plan_pade(std::abs(h) * radius_, exponential_tolerance);
-  }
+  PadePlan plan(double h) const { return plan_exponential(std::abs(h) * radius_, options_); }
   std::unique_ptr<PadeForce> force(double h, PadePlan plan) const {
     return std::make_unique<PadeForce>(S_, M_, space_.size(), *resolvents_, h, plan);
   }
@@ -93,7 +88,7 @@ class PetscLinear final : public LinearPart {
   std::optional<PetscProduct> absolute_M_, symmetric_S_;
   std::optional<KspResolvents> resolvents_;
   double radius_ = 0.0;
-  bool restores_ = false;
+  bool iterates_ = false;
   mutable double moved_ = 0.0;
   mutable Vector image_, sizes_;
 };
@@ -112,7 +107,6 @@ System petsc_system(const PetscEquation& equation, std::unique_ptr<Space> of_sta
   system.space = std::move(of_states);
   const Space& space = *system.space;
   system.linear = std::make_unique<PetscLinear>(equation, space, support, options);
-  system.damping = petsc_damping(equation.D, space, support, equation.prefix);
   system.make_phi = [equation, support, &space] { return petsc_phi(equation, support, space); };
   PetscEquation undamped = equation;
   undamped.D = nullptr;

@@ -58,15 +58,15 @@ TsEquation::TsEquation(TS ts, const TsFormulation& formulation, Vec u, bool is_s
   if (Mat D = composed<Mat>(ts, "D", MAT_CLASSID, "Mat")) take(D, "D", start.size(), D_);
 }
 
-std::vector<TsEquation::Given> TsEquation::given_now() const {
-  std::vector<Given> all;
-  for (const char* name : {"M", "S", "D", "V"}) {
+std::array<TsEquation::Given, 4> TsEquation::given_now() const {
+  constexpr std::array names = {"M", "S", "D", "V"};
+  std::array<Given, 4> all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
     PetscObject object = nullptr;
-    require(PetscObjectQuery(reinterpret_cast<PetscObject>(ts_), name, &object));
-    Given& given = all.emplace_back();
+    require(PetscObjectQuery(reinterpret_cast<PetscObject>(ts_), names[i], &object));
     if (object == nullptr) continue;
-    require(PetscObjectGetId(object, &given.id));
-    if (*name != 'V') require(PetscObjectStateGet(object, &given.state));
+    require(PetscObjectGetId(object, &all[i].id));
+    if (*names[i] != 'V') require(PetscObjectStateGet(object, &all[i].state));
   }
   return all;
 }
@@ -110,7 +110,7 @@ void TsEquation::find_structure(TS ts, const TsFormulation& formulation, const V
 
 // As AIJ, with rows and columns in the order of z.
 void TsEquation::take(Mat given, const char* name, Index rows, OwnedMat& taken) const {
-  PetscInt all_rows = 0, all_columns = 0, size = 0, first = 0;
+  PetscInt all_rows = 0, all_columns = 0, size = 0;
   require(MatGetSize(given, &all_rows, &all_columns));
   require(VecGetSize(functions_->layout(), &size));
   if (all_rows != size || all_columns != size)
@@ -120,9 +120,8 @@ void TsEquation::take(Mat given, const char* name, Index rows, OwnedMat& taken) 
   if (fits == 0) throw Error("the processes hold other rows of {} than of u", name);
   OwnedMat plain;
   require(MatConvert(given, MATAIJ, MAT_INITIAL_MATRIX, plain.make()));
-  require(MatGetOwnershipRange(plain, &first, nullptr));
   std::vector<PetscInt> places;
-  for (const Index i : functions_->order()) places.push_back(first + static_cast<PetscInt>(i));
+  for (const Index i : functions_->order()) places.push_back(first_row(plain) + static_cast<PetscInt>(i));
   PetscHandle<IS, ISDestroy> order;
   require(ISCreateGeneral(communicator_of(given), static_cast<PetscInt>(places.size()), places.data(),
                           PETSC_COPY_VALUES, order.make()));

@@ -5,8 +5,8 @@
 #include <seiche/petsc/petsc_system.hpp>
 #include <seiche/petsc/ts_functions.hpp>
 
+#include <array>
 #include <memory>
-#include <vector>
 
 namespace seiche {
 
@@ -40,13 +40,13 @@ class TsEquation {
     PetscObjectState state = 0;
     bool operator==(const Given&) const = default;
   };
-  std::vector<Given> given_now() const;
+  std::array<Given, 4> given_now() const;
   void find_positions(MPI_Comm communicator, const Vector& start);
   void find_structure(TS ts, const TsFormulation& formulation, const Vector& start);
   void take(Mat given, const char* name, Index rows, OwnedMat& taken) const;
 
   TS ts_;
-  std::vector<Given> given_;
+  std::array<Given, 4> given_;
   std::shared_ptr<TsFunctions> functions_;
   bool is_separable_ = false;
   OwnedMat S_, M_, D_;

@@ -1,6 +1,7 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/mpi/mpi_ranks.hpp>
 #include <seiche/petsc/joint_potential.hpp>
+#include <seiche/petsc/petsc_damping.hpp>
 #include <seiche/petsc/petsc_law.hpp>
 #include <seiche/petsc/ts_run.hpp>
 #include <seiche/simulation/dense_output.hpp>
@@ -62,6 +63,7 @@ void TsRun::make_joint(Vec u) {
   system = petsc_system(equation, row_space(local_rows(equation.M), *equation.ranks), support,
                         options.backend_options.sparse);
   system.potential = joint_potential(equation_->functions(), *system.space);
+  system.damping = petsc_damping(equation.D, *system.space, support, equation.prefix);
   equation_->to_state(u, system.initial);
   if (const std::string complaint = gradient_complaint(functions, *system.space, system.initial); !complaint.empty())
     throw Error(complaint);

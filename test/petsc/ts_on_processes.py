@@ -47,19 +47,11 @@ class RingOfAll:
             g.array[:] = np.where(self.is_position, u.array_r**3, 0)
 
         tao.setGradient(gradient, None)
-        ts = PETSc.TS().create(comm=WORLD)
-        ts.setType(method)
         parts = {"S": self.ring.S, "M": self.ring.M, "D": self.ring.D}
         if damping == "S":
             parts = {"S": self.ring.S - self.ring.D, "M": self.ring.M}
-        for name, part in parts.items():
-            ts.compose(name, self.matrix(part))
-        ts.compose("V", tao)
-        ts.setTimeStep(h)
-        ts.setMaxTime(end)
-        ts.setMaxSteps(100000)
-        ts.setExactFinalTime(PETSc.TS.ExactFinalTime.MATCHSTEP)
-        return ts
+        shared = {name: self.matrix(part) for name, part in parts.items()}
+        return one.stepper(method, h, end, shared | {"V": tao}, WORLD)
 
     def vector(self):
         return PETSc.Vec().createWithArray(self.ring.start[self.here].copy(), comm=WORLD)

@@ -36,6 +36,19 @@ def sparse(a):
     return mat
 
 
+def stepper(method, h, end, parts, comm=SELF):
+    ts = PETSc.TS().create(comm=comm)
+    ts.setType(method)
+    for name, part in parts.items():
+        if part is not None:
+            ts.compose(name, part)
+    ts.setTimeStep(h)
+    ts.setMaxTime(end)
+    ts.setMaxSteps(100000)
+    ts.setExactFinalTime(PETSc.TS.ExactFinalTime.MATCHSTEP)
+    return ts
+
+
 class Ring:
     """ü = ∂²u − u − ∇V − γu̇ on a ring, with its components in any order."""
 
@@ -73,17 +86,7 @@ class Ring:
             g.array[:] = self.slope(self.plain(u.array_r))[self.order]
 
         tao.setGradient(gradient, None)
-        ts = PETSc.TS().create(comm=SELF)
-        ts.setType(method)
-        given = {"S": sparse(self.S), "M": sparse(self.M), "D": sparse(self.D), "V": tao} | parts
-        for name, part in given.items():
-            if part is not None:
-                ts.compose(name, part)
-        ts.setTimeStep(h)
-        ts.setMaxTime(end)
-        ts.setMaxSteps(100000)
-        ts.setExactFinalTime(PETSc.TS.ExactFinalTime.MATCHSTEP)
-        return ts
+        return stepper(method, h, end, {"S": sparse(self.S), "M": sparse(self.M), "D": sparse(self.D), "V": tao} | parts)
 
     def vector(self):
         return PETSc.Vec().createWithArray(self.start.copy(), comm=SELF)

@@ -1,5 +1,4 @@
 #include <seiche/backend/sparse/pade_poles.hpp>
-#include <seiche/core/system.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -76,6 +75,12 @@ PadePlan plan_pade(double radius, double tolerance) {
     }
   }
   return best;
+}
+
+PadePlan plan_exponential(double radius, const SparseOptions& options) {
+  constexpr double tolerance = 1e-14;
+  if (options.pade_degree > 0) return {options.pade_degree, 1};
+  return plan_pade(radius, tolerance);
 }
 
 }  // namespace seiche

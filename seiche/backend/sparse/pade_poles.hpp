@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/base/vector.hpp>
+#include <seiche/core/system.hpp>
 
 #include <complex>
 #include <vector>
@@ -19,5 +20,7 @@ struct PadePlan {
 // The fewest solves with which |r − exp| stays below `tolerance` on |x| ≤ radius, from the leading term of the error,
 // (q!)² / ((2q)! (2q+1)!) |x|^{2q+1} per step.
 PadePlan plan_pade(double radius, double tolerance);
+// That of propagators: to round-off, or of the degree that the options ask for.
+PadePlan plan_exponential(double radius, const SparseOptions& options);
 
 }  // namespace seiche

@@ -30,31 +30,32 @@ bool is_diagonal(const SparseMatrix& a) {
   return diagonal;
 }
 
-// e^{−hD} as the exponential of hSM with S = −I and M = D.
-struct DampingSystem {
-  explicit DampingSystem(const SparseMatrix& damping)
-      : D(damping), minus_I(-identity_matrix(D.rows())), factory(minus_I, D), radius(spectral_radius_bound(D)) {}
-  SparseMatrix D, minus_I;
-  SparseProduct<const SparseMatrix&> D_times{D}, minus{minus_I};
-  ResolventFactory factory;
-  double radius;
+class MinusIdentity final : public Product {
+ public:
+  void apply(std::span<const double> x, std::span<double> y) const override {
+    for (std::size_t i = 0; i < x.size(); ++i) y[i] = -x[i];
+  }
 };
+const MinusIdentity minus_identity;
 
+// The exponential of hSM with S = −I and M = D.
 class DampingExponential final : public LinearMap {
  public:
-  DampingExponential(std::shared_ptr<const DampingSystem> system, double h)
-      : system_(std::move(system)),
-        force_(system_->minus, system_->D_times, system_->D.rows(), system_->factory, h,
-               plan_pade(std::abs(h) * system_->radius, 1e-15)),
-        Dz_(system_->D.rows()) {}
+  DampingExponential(std::shared_ptr<const Product> D, double radius, std::shared_ptr<const Resolvents> resolvents,
+                     Index size, double h)
+      : D_(std::move(D)),
+        resolvents_(std::move(resolvents)),
+        force_(minus_identity, *D_, size, *resolvents_, h, plan_pade(std::abs(h) * radius, 1e-15)),
+        Dz_(size) {}
   void apply(const Vector& in, Vector& out) const override {
-    Dz_.noalias() = system_->D * in;
+    D_->apply(in, Dz_);
     force_.apply(Dz_, out);
     out += in;
   }
 
  private:
-  std::shared_ptr<const DampingSystem> system_;
+  std::shared_ptr<const Product> D_;
+  std::shared_ptr<const Resolvents> resolvents_;
   PadeForce force_;
   mutable Vector Dz_;
 };
@@ -63,15 +64,19 @@ class DampingExponential final : public LinearMap {
 
 std::unique_ptr<LinearMap> sparse_map(const SparseMatrix& a) { return std::make_unique<SparseMap>(a); }
 
+std::unique_ptr<LinearMap> diagonal_map(Vector diagonal) { return std::make_unique<DiagonalMap>(std::move(diagonal)); }
+
+std::unique_ptr<LinearMap> pade_decay(std::shared_ptr<const Product> D, double radius,
+                                      std::shared_ptr<const Resolvents> resolvents, Index size, double h) {
+  return std::make_unique<DampingExponential>(std::move(D), radius, std::move(resolvents), size, h);
+}
+
 std::function<std::unique_ptr<LinearMap>(double)> sparse_damping_flow(const SparseMatrix& D) {
-  if (is_diagonal(D)) {
-    return [diagonal = Vector(D.diagonal())](double h) {
-      return std::make_unique<DiagonalMap>((-h * diagonal.array()).exp().matrix());
-    };
-  }
-  return [system = std::make_shared<const DampingSystem>(D)](double h) {
-    return std::make_unique<DampingExponential>(system, h);
-  };
+  if (is_diagonal(D))
+    return [diagonal = Vector(D.diagonal())](double h) { return diagonal_map((-h * diagonal.array()).exp().matrix()); };
+  return [D_times = std::make_shared<SparseProduct<SparseMatrix>>(D), radius = spectral_radius_bound(D),
+          resolvents = std::make_shared<ResolventFactory>(SparseMatrix(-identity_matrix(D.rows())), D),
+          size = D.rows()](double h) { return pade_decay(D_times, radius, resolvents, size, h); };
 }
 
 }  // namespace seiche

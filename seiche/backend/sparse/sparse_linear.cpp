@@ -10,8 +10,6 @@
 namespace seiche {
 namespace {
 
-constexpr double exponential_tolerance = 1e-14;
-
 struct Operators {
   SparseMatrix S, M, absolute_M;
   Potential::Support support;
@@ -75,10 +73,7 @@ class SparseLinear final : public LinearPart {
   }
 
  private:
-  PadePlan plan(double h) const {
-    if (options_.pade_degree > 0) return {options_.pade_degree, 1};
-    return plan_pade(std::abs(h) * radius_, exponential_tolerance);
-  }
+  PadePlan plan(double h) const { return plan_exponential(std::abs(h) * radius_, options_); }
   std::unique_ptr<PadeForce> force(double h, PadePlan plan) const {
     return std::make_unique<PadeForce>(S_, M_, operators_.S.rows(), factory(), h, plan);
   }
