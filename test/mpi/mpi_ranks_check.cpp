@@ -1,7 +1,10 @@
 // mpiexec -n P mpi_ranks_check: on P processes of MPI a run has the bits that each of them computes alone.
 //                              --time METHOD POINTS: milliseconds that a step takes on a square of so many points
+//                              --exchange NUMBERS: microseconds of an exchange of so many with each other process
+//                              --sum: microseconds of a sum over all processes
 //                              --fail: the first process fails
 #include <seiche/core/base/error.hpp>
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/mpi/mpi_processes.hpp>
 #include <seiche/problem/klein_gordon.hpp>
@@ -49,19 +52,34 @@ void compare(const Problem& problem, const std::string& method, const Ranks& ran
     throw Error("{}: other bits on {} processes than on one", method, ranks.here().count);
 }
 
-// The least of several turns.
+// Milliseconds of an action: the least of several turns of so many.
+double milliseconds(int count, FunctionRef<void()> action) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn < 10; ++turn) {
+    const auto begin = std::chrono::steady_clock::now();
+    for (int n = 0; n < count; ++n) action();
+    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
+    least = std::min(least, taken.count() / count);
+  }
+  return least;
+}
+
 double milliseconds_of_a_step(const std::string& method, long points, const Ranks& ranks) {
   const Problem part = part_of(wave({points, points}, {Boundary::periodic}), ranks.here());
   Simulation simulation(part, {.method = method, .backend = "modal", .backend_options = {.ranks = &ranks}});
-  double least = std::numeric_limits<double>::infinity();
-  for (int turn = 0; turn < 10; ++turn) {
-    constexpr int steps = 8;
-    const auto begin = std::chrono::steady_clock::now();
-    for (int n = 0; n < steps; ++n) simulation.step(0.001);
-    const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
-    least = std::min(least, taken.count() / steps);
-  }
-  return least;
+  return milliseconds(8, [&] { simulation.step(0.001); });
+}
+
+double microseconds_of_an_exchange(Index numbers, const Ranks& ranks) {
+  const std::vector<Index> counts(static_cast<std::size_t>(ranks.here().count), numbers);
+  const std::vector<double> from(counts.size() * static_cast<std::size_t>(numbers), 1.0);
+  std::vector<double> to(from.size());
+  return 1000 * milliseconds(100, [&] { ranks.exchange(from, counts, to, counts); });
+}
+
+double microseconds_of_a_sum(const Ranks& ranks) {
+  double number = 0;
+  return 1000 * milliseconds(1000, [&] { ranks.sum({&number, 1}); });
 }
 
 }  // namespace
@@ -71,11 +89,15 @@ int main(int count, char** arguments) {
   try {
     const Ranks* const ranks = &processes->ranks();
     const std::vector<std::string> words(arguments + 1, arguments + count);
-    if (words.size() == 3 && words[0] == "--time") {
-      const double time = milliseconds_of_a_step(words[1], std::stol(words[2]), *ranks);
-      if (ranks->here().index == 0) fmt::print("{:.3f} ms on {} processes\n", time, ranks->here().count);
+    const auto say = [&](double time, const char* unit) {
+      if (ranks->here().index == 0) fmt::print("{:.3f} {} on {} processes\n", time, unit, ranks->here().count);
       return 0;
-    }
+    };
+    if (words.size() == 3 && words[0] == "--time")
+      return say(milliseconds_of_a_step(words[1], std::stol(words[2]), *ranks), "ms");
+    if (words.size() == 2 && words[0] == "--exchange")
+      return say(microseconds_of_an_exchange(std::stol(words[1]), *ranks), "µs");
+    if (words == std::vector<std::string>{"--sum"}) return say(microseconds_of_a_sum(*ranks), "µs");
     if (words == std::vector<std::string>{"--fail"}) {
       if (ranks->here().index == 0) throw Error("process 0 fails, and the others wait for it");
       double waits = 0;
