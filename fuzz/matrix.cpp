@@ -1,10 +1,10 @@
-// Whatever stands in a Matrix Market file, a problem is made of it, or it is refused with a sentence. Files that need
-// more than 128 MB, by their header, are left out; scripts/fuzz-program runs what needs twice that.
+// Whatever stands in a file of Matrix Market or of PETSc, a problem is made of it, or it is refused with a sentence.
+// Files that need more than 128 MB, by their header, are left out; scripts/fuzz-program runs what needs twice that.
 #include "bars.hpp"
 #include "own_folder.hpp"
 
 #include <seiche/config/case/case_file.hpp>
-#include <seiche/config/data/matrix_market.hpp>
+#include <seiche/config/data/matrix_file.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr Index most_rows = 64;  // with which a step is taken
 void read(const std::string& text) {
   static const OwnFolder folder;
   write(folder.path / "M.mtx", text);
-  const MatrixSizes sizes = matrix_market_sizes(folder.path / "M.mtx");
+  const MatrixSizes sizes = matrix_sizes(folder.path / "M.mtx");
   if (static_cast<double>(std::max(sizes.rows, sizes.columns)) * bytes_per_row > memory) return;
   for (const char* matrices : {"M = \"M.mtx\"\n", "M = \"M.mtx\"\nS = \"M.mtx\"\nfields = 1\n"}) {
     const RunSpec spec =

@@ -13,7 +13,7 @@
 
 namespace seiche {
 
-// rate: a number, or a formula in t and place; matrix: the name of a Matrix Market file, or "" for none
+// rate: a number, or a formula in t and place; matrix: the name of its file, or "" for none
 enum class ParameterKind { real, integer, rate, choice, matrix };
 
 struct Parameter {

@@ -127,7 +127,8 @@ ProblemEntry network_entry() {
                          .default_end = 20.0},
                         from_graph)
       .row(&P::graph,
-           {.name = "graph", .meaning = "w, a Matrix Market file; \"\": a ring with shortcuts, by the four below"})
+           {.name = "graph",
+            .meaning = "w, a file of Matrix Market or of PETSc; \"\": a ring with shortcuts, by the four below"})
       .choice(&P::is_laplacian,
               {.name = "graph_matrix", .meaning = "what the file holds", .choices = {"adjacency", "laplacian"}})
       .row(&P::nodes, {.name = "nodes", .meaning = "of the ring", .minimum = 3, .maximum = 1 << 24})

@@ -101,8 +101,8 @@ ProblemEntry sparse_entry() {
                         from_files)
       .row(&P::M,
            {.name = "M",
-            .meaning = "symmetric, positive semidefinite; a Matrix Market file; \"\": a chain of 20, held at its "
-                       "ends"})
+            .meaning = "symmetric, positive semidefinite; a file of Matrix Market, or of PETSc (binary); \"\": a "
+                       "chain of 20, held at its ends"})
       .row(&P::S,
            {.name = "S", .meaning = "the structure; a law is promised where S + Sᵀ ⪯ 0; \"\": [[0, I], [−I, 0]]"})
       .row(&P::D, {.name = "D", .meaning = "constant damping; \"\": none"})

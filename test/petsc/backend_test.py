@@ -75,6 +75,29 @@ for case, overrides in every.items():
             assert summary["backend"] == "petsc" and summary["energy"]["law"] != "violated", summary
         seiche("audit", folder)
 
+# Matrices from files that PETSc has written.
+try:
+    from petsc4py import PETSc
+except ImportError:
+    PETSc = None
+if PETSc is not None:
+    for name in ("M", "D"):
+        with open(f"{cases}/beads_{name}.mtx") as file:
+            lines = [line for line in file if not line.startswith("%")]
+        rows, columns, _ = map(int, lines[0].split())
+        matrix = PETSc.Mat().createAIJ((rows, columns))
+        matrix.setUp()
+        for line in lines[1:]:
+            i, j, value = line.split()
+            matrix[int(i) - 1, int(j) - 1] = matrix[int(j) - 1, int(i) - 1] = float(value)
+        matrix.assemble()
+        matrix.view(PETSc.Viewer().createBinary(f"{name}.bin", "w", comm=PETSc.COMM_SELF))
+    run("sparse", "from_petsc", "time.end=0.5", *(f"problem.{name}={os.getcwd()}/{name}.bin" for name in ("M", "D")))
+    run("sparse", "from_market", "time.end=0.5")
+    assert (final("from_petsc") == final("from_market")).all()
+else:
+    print("backend_test: without matrices of PETSc, for want of petsc4py")
+
 # The law by an iteration that ends early.
 for case in ("chain", "network"):
     for processes in (1, 2):

@@ -2,7 +2,7 @@
 #include <seiche/config/case/case_reading.hpp>
 #include <seiche/config/custom/custom_case.hpp>
 #include <seiche/config/data/initial_formulas.hpp>
-#include <seiche/config/data/matrix_market.hpp>
+#include <seiche/config/data/matrix_file.hpp>
 #include <seiche/config/data/rate_formulas.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/base/shortened.hpp>
@@ -163,7 +163,7 @@ std::optional<MatrixSizes> matrix_sizes(const std::string& key, const CaseValue&
                                         const std::filesystem::path& folder) {
   const std::string name = read_text(key, value);
   if (name.empty()) return std::nullopt;
-  return matrix_market_sizes(find_file(key, name, folder));
+  return seiche::matrix_sizes(find_file(key, name, folder));
 }
 
 void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& value,
@@ -173,9 +173,8 @@ void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& v
     const std::string name = read_text(key, value);
     const std::string file = name.empty() ? "" : find_file(key, name, folder).string();
     bool repeats = false;
-    spec.parameters.set(parameter.name, file.empty()
-                                            ? nullptr
-                                            : std::make_shared<const SparseMatrix>(read_matrix_market(file, &repeats)));
+    spec.parameters.set(parameter.name,
+                        file.empty() ? nullptr : std::make_shared<const SparseMatrix>(read_matrix(file, &repeats)));
     if (repeats)
       spec.notes.push_back(fmt::format("{}: {} has several entries at one place, which add up", key,
                                        std::filesystem::path(file).filename().string()));

@@ -2,7 +2,7 @@
 #include <seiche/config/case/case_parameters.hpp>
 #include <seiche/config/case/problem_section.hpp>
 #include <seiche/config/custom/custom_case.hpp>
-#include <seiche/config/data/matrix_market.hpp>
+#include <seiche/config/data/matrix_file.hpp>
 
 #include <fmt/ranges.h>
 

@@ -1,6 +1,5 @@
 #include <seiche/config/data/matrix_market.hpp>
 #include <seiche/core/base/error.hpp>
-#include <seiche/core/base/memory_limit.hpp>
 #include <seiche/core/base/shortened.hpp>
 #include <seiche/core/text/input_file.hpp>
 
@@ -119,10 +118,7 @@ class Reader {
       complain("after the header stand {}", is_array_ ? "rows and columns" : "rows, columns and the number of entries");
     rows_ = number<Index>(words_[0]);
     columns_ = number<Index>(words_[1]);
-    constexpr Index most = std::numeric_limits<int>::max();
-    if (rows_ < 1 || columns_ < 1 || rows_ > most || columns_ > most)
-      complain("a matrix of {} × {} is not possible", rows_, columns_);
-    require_memory();
+    if (const std::string text = complaint_about_sizes(rows_, columns_); !text.empty()) complain("{}", text);
     const bool half = is_symmetric_ || is_skew_;
     if (half && rows_ != columns_)
       complain("a symmetric matrix must be square and this one is {} × {}", rows_, columns_);
@@ -131,15 +127,6 @@ class Reader {
     if (count_ < 0) complain("{} entries are not possible", count_);
     if (static_cast<double>(count_) * 2 > bytes_)
       complain("{} entries do not fit into the {:.0f} bytes of this file", count_, bytes_);
-  }
-
-  // Of S, M, D and what is made of them with so many rows, however few entries follow.
-  void require_memory() const {
-    constexpr double bytes_per_row = 3 * 90;  // measured
-    const double needed = bytes_per_row * static_cast<double>(std::max(rows_, columns_));
-    if (needed > memory_limit())
-      complain("a matrix of {} × {} needs at least {:.3g} bytes, but only {:.3g} are available", rows_, columns_,
-               needed, memory_limit());
   }
 
   void add(Index i, Index j, double x) {

@@ -5,14 +5,20 @@
 #include <test/support/temporary_directory.hpp>
 
 #include <seiche/config/case/case_file.hpp>
+#include <seiche/config/data/matrix_file.hpp>
 #include <seiche/config/data/matrix_market.hpp>
 #include <seiche/core/numerics/definiteness.hpp>
 #include <seiche/problem/network.hpp>
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <string>
+#include <tuple>
+#include <vector>
 
 namespace seiche::test {
 namespace TEST_FILE {
@@ -67,6 +73,75 @@ TEST(Sparse, StencilsWithMoreEntriesThanAMatrixCanCountAreRefused) {
   const Stencil laplacian = Stencil::laplacian(grid, Discretisation::fd4);
   const std::string message = error_of([&] { laplacian.sparse_matrix(grid); });
   EXPECT_NE(message.find("fewer points"), std::string::npos) << message;
+}
+
+// As PETSc writes a matrix: numbers with their highest byte first.
+class PetscBinary : public InTemporaryDirectory {
+ protected:
+  std::string integers(const std::vector<std::int64_t>& numbers) const {
+    std::string text;
+    for (const std::int64_t number : numbers) text += bytes(static_cast<std::uint64_t>(number), wide ? 8 : 4);
+    return text;
+  }
+  static std::string reals(const std::vector<double>& numbers) {
+    std::string text;
+    for (const double number : numbers) text += bytes(std::bit_cast<std::uint64_t>(number), 8);
+    return text;
+  }
+  std::filesystem::path write(const std::string& text) const {
+    std::filesystem::path file = directory / "a.bin";
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+  }
+  std::string mark(std::int64_t number = 1211216) const {
+    return (wide ? std::string(4, '\0') : "") + bytes(static_cast<std::uint64_t>(number), 4);
+  }
+  std::string refusal(const std::string& text) const {
+    return error_of([&] { read_matrix(write(text)); });
+  }
+  bool wide = false;
+
+ private:
+  static std::string bytes(std::uint64_t number, int count) {
+    std::string text;
+    for (int k = count; k-- > 0;) text += static_cast<char>(number >> (8 * k) & 0xff);
+    return text;
+  }
+};
+
+TEST_F(PetscBinary, SparseAndDenseMatricesAreReadWithIndicesOfBothWidths) {
+  Matrix expected(2, 3);
+  expected << 1, 0, -2.5, 0, 3, 0;
+  for (const bool of_64_bits : {false, true}) {
+    wide = of_64_bits;
+    EXPECT_EQ(Matrix(read_matrix(write(mark() + integers({2, 3, 3, 2, 1, 0, 2, 1}) + reals({1, -2.5, 3})))), expected);
+    EXPECT_EQ(Matrix(read_matrix(write(mark() + integers({2, 3, -1}) + reals({1, 0, -2.5, 0, 3, 0})))), expected);
+    const MatrixSizes sizes = matrix_sizes(directory / "a.bin");
+    EXPECT_EQ(std::tuple(sizes.rows, sizes.columns, sizes.entries), std::tuple(2, 3, 6));
+  }
+  bool repeats = false;
+  EXPECT_EQ(read_matrix(write(mark() + integers({1, 1, 2, 2, 0, 0}) + reals({1, 2})), &repeats).coeff(0, 0), 3);
+  EXPECT_TRUE(repeats);
+}
+
+TEST_F(PetscBinary, WhatIsWrongWithAFileIsSaid) {
+  const auto says = [](const std::string& message, const std::string& what) {
+    EXPECT_NE(message.find(what), std::string::npos) << message;
+  };
+  for (const bool of_64_bits : {false, true}) {
+    wide = of_64_bits;
+    says(refusal(mark(1211214) + integers({1}) + reals({1})), "a.bin is a vector of PETSc");
+    says(refusal(mark() + integers({1, 1, 1, 1, 0}) + reals({1, 0})), "one matrix is expected, of real numbers");
+    says(refusal(mark() + integers({1, 1, 1, 1, 0})), "one matrix is expected");
+    says(refusal(mark() + integers({1, 1, 1, 1, 1}) + reals({1})), "no column 2 in a matrix of 1 × 1");
+    says(refusal(mark() + integers({1, 1, 1, 2, 0}) + reals({1})), "a row of 2 entries is not possible");
+    says(refusal(mark() + integers({2, 1, 1, 0, 0, 0}) + reals({1})), "0 entries together, and 1 are there");
+    says(refusal(mark() + integers({1, 1, 1, 1, 0}) + reals({std::nan("")})), "the entry (1, 1) is not finite");
+    says(refusal(mark() + integers({0, 1, 0})), "a matrix of 0 × 1 is not possible");
+    says(refusal(mark() + integers({2000000000, 1, 0})), "needs at least");
+    says(refusal(mark() + integers({1, 1, -2})), "-2 entries are not possible");
+    says(refusal(mark() + integers({1})), "a.bin ends too early");
+  }
 }
 
 class MatrixMarket : public InTemporaryDirectory {
