@@ -25,6 +25,7 @@ _KEY_ARGUMENTS = {
     "backend.exponential": "exponential",
     "backend.pade_degree": "pade_degree",
     "backend.lanczos_dimension": "lanczos_dimension",
+    "backend.solver": "solver",
     "time.start": "t_start",
     "time.end": "t_end",
     "output.energy_every": "energy_every",

@@ -5,9 +5,18 @@
 #include <seiche/core/potential.hpp>
 #include <seiche/core/propagator.hpp>
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace seiche {
+
+// What a linear solver that stops at a tolerance has done for propagators: iterations, and the largest relative move by
+// which they restored their contract afterwards (restoring_pade_propagator).
+struct SolverShare {
+  std::int64_t iterations = 0;
+  double restored = 0.0;
+};
 
 class LinearPart {
  public:
@@ -20,6 +29,7 @@ class LinearPart {
   virtual double quadratic_magnitude(const Vector& z) const = 0;  // ½|z|ᵀ|M||z|, the scale of its round-off
   virtual ValueAndMagnitude quadratic(const Vector& z) const { return {quadratic_energy(z), quadratic_magnitude(z)}; }
   virtual std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const = 0;
+  virtual std::optional<SolverShare> solver_share() const { return {}; }  // nothing: propagators are to round-off
 };
 
 }  // namespace seiche

@@ -158,10 +158,14 @@ std::string RunReport::full() const {
 }
 
 std::string RunReport::work() const {
-  return fmt::format(
+  std::string text = fmt::format(
       "{:<10} {} gradients, {} potentials, {} scalar iterations, fallbacks: {}, replaced steps: {}, unresolved: {}\n",
       "work", potential_counts.gradients, potential_counts.values, scalar_iterations, fallbacks, replaced.count,
       unresolved);
+  if (solver)
+    text += fmt::format("{:<10} {} iterations; what it missed of the law restored by {:.2g} at most\n", "solver",
+                        solver->iterations, solver->restored);
+  return text;
 }
 
 }  // namespace seiche

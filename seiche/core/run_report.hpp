@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/control/archive.hpp>
+#include <seiche/core/linear_part.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/replaced_steps.hpp>
 
@@ -67,6 +68,7 @@ struct RunReport {
   std::string law_reason;
   std::optional<EnergyDrift> drift;  // by more than a tenth, where no violated law says it already
   Potential::Counts potential_counts;
+  std::optional<SolverShare> solver;
   std::int64_t scalar_iterations = 0;
   std::int64_t fallbacks = 0;  // times a solver left its first choice; most of them cost no accuracy
   ReplacedSteps replaced;

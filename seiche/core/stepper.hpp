@@ -21,7 +21,8 @@ struct StepLedger {
   // G = −(F + Fᵀ + FᵀMF), w = Mz + f; before a projection what ẑ misses of the dissipation.
   double substep = 0.0;
   // What the substep changes of that energy beside it, because the equation of a closure (avf, lm, dm) was solved to a
-  // tolerance; sav solves its own in closed form, and a projection ends on its energy.
+  // tolerance, or the linear systems in it (of avf); sav solves its own in closed form, and a projection ends on its
+  // energy.
   double scalar = 0.0;
   double auxiliary = 0.0;      // change of H − modified energy in the substep: V drifts from r² − C
   double projection = 0.0;     // onto the energy of the law

@@ -60,4 +60,10 @@ void SparseOptions::validate() const {
     throw Error("lanczos_dimension = {} must be at least 2, or 0 for as many as it takes", lanczos_dimension);
 }
 
+bool is_skew(const System& system) {
+  const Vector z = Vector::Zero(system.space->size());
+  Vector image(z);
+  return !system.linear->apply_symmetric_S(z, image);
+}
+
 }  // namespace seiche

@@ -60,6 +60,8 @@ struct System {
   void right_hand_side(double t, const Vector& z, Vector& out) const;  // S(z)∇H − Dz − R + f
 };
 
+bool is_skew(const System& system);  // S without what changes with the state
+
 // How the sparse backend takes exponentials: by Padé approximation with factorised matrices, or by Lanczos iteration.
 enum class ExponentialKind { pade, lanczos };
 
@@ -69,6 +71,7 @@ struct SparseOptions {
   ExponentialKind exponential = ExponentialKind::pade;
   int pade_degree = 0;        // 1 … 12; 0: whatever round-off asks for
   int lanczos_dimension = 0;  // pairs of vectors, ≥ 2; 0: until nothing changes
+  std::string solver = {};    // of petsc: options of its linear solvers; "": those of PETSC_OPTIONS
   void validate() const;      // throws Error on a number outside these bounds
 };
 

@@ -43,6 +43,7 @@ Recording::Recording(const System& system, const Stepper& stepper, State& state,
       good_{.state = state},
       first_n_(state.n),
       counts_before_(system.potential->counts()),
+      solver_before_(system.linear->solver_share()),
       begin_(std::chrono::steady_clock::now()) {}
 
 void Recording::count(const StepReport& step) {
@@ -210,6 +211,7 @@ RunReport Recording::finish(const std::function<std::string()>& objection, const
   settle_report(
       report_, system_, [&] { return system_.space->physical(state_.z); }, [&] { return met_by(objection); });
   report_.potential_counts = counts();
+  report_.solver = solver_share();
   complete_message(remark);
   report_.wall_seconds = seconds();
   finish_observers();
@@ -220,6 +222,14 @@ Potential::Counts Recording::counts() const {
   const Potential::Counts now = system_.potential->counts();
   return {counts_earlier_.gradients + now.gradients - counts_before_.gradients,
           counts_earlier_.values + now.values - counts_before_.values};
+}
+
+std::optional<SolverShare> Recording::solver_share() const {
+  std::optional<SolverShare> share = system_.linear->solver_share();
+  if (!share) return share;
+  share->iterations += solver_earlier_.iterations - (solver_before_ ? solver_before_->iterations : 0);
+  share->restored = std::max(share->restored, solver_earlier_.restored);
+  return share->iterations > 0 ? share : std::nullopt;  // a method may ask for no linear system
 }
 
 double Recording::seconds() const {
@@ -240,6 +250,7 @@ std::string Recording::met_by(const std::function<std::string()>& objection) con
 
 void Recording::archive(Archive& a, const std::function<std::string()>& objection) {
   Potential::Counts counts_so_far = counts();
+  SolverShare solver_so_far = solver_share().value_or(SolverShare());
   double seconds_so_far = seconds();
   std::string met = met_by(objection);
   a.join_vectors(joint_);
@@ -247,10 +258,12 @@ void Recording::archive(Archive& a, const std::function<std::string()>& objectio
   a(report_.scalar_iterations, report_.fallbacks, report_.unresolved, report_.replaced, report_.widened, report_.halved,
     report_.rejected, report_.events, met, seconds_so_far);
   a.numbers(counts_so_far);
+  a(solver_so_far.iterations, solver_so_far.restored);
   if (!a.reads()) return;
   keep_good();
   earlier_objection_ = met;
   counts_earlier_ = counts_so_far;
+  solver_earlier_ = solver_so_far;
   seconds_earlier_ = seconds_so_far;
   count_from_here();
   begin_ = std::chrono::steady_clock::now();

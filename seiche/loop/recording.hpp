@@ -69,7 +69,10 @@ class Recording {
   // in a run that goes on from here.
   void archive(Archive& a, const std::function<std::string()>& objection);
   // What was evaluated up to now to go on from a checkpoint has been counted before it.
-  void count_from_here() { counts_before_ = system_.potential->counts(); }
+  void count_from_here() {
+    counts_before_ = system_.potential->counts();
+    solver_before_ = system_.linear->solver_share();
+  }
 
  private:
   void fail_not_finite(const char* what);
@@ -83,6 +86,7 @@ class Recording {
   void complete_message(const std::string& remark);
   void finish_observers();
   Potential::Counts counts() const;
+  std::optional<SolverShare> solver_share() const;  // likewise
   double seconds() const;
 
   const System& system_;
@@ -105,7 +109,9 @@ class Recording {
   std::string earlier_objection_;     // of the run that this one goes on from
   Potential::Counts counts_earlier_;  // likewise
   double seconds_earlier_ = 0;
+  SolverShare solver_earlier_;
   Potential::Counts counts_before_;
+  std::optional<SolverShare> solver_before_;
   std::chrono::steady_clock::time_point begin_;
 };
 

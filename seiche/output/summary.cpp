@@ -60,6 +60,8 @@ std::string summary_json(const RunIdentity& run, const RunReport& report) {
                   {"wall_seconds", number(report.wall_seconds)},
                   {"finished", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(run.finished))},
                   {"versions", versions}};
+  if (report.solver)
+    summary["solver"] = {{"iterations", report.solver->iterations}, {"restored", number(report.solver->restored)}};
   if (run.threads > 0) summary["threads"] = run.threads;
   if (run.processes > 1) summary["processes"] = run.processes;
   if (!run.hashes.empty()) summary["sha256"] = run.hashes;

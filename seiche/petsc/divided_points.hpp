@@ -3,7 +3,7 @@
 
 #include <seiche/core/grid/ranks.hpp>
 #include <seiche/core/potential.hpp>
-#include <seiche/petsc/petsc_matrices.hpp>
+#include <seiche/petsc/solver/petsc_matrices.hpp>
 
 #include <memory>
 

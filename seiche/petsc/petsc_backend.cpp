@@ -118,7 +118,9 @@ System make_system(const Problem& problem, const BackendOptions& options) {
   if (frozen.nonZeros() > 0) divided.make(frozen, communicator, D0);
 
   const Potential::Support support = potential->support();
-  const PetscEquation equation{.S = S, .M = M, .D = D0, .ranks = &ranks};
+  const SolverOptions solver =
+      options.sparse.solver.empty() ? SolverOptions() : SolverOptions::of_text(options.sparse.solver);
+  const PetscEquation equation{.S = S, .M = M, .D = D0, .ranks = &ranks, .solver = solver};
   System system = petsc_system(equation, std::move(space), support, options.sparse);
   system.fields = problem.field_count();
   system.potential = std::move(potential);
@@ -126,7 +128,7 @@ System make_system(const Problem& problem, const BackendOptions& options) {
   GridDamping::MakeFlow make_flow;
   if (constant.nonZeros() > 0) {
     map = petsc_map(D);
-    make_flow = petsc_damping_flow(D, *system.space, equation.prefix);
+    make_flow = petsc_damping_flow(D, *system.space, solver);
   }
   system.damping = std::make_unique<GridDamping>(problem, identity, std::move(map), std::move(make_flow));
   add_beyond_linear(system, problem, identity, [&]() -> std::unique_ptr<LinearMap> {

@@ -1,8 +1,8 @@
 #include <seiche/backend/sparse/sparse_damping.hpp>
 #include <seiche/core/spectral_radius.hpp>
 #include <seiche/core/step_cache.hpp>
-#include <seiche/petsc/ksp_resolvents.hpp>
 #include <seiche/petsc/petsc_damping.hpp>
+#include <seiche/petsc/solver/ksp_resolvents.hpp>
 
 #include <optional>
 
@@ -20,12 +20,12 @@ class PetscMap final : public LinearMap {
 
 class MatrixDamping final : public Damping {
  public:
-  MatrixDamping(Mat D, const Space& space, Potential::Support support, const std::string& prefix)
+  MatrixDamping(Mat D, const Space& space, Potential::Support support, const SolverOptions& options)
       : space_(space), image_(space.size()) {
     if (D == nullptr) return;
     touches_potential_ = space.any(has_entries(D, support));
     D_ = petsc_map(D);
-    make_flow_ = petsc_damping_flow(D, space, prefix);
+    make_flow_ = petsc_damping_flow(D, space, options);
   }
 
   bool is_zero() const override { return !D_; }
@@ -69,7 +69,7 @@ class MatrixDamping final : public Damping {
 std::unique_ptr<LinearMap> petsc_map(Mat a) { return std::make_unique<PetscMap>(a); }
 
 std::function<std::unique_ptr<LinearMap>(double)> petsc_damping_flow(Mat D, const Space& space,
-                                                                     const std::string& prefix) {
+                                                                     const SolverOptions& options) {
   Vector diagonal = Vector::Zero(local_rows(D));
   bool is_diagonal = true;
   visit_rows(D, [&](Index row, std::span<const PetscInt> columns, std::span<const double> values) {
@@ -86,13 +86,13 @@ std::function<std::unique_ptr<LinearMap>(double)> petsc_damping_flow(Mat D, cons
   require(MatDuplicate(D, MAT_COPY_VALUES, minus_D.make()));
   require(MatScale(minus_D, -1));
   return [D_times = std::make_shared<PetscProduct>(D), radius = spectral_radius_bound(D),
-          resolvents = std::make_shared<KspResolvents>(minus_D, prefix, KspResolvents::Tolerance::round_off),
+          resolvents = std::make_shared<KspResolvents>(minus_D, options, 0, KspResolvents::Tolerance::round_off),
           size = local_rows(D)](double h) { return pade_decay(D_times, radius, resolvents, size, h); };
 }
 
 std::unique_ptr<Damping> petsc_damping(Mat D, const Space& space, Potential::Support support,
-                                       const std::string& prefix) {
-  return std::make_unique<MatrixDamping>(D, space, support, prefix);
+                                       const SolverOptions& options) {
+  return std::make_unique<MatrixDamping>(D, space, support, options);
 }
 
 }  // namespace seiche

@@ -3,22 +3,22 @@
 
 #include <seiche/core/damping.hpp>
 #include <seiche/core/numerics/linear_map.hpp>
-#include <seiche/petsc/petsc_matrices.hpp>
+#include <seiche/petsc/solver/petsc_matrices.hpp>
+#include <seiche/petsc/solver/solver_options.hpp>
 
 #include <functional>
 #include <memory>
-#include <string>
 
 namespace seiche {
 
 std::unique_ptr<LinearMap> petsc_map(Mat a);  // z ↦ az
 
-// As sparse_damping_flow: of D that is not diagonal by KspResolvents with `prefix`, whose iterations go to round-off.
+// As sparse_damping_flow: of D that is not diagonal by KspResolvents, whose iterations go to round-off.
 std::function<std::unique_ptr<LinearMap>(double h)> petsc_damping_flow(Mat D, const Space& space,
-                                                                       const std::string& prefix);
+                                                                       const SolverOptions& options);
 
 // Dz alone, for systems that no Problem states. D null: none. `space` outlives it.
 std::unique_ptr<Damping> petsc_damping(Mat D, const Space& space, Potential::Support support,
-                                       const std::string& prefix);
+                                       const SolverOptions& options);
 
 }  // namespace seiche

@@ -1,7 +1,7 @@
 #include <seiche/backend/sparse/pade_propagator.hpp>
-#include <seiche/petsc/ksp_resolvents.hpp>
 #include <seiche/petsc/petsc_krylov.hpp>
 #include <seiche/petsc/petsc_system.hpp>
+#include <seiche/petsc/solver/ksp_resolvents.hpp>
 
 #include <cmath>
 #include <optional>
@@ -32,16 +32,15 @@ class RowSpace final : public Space {
 
 class PetscLinear final : public LinearPart {
  public:
-  PetscLinear(const PetscEquation& equation, const Space& space, Potential::Support support,
-              const SparseOptions& options)
-      : space_(space), support_(support), options_(options), S_(equation.S), M_(equation.M) {
+  PetscLinear(const PetscEquation& equation, const Space& space, Potential::Support support, SparseOptions options)
+      : space_(space), support_(support), options_(std::move(options)), S_(equation.S), M_(equation.M) {
     multiply(equation.S, equation.M, SM_);
     radius_ = spectral_radius_bound(SM_);
     make_absolute(equation.M, absolute_M_itself_);
     absolute_M_.emplace(absolute_M_itself_);
     make_symmetric_part(equation.S, symmetric_S_itself_);
     if (!is_zero(symmetric_S_itself_)) symmetric_S_.emplace(symmetric_S_itself_);
-    resolvents_.emplace(SM_, equation.prefix);
+    resolvents_.emplace(SM_, equation.solver, support.size);
     iterates_ = resolvents_->iterates();
     for (Vector* v : {&image_, &sizes_}) v->resize(space.size());
   }
@@ -66,8 +65,9 @@ class PetscLinear final : public LinearPart {
     if (kind == PropagatorKind::cayley) return propagator(force(h, {1, 1}), nullptr);
     return propagator(force(h, plan(h)), force(h / 2, plan(h / 2)));
   }
-  SolverShare solver_share() const {
-    return {.iterates = iterates_, .iterations = resolvents_->iterations(), .restored = moved_};
+  std::optional<SolverShare> solver_share() const override {
+    if (!iterates_) return {};
+    return SolverShare{.iterations = resolvents_->iterations(), .restored = moved_};
   }
 
  private:
@@ -94,10 +94,6 @@ class PetscLinear final : public LinearPart {
 };
 
 }  // namespace
-
-SolverShare solver_share(const System& system) {
-  return dynamic_cast<const PetscLinear&>(*system.linear).solver_share();
-}
 
 std::unique_ptr<Space> row_space(Index rows, const Ranks& ranks) { return std::make_unique<RowSpace>(rows, ranks); }
 

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <seiche/core/system.hpp>
-#include <seiche/petsc/petsc_matrices.hpp>
+#include <seiche/petsc/solver/petsc_matrices.hpp>
+#include <seiche/petsc/solver/solver_options.hpp>
 
-#include <cstdint>
 #include <memory>
-#include <string>
 
 namespace seiche {
 
@@ -15,14 +14,7 @@ namespace seiche {
 struct PetscEquation {
   Mat S = nullptr, M = nullptr, D = nullptr;
   const Ranks* ranks = nullptr;
-  std::string prefix = "seiche_";  // of the options for its linear solvers
-};
-
-// What KSP has done for propagators, and the largest relative move by which they restored their contract.
-struct SolverShare {
-  bool iterates = false;  // and holds to a tolerance
-  std::int64_t iterations = 0;
-  double restored = 0.0;
+  SolverOptions solver = SolverOptions();
 };
 
 // All but V, the damping and z₀, which the caller adds before a method is made: propagators by KspResolvents,
@@ -32,6 +24,5 @@ System petsc_system(const PetscEquation& equation, std::unique_ptr<Space> of_sta
                     const SparseOptions& options);
 // Rows side by side, those of each process in one array.
 std::unique_ptr<Space> row_space(Index rows, const Ranks& ranks);
-SolverShare solver_share(const System& system);  // of such a system
 
 }  // namespace seiche

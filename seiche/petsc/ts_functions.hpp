@@ -1,7 +1,7 @@
 // V, its gradient and S by the functions that a TS was given.
 #pragma once
 
-#include <seiche/petsc/petsc_matrices.hpp>
+#include <seiche/petsc/solver/petsc_matrices.hpp>
 
 #include <petsctao.h>
 #include <petscts.h>

@@ -53,7 +53,7 @@ void TsRun::make_joint(Vec u) {
               .M = equation_->M(),
               .D = equation_->D(),
               .ranks = joint_->ranks.get(),
-              .prefix = std::string(prefix != nullptr ? prefix : "") + "seiche_"};
+              .solver = SolverOptions(std::string(prefix != nullptr ? prefix : "") + "seiche_")};
   require_hypotheses(equation);
   const TsFunctions& functions = *equation_->functions();
   const Potential::Support support{0, functions.has_V() ? functions.support() : 0};
@@ -63,7 +63,7 @@ void TsRun::make_joint(Vec u) {
   system = petsc_system(equation, row_space(local_rows(equation.M), *equation.ranks), support,
                         options.backend_options.sparse);
   system.potential = joint_potential(equation_->functions(), *system.space);
-  system.damping = petsc_damping(equation.D, *system.space, support, equation.prefix);
+  system.damping = petsc_damping(equation.D, *system.space, support, equation.solver);
   equation_->to_state(u, system.initial);
   if (const std::string complaint = gradient_complaint(functions, *system.space, system.initial); !complaint.empty())
     throw Error(complaint);
@@ -93,23 +93,17 @@ LawPromise TsRun::law(double t_end) const {
   LawPromise promise = promise_energy_law(joint_->equation, system().potential->support(), *system().space);
   const std::string objection = options_.simulation.method_options.objection(method());
   if (!objection.empty()) promise.withdraw(objection);
-  if (solver_share(joint_->system).iterates) {
-    Vector scratch(state().z.size());
-    if (system().linear->apply_symmetric_S(state().z, scratch))
-      promise.withdraw("the linear solver holds to its tolerance, and S is not skew");
-    else if (method().kind.closure == "avf")
-      promise.withdraw("the linear solver holds to its tolerance, and so does the equation of avf");
-  }
+  const std::string of_solver = objection_of_solver(system(), method());
+  if (!of_solver.empty()) promise.withdraw(of_solver);
   return promise;
 }
 
 std::string TsRun::solver() const {
   if (!joint_) return std::string(simulation_->backend().name);
-  const SolverShare share = solver_share(joint_->system);
-  std::string text = fmt::format("KSP ({} iterations", share.iterations);
-  if (share.restored > 0)
-    text += fmt::format("; the contract of propagators restored by {:.2g} at most", share.restored);
-  return text + ")";
+  const std::optional<SolverShare> share = system().linear->solver_share();
+  if (!share) return "KSP (factors)";
+  return fmt::format("KSP ({} iterations; the contract of propagators restored by {:.2g} at most)", share->iterations,
+                     share->restored);
 }
 
 void TsRun::follow(Vec u, double t, bool restart) {

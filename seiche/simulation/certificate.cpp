@@ -159,6 +159,14 @@ Hypothesis hypothesis_of_margin(const Simulation& simulation) {
           V + s.shift};
 }
 
+// Where a linear solver stops at a tolerance, what becomes of that on which the theorems stand.
+Hypothesis hypothesis_of_solver(const std::string& objection) {
+  const std::string name = "F + Fᵀ + FᵀMF ⪯ 0";
+  if (!objection.empty()) return {name, Grade::violated, objection, {}, "every step"};
+  return {name, Grade::verified,
+          "the linear solver stops at its tolerance; what it misses is restored in every step, to round-off"};
+}
+
 std::string theorem(const Problem& problem, const MethodEntry& method) {
   const std::string energy =
       method.kept_energy == "H" ? "H(zⁿ⁺¹) ≤ H(zⁿ)" : "the modified energy of step n + 1 ≤ that of step n";
@@ -220,6 +228,11 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   certificate.law = bent ? LawPromise{false, "S(z) is not skew"} : law;
   if (const std::string given_up = options.method_options.objection(method); !bent && !given_up.empty())
     certificate.law.withdraw(given_up);
+  if (options.at_start != nullptr && options.at_start->system().linear->solver_share() && !method.projects()) {
+    const std::string of_solver = objection_of_solver(options.at_start->system(), method);
+    list.push_back(hypothesis_of_solver(of_solver));
+    if (certificate.law.promised && !of_solver.empty()) certificate.law.withdraw(of_solver);
+  }
   if (certificate.law.promised) certificate.theorem = theorem(problem, method);
   return certificate;
 }

@@ -77,6 +77,9 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
   require_thread_count(options.backend_options.threads);
   require_gradient(problem_);
   backend_ = &choose_backend(options, problem_, method_options_);
+  if (!options.backend_options.sparse.solver.empty() && backend_->name != "petsc")
+    throw Error("solver = \"{}\" is for the backend petsc, and this is {}", options.backend_options.sparse.solver,
+                backend_->name);
   if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps, *backend_);
   system_ = backend_->system(problem_, options.backend_options);
   if (method_ == nullptr) {
@@ -127,7 +130,17 @@ LawPromise promise_energy_law(const Simulation& simulation, double t_end) {
   const std::string objection = simulation.method_options().objection(simulation.method());
   LawPromise promise = promise_energy_law(simulation.problem(), t_end);
   if (!objection.empty()) promise.withdraw(objection);
+  const std::string of_solver = objection_of_solver(simulation.system(), simulation.method());
+  if (!of_solver.empty()) promise.withdraw(of_solver);
   return promise;
+}
+
+std::string objection_of_solver(const System& system, const MethodEntry& method) {
+  if (!system.linear->solver_share() || method.projects()) return "";
+  if (!is_skew(system))
+    return "the linear solver stops at its tolerance, and what that misses is restored for a skew S alone";
+  if (method.kind.closure == "avf") return "the linear solver stops at its tolerance, and so does the equation of avf";
+  return "";
 }
 
 }  // namespace seiche

@@ -61,4 +61,8 @@ class Simulation {
 // Whether the energy law of its method is promised up to t_end, and why (not). Options of the method may give it up.
 LawPromise promise_energy_law(const Simulation& simulation, double t_end);
 
+// Why a method does not keep its law with the linear solver of this system, which stops at a tolerance; "" where what
+// that misses is restored, and where there is no such solver.
+std::string objection_of_solver(const System& system, const MethodEntry& method);
+
 }  // namespace seiche

@@ -108,11 +108,60 @@ for case in ("chain", "network"):
         kept = rows["H_modified"] if "H_modified" in rows.dtype.names else rows["H"]
         assert np.diff(kept).max() <= 1e-14 * kept[0], folder
 
+
+
+def solved(case, folder, options, *overrides, **how):
+    """The summary, and what a linear solve took."""
+    solver = f'backend.solver="{options}"'
+    run(case, folder, "backend.name=petsc", solver, "backend.pade_degree=4", *overrides, **how)
+    summary = json.loads(pathlib.Path(folder, "summary.json").read_text())
+    return summary, summary["solver"]["iterations"] / (4 * summary["steps"])  # z and ∇V, two pairs of poles each
+
+
+# PRESB: iterations that hardly grow with h, by any preconditioner of the real system inside, odd degrees too.
+wave = ["problem.points=[63,63]", "method.name=seisav", "time.end=0.5"]
+for h, most in (("1/64", 24), ("1/2", 48)):
+    run("wave", f"wave_{h[2:]}", *wave, f"method.h={h}", "backend.name=sparse", "backend.pade_degree=4")
+    for inside in ("", "-presb_fieldsplit_v_pc_type ilu", "-presb_pc_type lu"):
+        processes = (1, 2) if inside == "" else (1,)
+        for count in processes:
+            folder = f"presb_{h[2:]}_{len(inside)}_{count}"
+            options = f"-ksp_type gmres -ksp_rtol 1e-11 -presb {inside}"
+            summary, iterations = solved("wave", folder, options, *wave, f"method.h={h}", processes=count)
+            near(folder, final(f"wave_{h[2:]}"), 1e-8)
+            assert inside.endswith("ilu") or iterations < most, (h, inside, iterations)
+            assert summary["energy"]["law"] == "holds", summary
+_, by_jacobi = solved("wave", "jacobi", "-ksp_type gmres -ksp_rtol 1e-11 -pc_type jacobi", *wave, "method.h=1/2")
+assert by_jacobi > 5 * iterations, (by_jacobi, iterations)
+run("chain", "odd", "backend.name=petsc", "backend.pade_degree=3", 'backend.solver="-presb -ksp_rtol 1e-12"', "time.end=1")
+run("chain", "odd_sparse", "backend.name=sparse", "backend.pade_degree=3", "time.end=1")
+near("odd", final("odd_sparse"), 1e-9)
+
+# What the solver has to do with the law: restored, and promised; or not, and said.
+early = "-ksp_type gmres -pc_type jacobi -ksp_rtol 1e-4"
+for method, promised in (("seisav", True), ("seilm", True), ("seavf", False)):
+    chosen = [f"method.name={method}", "time.end=2", "output.ledger=on", "output.energy_every=1"]
+    summary, _ = solved("chain", f"share_{method}", early, *chosen)
+    rows = np.genfromtxt(f"share_{method}/energy.csv", delimiter=",", names=True)
+    missed = np.abs(rows["substep"] + rows["scalar"]).max()  # S is skew: what the solver takes or gives
+    assert missed < 1e-14 or not promised, (method, missed)
+    assert np.abs(rows["round_off"]).max() < 1e-14, method
+    assert summary["solver"]["restored"] > 1e-9, summary
+    certificate = summary["certificate"]
+    assert certificate["law"]["promised"] == promised and (summary["energy"]["law"] == "holds") == promised, summary
+    grade = [found["grade"] for found in certificate["hypotheses"] if found["hypothesis"].startswith("F + F")]
+    assert grade == ["verified with margin" if promised else "violated"], certificate
+    seiche("audit", f"share_{method}")
+run("chain", "factors", "backend.name=petsc", "time.end=1")
+assert "solver" not in json.loads(pathlib.Path("factors/summary.json").read_text())
+
 # Stopped on three, resumed on two.
-long = ["backend.name=petsc", "time.end=40", "output.snapshot_every=64"]
+long = ["backend.name=petsc", "time.end=100", "output.snapshot_every=64",
+        'backend.solver="-ksp_type gmres -pc_type jacobi -ksp_rtol 1e-13"']
 run("network", "whole", *long)
 words = command(3, "run", f"{cases}/network.toml", "--quiet", "--out", "stopped", "--set", *long)
-process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+environment = dict(os.environ)  # without what MPI has set beside it for petsc4py
+process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
 while process.poll() is None and not list(pathlib.Path("stopped").glob("*")):
     time.sleep(0.05)
 time.sleep(2.0)
@@ -121,12 +170,16 @@ process.wait(60)
 assert list(pathlib.Path("stopped").glob("checkpoint*")), os.listdir("stopped")
 seiche("resume", "stopped", processes=2)
 near("stopped", final("whole"), 1e-8)
+taken = [json.loads(pathlib.Path(f, "summary.json").read_text())["solver"]["iterations"] for f in ("whole", "stopped")]
+assert abs(taken[1] - taken[0]) < 0.1 * taken[0], taken
 
 refused = {
     "run it without mpiexec": ("dry_friction", [], 2),
     "takes rational functions by KSP": ("chain", ["backend.exponential=lanczos"], 1),
     "the backends modal and petsc run on several processes": ("chain", ["backend.name=sparse"], 2),
     'use discretisation "fd2" or "fd4"': ("klein_gordon_2d", [], 2),
+    'is for the backend petsc, and this is sparse': (
+        "chain", ["backend.name=sparse", 'backend.solver="-ksp_type cg"'], 1),
 }
 for sentence, (case, overrides, processes) in refused.items():
     said = run(case, "refused", "backend.name=petsc", "time.end=0.1", *overrides, processes=processes, code=2)
@@ -136,6 +189,8 @@ file = f"{cases}/klein_gordon_ensemble.toml"
 said = seiche("run", file, "--threads", "2", "--out", "refused", "--set", *ensemble, code=2)
 assert "the backend petsc is for one thread of a program" in said, said
 seiche("run", file, "--quiet", "--threads", "1", "--out", "members", "--set", *ensemble)
+said = run("chain", "refused", "backend.name=petsc", 'backend.solver="-ksp_typ gmres"', code=1)
+assert "no linear solver here looks for the option -ksp_typ of backend.solver" in said, said
 said = run("chain", "refused", "backend.name=petsc", options="-seiche_ksp_type nonsense", code=2)
 assert "PETSc could not go on: " in said and "nonsense" in said, said
 print("backend_test: all is as it should be")

@@ -52,6 +52,7 @@ for method, how in (
     *((method, early) for method in ("seisav", "seilm", "seidm", "seavf")),
     *((method, (*early[:-1], "1e-3")) for method in ("seisav", "seilm", "seidm")),
     ("seisav", ("-ts_seiche_ksp", "-seiche_pc_type", "jacobi")),  # which goes with GMRES
+    ("seisav", ("-ts_seiche_ksp", "-seiche_presb", "-seiche_ksp_rtol", "1e-8")),
 ):
     view = run(in_c, "-ts_type", method, "-gamma", "0", "-ts_dt", "0.1", "-ts_view", *how)
     kept = float(re.search(r"H = \S+, \S+ = (\S+)", view).group(1))

@@ -232,6 +232,14 @@ void add_backend(KeyRows& rows) {
   rows.sparse_option(
       "lanczos_dimension", "sparse: pairs of vectors, at least 2; 0: until nothing changes",
       [](auto& spec) -> auto& { return spec.sparse.lanczos_dimension; });
+  KeyRow& solver =
+      rows.add(Kind::text, "solver",
+               "petsc: options of its linear solvers, \"-ksp_type gmres -pc_type jacobi\"; \"\": it factorises", any,
+               {toml_string("")}, "linsolver linearsolver ksp");
+  solver.read = [](CaseReading& r, const KeyRow&, const std::string& key, const CaseValue& value) {
+    r.spec.sparse.solver = read_text(key, value);
+  };
+  solver.write = [](const RunSpec& spec) { return spec.sparse.solver.empty() ? "" : toml_string(spec.sparse.solver); };
 }
 
 void add_time(KeyRows& rows) {

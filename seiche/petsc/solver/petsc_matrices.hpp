@@ -4,10 +4,11 @@
 #include <seiche/backend/krylov/product.hpp>
 #include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/potential.hpp>
-#include <seiche/petsc/petsc_call.hpp>
+#include <seiche/petsc/solver/petsc_call.hpp>
 
 #include <petscksp.h>
 
+#include <complex>
 #include <memory>
 
 namespace seiche {
@@ -41,6 +42,8 @@ Index local_rows(Mat a);
 PetscInt first_row(Mat a);  // that is here
 void multiply(Mat a, Mat b, OwnedMat& product);
 void add(double factor, Mat b, Mat a);  // a += factor · b
+// hB − p, or for a complex p the real matrix of twice the size: the two parts of each unknown side by side.
+void make_shifted(Mat B, double h, std::complex<double> p, OwnedMat& shifted);
 void make_symmetric_part(Mat a, OwnedMat& part);
 void make_absolute(Mat a, OwnedMat& absolute);  // of every entry
 bool is_zero(Mat a);

@@ -1,4 +1,4 @@
-#include <seiche/petsc/petsc_matrices.hpp>
+#include <seiche/petsc/solver/petsc_matrices.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -184,6 +184,32 @@ SparseMatrix sparse_matrix(Mat a) {
   SparseMatrix matrix(local_rows(a), local_rows(a));
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
+}
+
+void make_shifted(Mat B, double h, std::complex<double> p, OwnedMat& shifted) {
+  const PetscInt parts = p.imag() == 0 ? 1 : 2;
+  const auto rows = static_cast<PetscInt>(local_rows(B)) * parts;
+  require(MatCreate(communicator_of(B), shifted.make()));
+  require(MatSetSizes(shifted, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));
+  require(MatSetType(shifted, MATAIJ));
+  std::vector<PetscInt> widths;  // at most
+  visit_rows(B, [&](Index, std::span<const PetscInt> columns, std::span<const double>) {
+    widths.insert(widths.end(), static_cast<std::size_t>(parts), static_cast<PetscInt>(columns.size()) + 2);
+  });
+  require(MatXAIJSetPreallocation(shifted, 1, widths.data(), widths.data(), nullptr, nullptr));
+  const auto set = [&](PetscInt row, PetscInt column, double value) {
+    require(MatSetValues(shifted, 1, &row, 1, &column, &value, ADD_VALUES));
+  };
+  visit_rows(B, [&](Index index, std::span<const PetscInt> columns, std::span<const double> values) {
+    for (PetscInt part = 0; part < parts; ++part) {
+      const PetscInt row = static_cast<PetscInt>(index) * parts + part;
+      for (std::size_t k = 0; k < columns.size(); ++k) set(row, columns[k] * parts + part, h * values[k]);
+      set(row, row, -p.real());
+      if (parts == 2) set(row, row + (part == 0 ? 1 : -1), part == 0 ? p.imag() : -p.imag());
+    }
+  });
+  require(MatAssemblyBegin(shifted, MAT_FINAL_ASSEMBLY));
+  require(MatAssemblyEnd(shifted, MAT_FINAL_ASSEMBLY));
 }
 
 }  // namespace seiche

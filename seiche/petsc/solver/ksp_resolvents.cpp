@@ -1,6 +1,8 @@
 #include <seiche/core/base/error.hpp>
-#include <seiche/petsc/ksp_resolvents.hpp>
+#include <seiche/petsc/solver/ksp_resolvents.hpp>
+#include <seiche/petsc/solver/presb.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace seiche {
@@ -15,33 +17,6 @@ bool is_of_type(Object object, const char* type) {
   return is == PETSC_TRUE;
 }
 
-// hB − p, or the real system of twice the size: the two parts of each unknown side by side.
-void make_shifted(Mat B, double h, std::complex<double> p, OwnedMat& shifted) {
-  const PetscInt parts = p.imag() == 0 ? 1 : 2;
-  const auto rows = static_cast<PetscInt>(local_rows(B)) * parts;
-  require(MatCreate(communicator_of(B), shifted.make()));
-  require(MatSetSizes(shifted, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE));
-  require(MatSetType(shifted, MATAIJ));
-  std::vector<PetscInt> widths;  // at most
-  visit_rows(B, [&](Index, std::span<const PetscInt> columns, std::span<const double>) {
-    widths.insert(widths.end(), static_cast<std::size_t>(parts), static_cast<PetscInt>(columns.size()) + 2);
-  });
-  require(MatXAIJSetPreallocation(shifted, 1, widths.data(), widths.data(), nullptr, nullptr));
-  const auto set = [&](PetscInt row, PetscInt column, double value) {
-    require(MatSetValues(shifted, 1, &row, 1, &column, &value, ADD_VALUES));
-  };
-  visit_rows(B, [&](Index index, std::span<const PetscInt> columns, std::span<const double> values) {
-    for (PetscInt part = 0; part < parts; ++part) {
-      const PetscInt row = static_cast<PetscInt>(index) * parts + part;
-      for (std::size_t k = 0; k < columns.size(); ++k) set(row, columns[k] * parts + part, h * values[k]);
-      set(row, row, -p.real());
-      if (parts == 2) set(row, row + (part == 0 ? 1 : -1), part == 0 ? p.imag() : -p.imag());
-    }
-  });
-  require(MatAssemblyBegin(shifted, MAT_FINAL_ASSEMBLY));
-  require(MatAssemblyEnd(shifted, MAT_FINAL_ASSEMBLY));
-}
-
 bool is_direct(KSP ksp) {
   PC pc = nullptr;
   require(KSPGetPC(ksp, &pc));
@@ -49,9 +24,13 @@ bool is_direct(KSP ksp) {
          (is_of_type(pc, PCLU) || is_of_type(pc, PCCHOLESKY) || is_of_type(pc, PCREDUNDANT));
 }
 
-void make_solver(MPI_Comm communicator, const std::string& prefix, KspResolvents::Tolerance tolerance, OwnedKsp& ksp) {
+bool asks_for_presb(const SolverOptions& options) { return options.is_true("-presb"); }
+
+// Without the preconditioner Presb, which belongs to one pole.
+void make_solver(MPI_Comm communicator, const SolverOptions& options, KspResolvents::Tolerance tolerance,
+                 OwnedKsp& ksp) {
   require(KSPCreate(communicator, ksp.make()));
-  require(KSPSetOptionsPrefix(ksp, prefix.c_str()));
+  options.give_to(ksp);
   require(KSPSetType(ksp, KSPPREONLY));
   PC pc = nullptr;
   require(KSPGetPC(ksp, &pc));
@@ -60,15 +39,13 @@ void make_solver(MPI_Comm communicator, const std::string& prefix, KspResolvents
   MPI_Comm_size(communicator, &processes);
   if (processes > 1) require(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   require(KSPSetFromOptions(ksp));
+  if (asks_for_presb(options)) require(PCSetType(pc, PCSHELL));
   if (is_direct(ksp)) return;
   if (is_of_type(static_cast<KSP>(ksp), KSPPREONLY)) {
-    PetscBool is_chosen = PETSC_FALSE;
-    require(PetscOptionsHasName(nullptr, prefix.c_str(), "-ksp_type", &is_chosen));
-    if (is_chosen)
+    if (options.has("-ksp_type"))
       throw Error(
-          "-{0}ksp_type preonly with a preconditioner that is no factorisation solves nothing: leave it out, or write "
-          "-{0}pc_type lu",
-          prefix);
+          "{} preonly with a preconditioner that is no factorisation solves nothing: leave it out, or write {} lu",
+          options.written("-ksp_type"), options.written("-pc_type"));
     require(KSPSetType(ksp, KSPGMRES));
     require(KSPSetFromOptions(ksp));
   }
@@ -78,14 +55,21 @@ void make_solver(MPI_Comm communicator, const std::string& prefix, KspResolvents
 
 class KspResolvent final : public Resolvent {
  public:
-  KspResolvent(Mat B, double h, std::complex<double> p, std::string prefix, KspResolvents::Tolerance tolerance,
-               std::int64_t& iterations)
-      : p_(p), prefix_(std::move(prefix)), iterations_(iterations) {
+  KspResolvent(Mat B, double h, std::complex<double> p, SolverOptions options, Index first,
+               KspResolvents::Tolerance tolerance, std::int64_t& iterations)
+      : p_(p), options_(std::move(options)), iterations_(iterations) {
     const MPI_Comm communicator = communicator_of(B);
     make_shifted(B, h, p, shifted_);
-    make_solver(communicator, prefix_, tolerance, ksp_);
+    make_solver(communicator, options_, tolerance, ksp_);
+    if (asks_for_presb(options_)) {
+      PC pc = nullptr;
+      require(KSPGetPC(ksp_, &pc));
+      presb_.emplace(B, h, p, first, options_);
+      presb_->attach(pc);
+    }
     require(KSPSetOperators(ksp_, shifted_, shifted_));
     require(KSPSetUp(ksp_));
+    options_.require_known();
     const Index size = local_rows(shifted_);
     for (BorrowedVec* v : {&right_, &solution_}) v->set_layout(communicator, size);
     if (p.imag() == 0) return;
@@ -112,15 +96,16 @@ class KspResolvent final : public Resolvent {
     PetscReal residual = 0;
     require(KSPGetResidualNorm(ksp_, &residual));
     throw Error(
-        "the linear solver of the options -{}ksp_… stopped after {} iterations with a residual of {:.3g} ({}); without them "
-        "the solver is a factorisation",
-        prefix_, iterations, residual, KSPConvergedReasons[reason]);
+        "the linear solver of the options {}… stopped after {} iterations with a residual of {:.3g} ({}); without them the "
+        "solver is a factorisation",
+        options_.written("-ksp_"), iterations, residual, KSPConvergedReasons[reason]);
   }
 
   std::complex<double> p_;
-  std::string prefix_;
+  SolverOptions options_;
   std::int64_t& iterations_;
   OwnedMat shifted_;
+  std::optional<Presb> presb_;
   OwnedKsp ksp_;
   BorrowedVec right_, solution_;
   mutable Vector pairs_, solved_;
@@ -129,12 +114,12 @@ class KspResolvent final : public Resolvent {
 }  // namespace
 
 std::unique_ptr<Resolvent> KspResolvents::make(double h, std::complex<double> pole) const {
-  return std::make_unique<KspResolvent>(B_, h, pole, prefix_, tolerance_, iterations_);
+  return std::make_unique<KspResolvent>(B_, h, pole, options_, first_, tolerance_, iterations_);
 }
 
 bool KspResolvents::iterates() const {
   OwnedKsp ksp;
-  make_solver(communicator_of(B_), prefix_, tolerance_, ksp);
+  make_solver(communicator_of(B_), options_, tolerance_, ksp);
   return !is_direct(ksp);
 }
 
