@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,16 @@
 namespace seiche {
 
 class PanelPotential;
+class PointwisePotential;
+
+// Some terms of a V that joins points: a potential of the values at these points, of the fields from `first_field` on.
+struct TermsOfPotential {
+  static constexpr Index held = -1;  // in the place of a point: what does not move, u = 0
+  std::vector<Index> points;
+  std::shared_ptr<const PointwisePotential> potential;
+  bool is_counted = true;  // where its value belongs
+  Index first_field = 0;
+};
 
 struct ValueAndMagnitude {
   double value = 0.0;
@@ -41,6 +52,12 @@ class PointwisePotential {
   // Such a V of so many points from `first` on; null where all points are alike, and it is this one.
   virtual std::shared_ptr<const PointwisePotential> at_points(Index /*first*/, Index /*count*/) const {
     return nullptr;
+  }
+  // Of a V of `of` points, the terms that belong to so many of them from `first` on, and, not counted, those of other
+  // points that reach them: of all parts of the points together the counted terms are V, each once. Nothing where V
+  // cannot tell.
+  virtual std::optional<std::vector<TermsOfPotential>> terms_at(Index /*first*/, Index /*count*/, Index /*of*/) const {
+    return std::nullopt;
   }
   // What speaks against V, or "": a gradient that is not its own where it begins, at u, or nearby. Asked before a run.
   virtual std::string complaint(std::span<const double> /*u*/) const { return ""; }

@@ -60,8 +60,7 @@ Problem with_matrix_merged(const Problem& problem) {
 // At some of the points of a rate on a whole grid.
 class RateAtPoints final : public FieldRate {
  public:
-  RateAtPoints(FieldRatePointer whole, const Grid& grid)
-      : whole_(std::move(whole)), first_(grid.first_unknown()), all_(grid.whole().unknowns()) {}
+  RateAtPoints(FieldRatePointer whole, Index first, Index of) : whole_(std::move(whole)), first_(first), all_(of) {}
   void values(double t, std::span<double> gamma) const override {
     copy(gamma, [&](std::span<double> all) { whole_->values(t, all); });
   }
@@ -114,6 +113,19 @@ bool Problem::damping_moves_potential() const {
   return false;
 }
 
+Problem with_rates_at_points(const Problem& problem, Index first, Index of) {
+  Problem part = problem;
+  const auto divide = [&](FieldRatePointer& rate) {
+    if (rate) rate = std::make_shared<RateAtPoints>(rate, first, of);
+  };
+  divide(part.damping.field_rate);
+  for (FieldRatePointer& force : part.forces) divide(force);
+  if (problem.friction && problem.friction->uses_place())
+    throw Error("the friction {} depends on the place, and has to be made for the points of one process",
+                problem.friction->text());
+  return part;
+}
+
 Problem part_of(const Problem& whole, const Rank& here) {
   Problem part = whole;
   part.grid.here = here;
@@ -123,14 +135,7 @@ Problem part_of(const Problem& whole, const Rank& here) {
     part.initial.segment(f * mine, mine) = whole.initial.segment(f * all + first, mine);
   if (whole.potential)
     if (auto there = whole.potential->at_points(first, mine)) part.potential = std::move(there);
-  const auto divide = [&part](FieldRatePointer& rate) {
-    if (rate) rate = std::make_shared<RateAtPoints>(rate, part.grid);
-  };
-  divide(part.damping.field_rate);
-  for (FieldRatePointer& force : part.forces) divide(force);
-  if (whole.friction && whole.friction->uses_place())
-    throw Error("the friction {} depends on the place: make it for the part of the grid", whole.friction->text());
-  return part;
+  return with_rates_at_points(part, first, all);
 }
 
 SparseMatrix rate_matrix(const Problem& problem) {
@@ -150,10 +155,14 @@ Eigen::MatrixXcd rate_symbol(const Problem& problem) {
 double rate_of_D0(const Problem& problem) {
   double rate = problem.damping.rate ? problem.damping.rate->value(0) : 0.0;
   if (!problem.damping.field_rate) return rate;
-  if (problem.damping.mean_field_rate) return rate + *problem.damping.mean_field_rate;
+  return rate + mean_field_rate(problem);
+}
+
+double mean_field_rate(const Problem& problem) {
+  if (problem.damping.mean_field_rate) return *problem.damping.mean_field_rate;
   Vector gamma(problem.grid.unknowns());
   problem.damping.field_rate->values(0, {gamma.data(), static_cast<std::size_t>(gamma.size())});
-  return rate + gamma.mean();
+  return gamma.mean();
 }
 
 BlockStencil constant_damping(const Problem& problem) {

@@ -58,6 +58,8 @@ struct Problem {
 // What one of several processes holds of a problem on a whole grid of two or three axes. Throws Error where there is
 // friction that depends on the place: that is to be made for the part of the grid.
 Problem part_of(const Problem& whole, const Rank& here);
+// The same of rates γ(x, t) and forces alone: at some of `of` points, from `first` on.
+Problem with_rates_at_points(const Problem& problem, Index first, Index of);
 
 // P of LinearDamping, ones on the diagonal in the rows of `rate_fields`: as a matrix of all unknowns, and as the block
 // of every mode.
@@ -67,6 +69,7 @@ Eigen::MatrixXcd rate_symbol(const Problem& problem);
 // D₀, the constant damping that stands in for D(t) in the exponentials of L = SM − D₀: the constant part, γ(0) and the
 // mean of γ(x, 0). What D(t) has beyond it, if anything, acts as a force.
 double rate_of_D0(const Problem& problem);                     // γ(0) + mean γ(x, 0), the factor of P
+double mean_field_rate(const Problem& problem);                // γ(x, 0), which it has
 BlockStencil constant_damping(const Problem& problem);         // D₀; not for problems stated by matrices
 SparseMatrix constant_damping_matrix(const Problem& problem);  // D₀; for problems stated by matrices
 

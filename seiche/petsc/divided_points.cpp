@@ -1,3 +1,4 @@
+#include <seiche/backend/grid/halo_potential.hpp>
 #include <seiche/petsc/divided_points.hpp>
 
 #include <algorithm>
@@ -143,7 +144,10 @@ void DividedPoints::make(const SparseMatrix& whole, MPI_Comm communicator, Owned
 std::shared_ptr<const PointwisePotential> divided_potential(std::shared_ptr<const PointwisePotential> whole,
                                                             const FieldPart& part, const Ranks& ranks) {
   if (!whole || ranks.here().count == 1) return whole;
-  if (!whole->is_pointwise()) return std::make_shared<GatheredPotential>(std::move(whole), part, ranks);
+  if (!whole->is_pointwise()) {
+    if (auto with_halo = halo_potential(*whole, part, ranks)) return with_halo;
+    return std::make_shared<GatheredPotential>(std::move(whole), part, ranks);
+  }
   auto there = whole->at_points(part.first, part.size);
   return there ? there : whole;
 }

@@ -28,8 +28,9 @@ class DividedPoints {
   FieldPart part_;
 };
 
-// V of what each process holds. Where V adds up over points it is V of these; otherwise all values are gathered on
-// every process, which computes the whole V. `ranks` outlives it.
+// V of what each process holds. Where V adds up over points it is V of these, and where V tells its terms it is theirs
+// (halo_potential); otherwise all values are gathered on every process, which computes the whole V. `ranks` outlives
+// it.
 std::shared_ptr<const PointwisePotential> divided_potential(std::shared_ptr<const PointwisePotential> whole,
                                                             const FieldPart& part, const Ranks& ranks);
 

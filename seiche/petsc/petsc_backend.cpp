@@ -52,16 +52,11 @@ class OneRank final : public Ranks {
 };
 const OneRank one_rank;
 
-void require_divisible(const Problem& problem) {
-  const auto refuse = [&](bool holds, std::string_view what) {
-    if (holds)
-      throw Error("{} has {}, which the backend petsc computes on one process; run it without mpiexec", problem.name,
-                  what);
-  };
-  refuse(problem.structure != nullptr, "a structure matrix that depends on the state");
-  refuse(problem.damping.field_rate != nullptr, "damping that depends on the place");
-  refuse(problem.friction != nullptr, "friction");
-  refuse(problem.has_forces(), "external forces");
+// The problem, whose rates and forces are those of the points that are here.
+Problem with_rates_here(const Problem& problem, const FieldPart& part) {
+  Problem known = problem;
+  if (problem.damping.field_rate) known.damping.mean_field_rate = mean_field_rate(problem);
+  return with_rates_at_points(known, part.first, part.of);
 }
 
 SparseMatrix matrix_of(const Problem& problem, const BlockStencil& stencil) {
@@ -89,7 +84,6 @@ System make_system(const Problem& problem, const BackendOptions& options) {
     throw Error("exponential = \"lanczos\" belongs to the sparse backend; petsc takes rational functions by KSP");
   begin_petsc();
   const Ranks& ranks = options.ranks != nullptr ? *options.ranks : one_rank;
-  if (ranks.here().count > 1) require_divisible(problem);
   const MPI_Comm communicator = options.ranks != nullptr ? PETSC_COMM_WORLD : PETSC_COMM_SELF;
   int processes = 1;
   MPI_Comm_size(communicator, &processes);
@@ -130,9 +124,13 @@ System make_system(const Problem& problem, const BackendOptions& options) {
     map = petsc_map(D);
     make_flow = petsc_damping_flow(D, *system.space, solver);
   }
-  system.damping = std::make_unique<GridDamping>(problem, identity, std::move(map), std::move(make_flow));
-  add_beyond_linear(system, problem, identity, [&]() -> std::unique_ptr<LinearMap> {
-    throw Error("the backend petsc takes no structure matrix that depends on the state; use \"sparse\"");
+  const Problem here = ranks.here().count > 1 ? with_rates_here(problem, divided.part()) : problem;
+  system.damping = std::make_unique<GridDamping>(here, identity, std::move(map), std::move(make_flow));
+  add_beyond_linear(system, here, identity, [&] {
+    OwnedMat derivative;
+    DividedPoints(1, problem.grid.unknowns(), ranks.here())
+        .make(problem.derivative.sparse_matrix(problem.grid), communicator, derivative);
+    return petsc_map(derivative);
   });
   for (auto* make : {&system.make_phi, &system.make_undamped_phi})  // which look at the matrices when they are called
     *make = [held, make_of_matrices = std::move(*make)] { return make_of_matrices(); };

@@ -7,6 +7,7 @@
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -75,7 +76,33 @@ class BarPotential final : public PointwisePotential {
   int homogeneity() const override { return homogeneity_of(w_); }
   bool grows_outward() const override { return w_.grows_outward(); }  // u·∇V = Σ e W'(e)
 
+  // A bar belongs to the first of its nodes that moves.
+  std::optional<std::vector<TermsOfPotential>> terms_at(Index first, Index count, Index /*of*/) const override {
+    const auto is_here = [=](Index node) { return node >= first && node < first + count; };
+    std::array<std::vector<Bar>, 2> bars;  // of other nodes, of these
+    for (const Bar& bar : bars_)
+      if (is_here(bar.a) || is_here(bar.b)) bars[is_here(bar.a >= 0 ? bar.a : bar.b) ? 1 : 0].push_back(bar);
+    std::vector<TermsOfPotential> terms;
+    for (const bool own : {false, true}) terms.push_back(terms_of(std::move(bars[own ? 1 : 0]), own));
+    return terms;
+  }
+
  private:
+  TermsOfPotential terms_of(std::vector<Bar> bars, bool is_counted) const {
+    std::vector<Index> nodes;
+    for (const Bar& bar : bars)
+      for (const Index node : {bar.a, bar.b})
+        if (node >= 0) nodes.push_back(node);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    for (Bar& bar : bars)
+      for (Index* node : {&bar.a, &bar.b})
+        if (*node >= 0) *node = std::lower_bound(nodes.begin(), nodes.end(), *node) - nodes.begin();
+    return {.points = std::move(nodes),
+            .potential = std::make_shared<const BarPotential>(w_, std::move(bars)),
+            .is_counted = is_counted};
+  }
+
   static double elongation(const Bar& bar, std::span<const double> u) {
     const std::size_t n = u.size() / 2;
     double e = 0;

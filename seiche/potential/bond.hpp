@@ -5,6 +5,7 @@
 #include <seiche/core/potential.hpp>
 #include <seiche/potential/bond_loops.hpp>
 #include <seiche/potential/bond_panel.hpp>
+#include <seiche/potential/bond_terms.hpp>
 #include <seiche/potential/polynomial.hpp>
 
 #include <algorithm>
@@ -69,6 +70,10 @@ class BondPotential final : public PointwisePotential {
 
   int homogeneity() const override { return homogeneity_of(w_); }
   bool grows_outward() const override { return w_.grows_outward(); }
+
+  std::optional<std::vector<TermsOfPotential>> terms_at(Index first, Index count, Index of) const override {
+    return bond_terms(std::make_shared<const BondPotential>(w_, Boundary::neumann), boundary_, first, count, of);
+  }
 
   const W& w() const { return w_; }
   std::unique_ptr<PanelPotential> for_members(PanelMembers members, Index rows) const override {

@@ -1,4 +1,5 @@
 #include <seiche/potential/bond_panel.hpp>
+#include <seiche/potential/bond_terms.hpp>
 #include <seiche/potential/on_bonds.hpp>
 
 #include <array>
@@ -43,6 +44,10 @@ class OnBonds final : public PointwisePotential {
   }
   int homogeneity() const override { return w_->homogeneity(); }
   bool grows_outward() const override { return w_->grows_outward(); }
+  std::optional<std::vector<TermsOfPotential>> terms_at(Index first, Index count, Index of) const override {
+    if (w_->at_points(0, 1)) return std::nullopt;  // bonds that are not alike
+    return bond_terms(std::make_shared<const OnBonds>(w_, Boundary::neumann), boundary_, first, count, of);
+  }
 
  private:
   // Three rows for each thread.

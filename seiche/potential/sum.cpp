@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace seiche {
 namespace {
@@ -27,6 +28,20 @@ class Sum final : public PointwisePotential {
         are_alike = false;
       }
     return are_alike ? nullptr : std::make_shared<const Sum>(std::move(parts), fields_);
+  }
+
+  std::optional<std::vector<TermsOfPotential>> terms_at(Index first, Index count, Index of) const override {
+    std::vector<TermsOfPotential> all;
+    for (const PlacedPotential& part : parts_) {
+      auto terms = part.potential->is_pointwise() ? terms_of_points(part.potential, first, count)
+                                                  : part.potential->terms_at(first, count, of);
+      if (!terms) return std::nullopt;
+      for (TermsOfPotential& each : *terms) {
+        each.first_field += part.first_field;
+        all.push_back(std::move(each));
+      }
+    }
+    return all;
   }
 
   double value(std::span<const double> u) const override {
@@ -101,6 +116,15 @@ class Sum final : public PointwisePotential {
   }
 
  private:
+  static std::optional<std::vector<TermsOfPotential>> terms_of_points(
+      const std::shared_ptr<const PointwisePotential>& V, Index first, Index count) {
+    auto there = V->at_points(first, count);
+    TermsOfPotential terms{.points = std::vector<Index>(static_cast<std::size_t>(count)),
+                           .potential = there ? there : V};
+    std::iota(terms.points.begin(), terms.points.end(), first);
+    return std::vector{std::move(terms)};
+  }
+
   static constexpr std::size_t most_coefficients = 65;  // formulas have degrees of at most 64
 
   template <class Claim>

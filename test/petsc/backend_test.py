@@ -75,6 +75,21 @@ for case, overrides in every.items():
             assert summary["backend"] == "petsc" and summary["energy"]["law"] != "violated", summary
         seiche("audit", folder)
 
+# Rates and forces of the place, friction, S(z), bonds of formulas, and processes without a point.
+beyond = {
+    "sponge_layer": ('problem.discretisation="fd2"', "seisav", "egc4"), "dry_friction": ("", "seisav"),
+    "van_der_pol": ("", "egc4"), "burgers": ('problem.discretisation="fd2"', "egc4"), "rigid_body": ("", "egc4"),
+    "driven_duffing": ("", "seisav"), "klein_gordon_driven_damping": ('problem.discretisation="fd4"', "egc4"),
+    "toda": ("", "seavf", "egc4"), "frenkel_kontorova": ("", "egc4"), "beta_fpu": ("", "seilm", "egc4"),
+}
+for case, (override, *chosen_methods) in beyond.items():
+    for method in chosen_methods:
+        chosen = [f"method.name={method}", "time.end=0.3", *filter(None, [override])]
+        run(case, f"sparse_{case}{method}", "backend.name=sparse", *chosen)
+        for processes in (1, 3):
+            run(case, f"petsc_{case}{method}{processes}", "backend.name=petsc", *chosen, processes=processes)
+            near(f"petsc_{case}{method}{processes}", final(f"sparse_{case}{method}"))
+
 # Matrices from files that PETSc has written.
 try:
     from petsc4py import PETSc
@@ -174,7 +189,8 @@ taken = [json.loads(pathlib.Path(f, "summary.json").read_text())["solver"]["iter
 assert abs(taken[1] - taken[0]) < 0.1 * taken[0], taken
 
 refused = {
-    "run it without mpiexec": ("dry_friction", [], 2),
+    "depends on the place, and has to be made for the points of one process": (
+        "dry_friction", ['problem.friction={ kind="formula", r="(1+0.5*sin(x))*v" }'], 2),
     "takes rational functions by KSP": ("chain", ["backend.exponential=lanczos"], 1),
     "the backends modal and petsc run on several processes": ("chain", ["backend.name=sparse"], 2),
     'use discretisation "fd2" or "fd4"': ("klein_gordon_2d", [], 2),

@@ -1,12 +1,15 @@
 // The contracts of potentials, pointwise and in the coordinates of every backend.
 #include <test/support/cases.hpp>
 #include <test/support/plain_space.hpp>
+#include <test/support/thread_ranks.hpp>
 
 #include <seiche/backend/backends.hpp>
 #include <seiche/backend/grid/grid_potential.hpp>
+#include <seiche/backend/grid/halo_potential.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/numerics/gauss_rule.hpp>
 #include <seiche/formula/formula_compiler.hpp>
+#include <seiche/potential/bars.hpp>
 #include <seiche/potential/bond.hpp>
 #include <seiche/potential/cosine_panel.hpp>
 #include <seiche/potential/formula_potential.hpp>
@@ -23,6 +26,9 @@
 
 namespace seiche::test {
 namespace TEST_FILE {
+
+std::span<const double> span_of(const Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+std::span<double> span_of(Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
 
 std::vector<NamedProblem> problems_with_every_kind_of_potential() {
   std::vector<NamedProblem> list = all_cases();
@@ -51,6 +57,64 @@ void for_every_potential(const Check& check) {
         return z;
       };
       check(*system.potential, random(), random());
+    }
+  }
+}
+
+// Chains with all ends, bars in one field and in two, bonds beside a ground; on more processes than points, too.
+std::vector<std::shared_ptr<const PointwisePotential>> potentials_that_join_points() {
+  using Bars = BarPotential<Polynomial<4>>;
+  const auto bars = std::make_shared<const Bars>(
+      Polynomial<4>{.c = {0, 0, 0.5, 0.3, 0.2}},
+      std::vector<Bar>{{-1, 0, 1, 0}, {0, 1, 0.6, 0.8}, {1, 4, 0, 1}, {4, 2, 0.8, -0.6}, {3, 0, 1, 0}, {2, -1, 0, 1}});
+  std::vector<std::shared_ptr<const PointwisePotential>> all = {bars};
+  for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet, Boundary::neumann}) {
+    all.push_back(bond_polynomial({0, 0, 1.0, 0.3, 0.2}, boundary));
+    all.push_back(on_bonds(std::make_shared<NodalPotential<Cosine>>(Cosine{}), boundary));
+    all.push_back(sum_of({{all.back(), 1}, {nodal_polynomial({0, 0, 0, 0.1, 0.3}), 0}, {bars, 0}}, 2));
+  }
+  return all;
+}
+
+TEST(Potential, OfSeveralProcessesIsThatOfOne) {
+  constexpr Index points = 5;
+  for (const auto& V : potentials_that_join_points()) {
+    const Index fields = V->fields();
+    const Vector u = 0.5 * Vector::Random(fields * points), w = 0.5 * Vector::Random(fields * points);
+    Vector gradient(u.size()), mean(u.size());
+    const double value = V->value_and_gradient(span_of(u), span_of(gradient));
+    V->mean_gradient(span_of(u), span_of(w), span_of(mean));
+    std::vector<double> coefficients(static_cast<std::size_t>(V->degree()) + 1);
+    if (V->degree() > 0) V->along(span_of(u), span_of(w), coefficients);
+    const Vector taylor = Vector::Map(coefficients.data(), std::ssize(coefficients));
+    for (const int count : {1, 2, 3, 7}) {
+      on_ranks(count, [&](const Ranks& ranks) {
+        const Index first = points * ranks.here().index / count, end = points * (ranks.here().index + 1) / count;
+        const FieldPart part{.size = end - first, .units = {}, .first = first, .of = points};
+        const auto here = [&](const Vector& whole) {
+          Vector mine(fields * part.size);
+          for (Index f = 0; f < fields; ++f)
+            mine.segment(f * part.size, part.size) = whole.segment(f * points + first, part.size);
+          return mine;
+        };
+        const auto halo = halo_potential(*V, part, ranks);
+        ASSERT_TRUE(halo);
+        const Vector mine = here(u), others = here(w);
+        Vector found(mine.size());
+        std::vector<double> sums = {halo->value_and_gradient(span_of(mine), span_of(found)), halo->value(span_of(mine)),
+                                    halo->value_and_magnitude(span_of(mine)).value,
+                                    halo->magnitude(span_of(mine)) - V->magnitude(span_of(u)) / count};
+        EXPECT_LE((found - here(gradient)).lpNorm<1>(), 1e-14) << count;
+        halo->mean_gradient(span_of(mine), span_of(others), span_of(found));
+        EXPECT_LE((found - here(mean)).lpNorm<1>(), 1e-14) << count;
+        std::vector<double> along(coefficients.size());
+        if (V->degree() > 0) halo->along(span_of(mine), span_of(others), along);
+        sums.insert(sums.end(), along.begin(), along.end());
+        ranks.sum(sums);
+        for (const double found_value : {sums[0], sums[1], sums[2]}) EXPECT_NEAR(found_value, value, 1e-14) << count;
+        EXPECT_NEAR(sums[3], 0, 1e-14) << count;
+        EXPECT_LE((Vector::Map(sums.data() + 4, taylor.size()) - taylor).lpNorm<1>(), 1e-13) << count;
+      });
     }
   }
 }

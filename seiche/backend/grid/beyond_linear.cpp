@@ -260,7 +260,7 @@ GridStructure::GridStructure(const Problem& problem, std::shared_ptr<const Field
       derivative_(std::move(derivative)),
       slots_(transform_->slots()),
       derivative_slots_(transform_->slots()) {
-  for (Vector* v : {&z_, &w_, &out_}) v->setZero(problem.size());
+  for (Vector* v : {&z_, &w_, &out_}) v->setZero(space.physical_size());
 }
 
 void GridStructure::differentiate(std::span<const double> u, std::span<double> out) const {
@@ -276,8 +276,9 @@ void GridStructure::differentiate(std::span<const double> u, std::span<double> o
 void GridStructure::apply(const Vector& z, const Vector& w, Vector& out) const {
   space_.to_physical(z, z_);
   space_.to_physical(w, w_);
-  structure_->apply(
-      all(z_), all(w_), [this](std::span<const double> u, std::span<double> du) { differentiate(u, du); }, all(out_));
+  if (z_.size() > 0 || derivative_)  // a derivative is a work of all processes
+    structure_->apply(
+        all(z_), all(w_), [this](std::span<const double> u, std::span<double> du) { differentiate(u, du); }, all(out_));
   space_.from_physical(out_, out);
 }
 

@@ -35,7 +35,6 @@ void require_divisible(const Problem& problem) {
   const auto* truncated = dynamic_cast<const TruncatedPotential*>(problem.potential.get());
   const PointwisePotential* V = truncated != nullptr ? truncated->whole().get() : problem.potential.get();
   refuse(V != nullptr && !V->is_pointwise(), "a potential that does not add up over points");
-  refuse(problem.structure != nullptr, "a structure matrix that depends on the state");
 }
 
 // The mean of γ(x, 0), added up unit by unit.

@@ -46,14 +46,35 @@ NamedProblem larger(const NamedProblem& c) {
   return larger;
 }
 
-// A plane with friction, and one with an external force.
+// S'(z)w of a plane, by a formula at every point, and by a derivative beside it.
+class Turning final : public PointwiseStructure {
+ public:
+  void apply(std::span<const double> z, std::span<const double> w, Derivative derivative,
+             std::span<double> out) const override {
+    const std::size_t n = z.size() / 2;
+    std::vector<double> product(n), of_product(n), of_w(n);
+    for (std::size_t j = 0; j < n; ++j) product[j] = z[j] * w[j];
+    derivative(product, of_product);
+    derivative(w.first(n), of_w);
+    for (std::size_t j = 0; j < n; ++j) {
+      out[j] = 0.1 * (z[j] * of_w[j] + of_product[j]) + 0.3 * z[j] * w[n + j];
+      out[n + j] = -0.3 * z[j] * w[j];
+    }
+  }
+  bool keeps_means() const override { return false; }
+  std::string text() const override { return "S'(z)"; }
+};
+
+// A plane with friction, one with an external force, and one with S(z).
 std::vector<NamedProblem> driven_cases() {
-  Problem dragged = plane(), pushed = plane();
+  Problem dragged = plane(), pushed = plane(), turned = plane();
   dragged.friction = quadratic_friction(0.1, 0.5);
   pushed.forces.resize(2);
   pushed.forces[1] =
       formula_space_rate(compile_formula("0.3*cos(2*t)*sin(x)*y", {"t", "x", "y"}), 2, false)->on(pushed.grid);
-  return {{"KG_2d_dragged", dragged}, {"KG_2d_pushed", pushed}};
+  turned.structure = std::make_shared<Turning>();
+  turned.derivative = Stencil::derivative(turned.grid, 0, Discretisation::fd2);
+  return {{"KG_2d_dragged", dragged}, {"KG_2d_pushed", pushed}, {"KG_2d_turned", turned}};
 }
 
 // Grids of two and three axes, with all ends, whose planes are cut evenly and not; more processes than units, too.
