@@ -224,7 +224,8 @@ void CaseRun::make_files() {
   }
   solution_.emplace(folder, simulation.problem(), *simulation.system().space, snapshot_times(spec_), is_modified,
                     description(spec_, simulation, record_->versions()),
-                    saved != nullptr && saved->solution ? &*saved->solution : nullptr, bytes_per_GB * spec_.join_below);
+                    saved != nullptr && saved->solution ? &*saved->solution : nullptr, bytes_per_GB * spec_.join_below,
+                    options_.ranks);
 }
 
 // The order matters: what a checkpoint vouches for is on the disk before it is.

@@ -51,7 +51,7 @@ CaseResult follow_case(const RunCaseOptions& options) {
 
   EnergyTimes energies({.every_steps = spec.energy_every});
   const SolutionFile::Mark* mark = from && from->run.solution ? &*from->run.solution : nullptr;
-  SolutionFile solution(*run.simulation().system().space, snapshot_times(spec), mark);
+  SolutionFile solution(problem, *run.simulation().system().space, snapshot_times(spec), mark, ranks);
   AtTheEnd last_state([&](const RunReport&) { join_values(run.simulation(), [](std::span<const double>) {}); });
   std::vector<Observer*> observers = {&energies, &solution, &last_state};
   observers.insert(observers.end(), options.observers.begin(), options.observers.end());

@@ -135,7 +135,6 @@ void Segments::by_fields(std::uint64_t at, std::span<const double> piece, const 
 void Segments::append(FunctionRef<void(Take)> join, std::span<const double> numbers) {
   if (is_broken_ || is_finished_) join([](std::span<const double>) {});  // other processes take part in it
   attempt([&] {
-    const std::size_t count = layout_.fields.size();
     if (chunk_ == 1) {
       append_large(join);
     } else {
@@ -147,9 +146,28 @@ void Segments::append(FunctionRef<void(Take)> join, std::span<const double> numb
         at += piece.size();
       });
     }
-    for (std::size_t i = 0; i < numbers.size(); ++i) mark_.unfinished[count + i].push_back(numbers[i]);
-    if (mark_.unfinished.back().size() == chunk_) write_rows(open());
+    append_numbers(numbers);
   });
+}
+
+void Segments::append_chunks(FunctionRef<void(TakeChunk)> join, std::span<const double> numbers) {
+  if (is_broken_ || is_finished_) join([](std::size_t, const Hdf5Chunk&) {});
+  attempt([&] {
+    std::size_t begun = 0;
+    join([&](std::size_t f, Hdf5Chunk chunk) {
+      Hdf5Dataset& column = open().columns[f];
+      if (begun == f) column.begin_row();
+      begun = f + 1;
+      chunk.corner.front() = column.rows() - 1;
+      column.write_chunk(chunk);
+    });
+    append_numbers(numbers);
+  });
+}
+
+void Segments::append_numbers(std::span<const double> numbers) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) mark_.unfinished[layout_.fields.size() + i].push_back(numbers[i]);
+  if (mark_.unfinished.back().size() == chunk_) write_rows(open());
 }
 
 // Rows that fill chunks are not kept twice: some planes at a time, which fill chunks, go to the disk.

@@ -66,6 +66,9 @@ class Segments {
   void append(std::span<const double> fields, std::span<const double> numbers) {
     append([&](Take take) { take(fields); }, numbers);
   }
+  // The same where `join` passes on the chunks of the fields, for rows that fill them.
+  using TakeChunk = FunctionRef<void(std::size_t field, const Hdf5Chunk& chunk)>;
+  void append_chunks(FunctionRef<void(TakeChunk)> join, std::span<const double> numbers);
   // What was appended is on the disk under its final name, but for the rows that the mark holds. Throws Error where it
   // cannot be; the mark before this one still holds then.
   SegmentsMark seal();
@@ -81,6 +84,7 @@ class Segments {
   void append_large(FunctionRef<void(Take)> join);
   template <class Visit>
   void by_fields(std::uint64_t at, std::span<const double> piece, const Visit& visit) const;
+  void append_numbers(std::span<const double> numbers);
   void write_rows(OpenSolution& to);
   void require_writable() const;
   template <class Action>

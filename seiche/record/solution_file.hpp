@@ -7,6 +7,7 @@
 #include <seiche/core/observer.hpp>
 #include <seiche/core/problem.hpp>
 #include <seiche/core/space.hpp>
+#include <seiche/record/joint_row.hpp>
 #include <seiche/record/segments.hpp>
 
 #include <atomic>
@@ -34,14 +35,16 @@ class SolutionFile : public Observer {
     void archive(Archive& a) { a(rows, shown, last_t); }
   };
 
-  // From the start, or behind the mark `from` in what an earlier run has left. `space` outlives the observer. Segments
-  // of more bytes than `join_below` are not joined.
+  // From the start, or behind the mark `from` in what an earlier run has left. `space` outlives the observer, and so do
+  // `ranks`, who hold the parts of a row; null: this process has all. Segments of more bytes than `join_below` are not
+  // joined.
   SolutionFile(const Folder& folder, const Problem& problem, const Space& space, const SnapshotTimes& times,
                bool has_modified_energy, const SolutionDescription& description = {}, const Mark* from = nullptr,
-               double join_below = std::numeric_limits<double>::infinity());
+               double join_below = std::numeric_limits<double>::infinity(), const Ranks* ranks = nullptr);
 
   // Of another process than the first, which has the file: takes part in what is to come together there.
-  SolutionFile(const Space& space, const SnapshotTimes& times, const Mark* from = nullptr);
+  SolutionFile(const Problem& problem, const Space& space, const SnapshotTimes& times, const Mark* from,
+               const Ranks& ranks);
 
   bool is_due(const State& state, bool last) const override;
   double next_time() const override;
@@ -56,7 +59,11 @@ class SolutionFile : public Observer {
   std::uint64_t describe(const std::atomic<bool>* stop = nullptr) const;
 
  private:
+  SolutionFile(const Space& space, const SnapshotTimes& times, const Mark* from);
+  void let_compress(const SolutionLayout& layout, const Ranks* ranks);
   void join(Segments::Take take);  // values_
+  void pass_on();                  // the same where no row is written here
+  std::span<const double> span_of_values() const { return {values_.data(), static_cast<std::size_t>(values_.size())}; }
   struct File {
     File(Folder in, SolutionLayout of, const SolutionDescription& description, bool has_modified_energy,
          SegmentsMark mark, double join_below)
@@ -71,6 +78,7 @@ class SolutionFile : public Observer {
     Segments segments;
   };
   std::optional<File> file_;
+  std::optional<JointRow> joint_;  // where every process compresses its part
   const Space& space_;
   SnapshotTimes times_;
   std::int64_t shown_;  // multiples of the interval

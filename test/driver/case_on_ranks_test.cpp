@@ -66,6 +66,10 @@ std::vector<OneCase> cases() {
            wave(plane + "friction = { kind = \"quadratic\", coefficient = 0.5 }",
                 "name = \"egc4\"\ntolerance = 1e-5\n[time]\nend = 1.0", "snapshot_interval = 0.25")},
           {"dealiased", wave(plane_damped + "\ndiscretisation = \"spectral\"\ndealias = \"two_thirds\"", seisav, few)},
+          // Rows of several chunks, which end where slabs do not.
+          {"large_3d", text_of_case("name = \"klein_gordon\"\npoints = [10, 288, 240]\nlength = [6.0, 5.0, 4.0]\n"
+                                    "alpha = 1.0\ngamma = 0.2\ninitial = { u = \"exp(-x^2)*sin(3*y)\", v = \"z\" }",
+                                    "name = \"seisav\"\nh = 0.05\n[time]\nend = 0.5", "snapshot_every = 5")},
           {"nls", text_of_case("name = \"nls\"\npoints = [24, 20]\nlength = [12.0, 10.0]\ngamma = 0.05\n"
                                "initial = { p = \"exp(-(x-6)^2-(y-5)^2)\", q = \"0.1*sin(x)\" }",
                                "name = \"seilm\"\nh = 0.02\n[time]\nend = 0.4", few)},

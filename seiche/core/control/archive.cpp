@@ -1,5 +1,6 @@
 #include <seiche/core/control/archive.hpp>
 
+#include <mutex>
 #include <set>
 #include <utility>
 
@@ -10,7 +11,9 @@ Error damaged() { return Error("the checkpoint is damaged, or was written by ano
 
 // Texts that were read stay for good; there are as few as places in the program that write them.
 std::string_view kept(std::string text) {
+  static std::mutex mutex;
   static std::set<std::string> texts;
+  const std::scoped_lock lock(mutex);
   return *texts.insert(std::move(text)).first;
 }
 

@@ -133,30 +133,50 @@ void Hdf5Dataset::append_chunks(const Hdf5Dataset& from, std::uint64_t first, st
   const std::uint64_t behind = shape_[0];
   shape_[0] += rows;
   hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), what);
-  std::vector<hsize_t> corner(shape_.size(), 0);
-  std::vector<char> bytes;
-  const auto copy = [&](std::uint64_t row) {
-    std::uint32_t filters = 0;
-    hsize_t size = 0;
-    corner[0] = first + row;
-    hdf5_check(H5Dget_chunk_storage_size(from.id(), corner.data(), &size), what);
-    bytes.resize(size);
-    hdf5_check(H5Dread_chunk(from.id(), H5P_DEFAULT, corner.data(), &filters, bytes.data()), what);
-    corner[0] = behind + row;
-    hdf5_check(H5Dwrite_chunk(id(), H5P_DEFAULT, filters, corner.data(), size, bytes.data()), what);
-  };
-  // The last axis runs fastest, as where HDF5 divides a row among its chunks.
+  for (std::uint64_t row = 0; row < rows; row += chunk[0])
+    for_chunks(first + row, 0, shape_.size() > 1 ? shape_[1] : 1, [&](const Hdf5Shape& corner) {
+      Hdf5Chunk copy = from.read_chunk(corner);
+      copy.corner[0] = behind + row;
+      write_chunk(copy);
+    });
+}
+
+// The last axis runs fastest, as where HDF5 divides a row among its chunks.
+void Hdf5Dataset::for_chunks(std::uint64_t row, std::uint64_t begin_plane, std::uint64_t end_plane,
+                             FunctionRef<void(const Hdf5Shape& corner)> visit) const {
+  const Hdf5Shape chunk = this->chunk();
+  Hdf5Shape corner(shape_.size(), 0);
+  corner[0] = row;
+  if (corner.size() > 1) corner[1] = begin_plane;
   const auto next_corner = [&] {
     for (std::size_t axis = corner.size(); --axis > 0;) {
       corner[axis] += chunk[axis];
-      if (corner[axis] < shape_[axis]) return true;
+      if (corner[axis] < (axis == 1 ? end_plane : shape_[axis])) return true;
       corner[axis] = 0;
     }
     return false;
   };
-  for (std::uint64_t row = 0; row < rows; row += chunk[0]) do
-      copy(row);
-    while (next_corner());
+  do visit(corner);
+  while (next_corner());
+}
+
+Hdf5Chunk Hdf5Dataset::read_chunk(const Hdf5Shape& corner) const {
+  const Hdf5Quiet quiet;
+  const std::string what = fmt::format("cannot read a chunk of {}", name_);
+  const std::vector<hsize_t> at = sizes(corner);
+  Hdf5Chunk chunk{.corner = corner};
+  hsize_t size = 0;
+  hdf5_check(H5Dget_chunk_storage_size(id(), at.data(), &size), what);
+  chunk.bytes.resize(size);
+  hdf5_check(H5Dread_chunk(id(), H5P_DEFAULT, at.data(), &chunk.filters, chunk.bytes.data()), what);
+  return chunk;
+}
+
+void Hdf5Dataset::write_chunk(const Hdf5Chunk& chunk) {
+  const Hdf5Quiet quiet;
+  hdf5_check(H5Dwrite_chunk(id(), H5P_DEFAULT, chunk.filters, sizes(chunk.corner).data(), chunk.bytes.size(),
+                            chunk.bytes.data()),
+             fmt::format("cannot write a chunk of {}", name_));
 }
 
 void Hdf5Dataset::read(std::uint64_t first, std::span<double> values) const {
@@ -204,6 +224,16 @@ Hdf5File Hdf5File::create(int file, const std::filesystem::path& path) {
 #endif
   return Hdf5File(path, hdf5_handle(H5Fcreate(path_of(file).c_str(), H5F_ACC_TRUNC, creation().id(), access.id()),
                                     H5Fclose, what));
+}
+
+Hdf5File Hdf5File::in_memory() {
+  const Hdf5Quiet quiet;
+  const char* what = "HDF5 has no memory for a file";
+  const Hdf5Handle access = hdf5_handle(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+  constexpr std::size_t grows_by = std::size_t{1} << 20U;
+  hdf5_check(H5Pset_fapl_core(access.id(), grows_by, false), what);
+  hdf5_check(H5Pset_cache(access.id(), 0, 0, 0, 0.0), what);
+  return Hdf5File("memory", hdf5_handle(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, what));
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 // Handles close themselves, and what fails throws Error with the reason that HDF5 gives.
 #pragma once
 
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/output/file/folder.hpp>
 #include <seiche/output/hdf5/hdf5_attributes.hpp>
 
@@ -46,6 +47,13 @@ struct Hdf5Source {
   std::uint64_t rows = 0;  // all that it has
 };
 
+// A chunk as the bytes that it is in a file.
+struct Hdf5Chunk {
+  Hdf5Shape corner = {};      // where it begins, along each axis
+  std::uint32_t filters = 0;  // those that were left out
+  std::vector<char> bytes = {};
+};
+
 // An array of doubles (or of whole numbers, which are shown as doubles too), in the order of C: the last axis runs
 // fastest.
 class Hdf5Dataset {
@@ -62,6 +70,11 @@ class Hdf5Dataset {
   // A row behind the last one, from its first planes along the second axis on.
   void begin_row();
   void continue_row(std::uint64_t first_plane, std::span<const double> planes);
+  // visit(corner) of the chunks of a row that begin between these planes along the second axis, in their order.
+  void for_chunks(std::uint64_t row, std::uint64_t begin_plane, std::uint64_t end_plane,
+                  FunctionRef<void(const Hdf5Shape& corner)> visit) const;
+  Hdf5Chunk read_chunk(const Hdf5Shape& corner) const;
+  void write_chunk(const Hdf5Chunk& chunk);  // of a data set with the same chunks
   // Rows of a data set of the same layout, behind the last one, as the bytes that they are there, compressed or not.
   // They fill chunks, there and here.
   void append_chunks(const Hdf5Dataset& from, std::uint64_t first, std::uint64_t rows);
@@ -91,6 +104,7 @@ class Hdf5File {
   // Into an open file, by HDF5's own driver: it can be read once it is closed. What fills a chunk goes there at once,
   // so that the same calls leave the same bytes.
   static Hdf5File create(int file, const std::filesystem::path& path);
+  static Hdf5File in_memory();                              // which is gone with it
   static Hdf5File open(const std::filesystem::path& path);  // to be read
   static Hdf5File open(const Folder& folder, const std::string& name);
 
