@@ -162,10 +162,11 @@ std::string RunReport::work() const {
       "{:<10} {} gradients, {} potentials, {} scalar iterations, fallbacks: {}, replaced steps: {}, unresolved: {}\n",
       "work", potential_counts.gradients, potential_counts.values, scalar_iterations, fallbacks, replaced.count,
       unresolved);
-  if (solver)
-    text += fmt::format("{:<10} {} iterations; what it missed of the law restored by {:.2g} at most\n", "solver",
-                        solver->iterations, solver->restored);
-  return text;
+  if (!solver) return text;
+  text += fmt::format("{:<10} {} iterations", "solver", solver->iterations);
+  if (solver->restored > 0)
+    text += fmt::format("; what it missed of the law restored by {:.2g} at most", solver->restored);
+  return text + "\n";
 }
 
 }  // namespace seiche

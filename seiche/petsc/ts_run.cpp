@@ -102,8 +102,10 @@ std::string TsRun::solver() const {
   if (!joint_) return std::string(simulation_->backend().name);
   const std::optional<SolverShare> share = system().linear->solver_share();
   if (!share) return "KSP (factors)";
-  return fmt::format("KSP ({} iterations; the contract of propagators restored by {:.2g} at most)", share->iterations,
-                     share->restored);
+  std::string text = fmt::format("KSP ({} iterations", share->iterations);
+  if (share->restored > 0)
+    text += fmt::format("; the contract of propagators restored by {:.2g} at most", share->restored);
+  return text + ")";
 }
 
 void TsRun::follow(Vec u, double t, bool restart) {

@@ -15,19 +15,15 @@ Index height_of(const SolutionLayout& layout) { return static_cast<Index>(layout
 Index down_to_chunk(Index plane, Index height) { return plane / height * height; }
 Index up_to_chunk(Index plane, Index height) { return down_to_chunk(plane + height - 1, height); }
 
-// Chunks as numbers to be sent: for each its filters, the numbers of its corner and its bytes, and these.
-std::vector<double> packed(const std::vector<Hdf5Chunk>& chunks) {
-  std::vector<double> all;
-  for (const Hdf5Chunk& chunk : chunks) {
-    all.push_back(chunk.filters);
-    all.push_back(static_cast<double>(chunk.corner.size()));
-    all.insert(all.end(), chunk.corner.begin(), chunk.corner.end());
-    all.push_back(static_cast<double>(chunk.bytes.size()));
-    const std::size_t at = all.size();
-    all.resize(at + (chunk.bytes.size() + sizeof(double) - 1) / sizeof(double));
-    std::memcpy(all.data() + at, chunk.bytes.data(), chunk.bytes.size());
-  }
-  return all;
+// A chunk as numbers to be sent: its filters, how many axes, its corner, how many bytes, and these.
+void pack(const Hdf5Chunk& chunk, std::vector<double>& all) {
+  all.push_back(chunk.filters);
+  all.push_back(static_cast<double>(chunk.corner.size()));
+  all.insert(all.end(), chunk.corner.begin(), chunk.corner.end());
+  all.push_back(static_cast<double>(chunk.bytes.size()));
+  const std::size_t at = all.size();
+  all.resize(at + (chunk.bytes.size() + sizeof(double) - 1) / sizeof(double));
+  std::memcpy(all.data() + at, chunk.bytes.data(), chunk.bytes.size());
 }
 
 template <class Visit>
@@ -104,7 +100,7 @@ JointRow::Compressed JointRow::compress(std::span<const double> mine, std::span<
       data.continue_row(static_cast<std::uint64_t>(last), block);
     }
     data.for_chunks(0, static_cast<std::uint64_t>(begin_own_), static_cast<std::uint64_t>(end_),
-                    [&](const Hdf5Shape& corner) { found.chunks.push_back(data.read_chunk(corner)); });
+                    [&](const Hdf5Shape& corner) { pack(data.read_chunk(corner), found.chunks); });
   } catch (const std::exception& error) {
     found = {.chunks = {}, .complaint = error.what()};
   }
@@ -134,18 +130,17 @@ void JointRow::join(std::span<const double> values, Take take) const {
         failure = std::current_exception();
       }
     };
-    if (index == 0) std::for_each(compressed.chunks.begin(), compressed.chunks.end(), passes);
-    const std::vector<double> mine_packed = index == 0 ? std::vector<double>() : packed(compressed.chunks);
-    const double length = static_cast<double>(mine_packed.size());
+    if (index == 0) unpack(compressed.chunks, passes);
+    const double length = static_cast<double>(compressed.chunks.size());
     std::vector<double> lengths(processes);
     ranks_.gather({&length, 1}, std::vector<Index>(processes, 1), lengths);
     for (std::size_t rank = 1; rank < processes; ++rank) {
       std::vector<Index> to_first(processes, 0), from_rank(processes, 0);
       const bool sends = static_cast<std::size_t>(index) == rank;
-      if (sends) to_first.front() = std::ssize(mine_packed);
+      if (sends) to_first.front() = std::ssize(compressed.chunks);
       if (index == 0) from_rank[rank] = static_cast<Index>(lengths[rank]);
       std::vector<double> received(index == 0 ? static_cast<std::size_t>(lengths[rank]) : 0);
-      ranks_.exchange(sends ? std::span(mine_packed) : std::span<const double>(), to_first, received, from_rank);
+      ranks_.exchange(sends ? std::span(compressed.chunks) : std::span<const double>(), to_first, received, from_rank);
       unpack(received, passes);
     }
   }

@@ -28,8 +28,8 @@ class JointRow {
 
  private:
   struct Compressed {
-    std::vector<Hdf5Chunk> chunks;
-    std::string complaint;  // why they are not all there
+    std::vector<double> chunks;  // packed
+    std::string complaint;       // why they are not all there
   };
   Compressed compress(std::span<const double> mine, std::span<const double> from_others) const;
 

@@ -154,12 +154,11 @@ void Segments::append_chunks(FunctionRef<void(TakeChunk)> join, std::span<const 
   if (is_broken_ || is_finished_) join([](std::size_t, const Hdf5Chunk&) {});
   attempt([&] {
     std::size_t begun = 0;
-    join([&](std::size_t f, Hdf5Chunk chunk) {
+    join([&](std::size_t f, const Hdf5Chunk& chunk) {
       Hdf5Dataset& column = open().columns[f];
       if (begun == f) column.begin_row();
       begun = f + 1;
-      chunk.corner.front() = column.rows() - 1;
-      column.write_chunk(chunk);
+      column.write_chunk(chunk, column.rows() - 1);
     });
     append_numbers(numbers);
   });

@@ -152,6 +152,15 @@ run("chain", "odd", "backend.name=petsc", "backend.pade_degree=3", 'backend.solv
 run("chain", "odd_sparse", "backend.name=sparse", "backend.pade_degree=3", "time.end=1")
 near("odd", final("odd_sparse"), 1e-9)
 
+# Processes without a point, which take part in every solver; options of the solvers inside, found before a run begins.
+for case, points, processes in (("duffing", [], 3), ("chain", ["problem.points=6"], 4)):
+    run(case, f"few_{case}", "backend.name=sparse", "time.end=0.3", *points)
+    solver = 'backend.solver="-presb -ksp_rtol 1e-12"'
+    run(case, f"few_{case}_{processes}", "backend.name=petsc", solver, "time.end=0.3", *points, processes=processes)
+    near(f"few_{case}_{processes}", final(f"few_{case}"), 1e-9)
+for options in ("-presb -presb_fieldsplit_v_pc_type lu", "-pc_type bjacobi -sub_pc_type gamg -sub_mg_levels_ksp_max_it 1"):
+    run("chain", "inside", "backend.name=petsc", f'backend.solver="{options} -ksp_rtol 1e-10"', "time.end=0.3")
+
 # What the solver has to do with the law: restored, and promised; or not, and said.
 early = "-ksp_type gmres -pc_type jacobi -ksp_rtol 1e-4"
 for method, promised in (("seisav", True), ("seilm", True), ("seavf", False)):
@@ -205,8 +214,15 @@ file = f"{cases}/klein_gordon_ensemble.toml"
 said = seiche("run", file, "--threads", "2", "--out", "refused", "--set", *ensemble, code=2)
 assert "the backend petsc is for one thread of a program" in said, said
 seiche("run", file, "--quiet", "--threads", "1", "--out", "members", "--set", *ensemble)
-said = run("chain", "refused", "backend.name=petsc", 'backend.solver="-ksp_typ gmres"', code=1)
-assert "no linear solver here looks for the option -ksp_typ of backend.solver" in said, said
+for options, sentence in {
+    "-ksp_typ gmres": "no linear solver here looks for the option -ksp_typ of backend.solver",
+    "-ksp_type gmres -pc_typ ilu": "no linear solver here looks for the option -pc_typ of backend.solver",
+    "ksp_type gmres": "must be a list of options of PETSc",
+    "-presb -pc_type lu": "two preconditioners",
+    "-options_file missing.txt": "Unable to open options file",
+}.items():
+    said = run("chain", "options", "backend.name=petsc", f'backend.solver="{options}"', code=2)
+    assert sentence in said and not os.path.exists("options"), said
 said = run("chain", "refused", "backend.name=petsc", options="-seiche_ksp_type nonsense", code=2)
 assert "PETSc could not go on: " in said and "nonsense" in said, said
 print("backend_test: all is as it should be")

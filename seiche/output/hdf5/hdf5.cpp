@@ -134,11 +134,8 @@ void Hdf5Dataset::append_chunks(const Hdf5Dataset& from, std::uint64_t first, st
   shape_[0] += rows;
   hdf5_check(H5Dset_extent(id(), sizes(shape_).data()), what);
   for (std::uint64_t row = 0; row < rows; row += chunk[0])
-    for_chunks(first + row, 0, shape_.size() > 1 ? shape_[1] : 1, [&](const Hdf5Shape& corner) {
-      Hdf5Chunk copy = from.read_chunk(corner);
-      copy.corner[0] = behind + row;
-      write_chunk(copy);
-    });
+    for_chunks(first + row, 0, shape_.size() > 1 ? shape_[1] : 1,
+               [&](const Hdf5Shape& corner) { write_chunk(from.read_chunk(corner), behind + row); });
 }
 
 // The last axis runs fastest, as where HDF5 divides a row among its chunks.
@@ -172,10 +169,11 @@ Hdf5Chunk Hdf5Dataset::read_chunk(const Hdf5Shape& corner) const {
   return chunk;
 }
 
-void Hdf5Dataset::write_chunk(const Hdf5Chunk& chunk) {
+void Hdf5Dataset::write_chunk(const Hdf5Chunk& chunk, std::uint64_t row) {
   const Hdf5Quiet quiet;
-  hdf5_check(H5Dwrite_chunk(id(), H5P_DEFAULT, chunk.filters, sizes(chunk.corner).data(), chunk.bytes.size(),
-                            chunk.bytes.data()),
+  std::vector<hsize_t> corner = sizes(chunk.corner);
+  corner[0] = row;
+  hdf5_check(H5Dwrite_chunk(id(), H5P_DEFAULT, chunk.filters, corner.data(), chunk.bytes.size(), chunk.bytes.data()),
              fmt::format("cannot write a chunk of {}", name_));
 }
 

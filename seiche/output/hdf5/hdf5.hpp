@@ -74,7 +74,7 @@ class Hdf5Dataset {
   void for_chunks(std::uint64_t row, std::uint64_t begin_plane, std::uint64_t end_plane,
                   FunctionRef<void(const Hdf5Shape& corner)> visit) const;
   Hdf5Chunk read_chunk(const Hdf5Shape& corner) const;
-  void write_chunk(const Hdf5Chunk& chunk);  // of a data set with the same chunks
+  void write_chunk(const Hdf5Chunk& chunk, std::uint64_t row);  // of a data set with the same chunks, in this row
   // Rows of a data set of the same layout, behind the last one, as the bytes that they are there, compressed or not.
   // They fill chunks, there and here.
   void append_chunks(const Hdf5Dataset& from, std::uint64_t first, std::uint64_t rows);

@@ -39,7 +39,12 @@ void make_solver(MPI_Comm communicator, const SolverOptions& options, KspResolve
   MPI_Comm_size(communicator, &processes);
   if (processes > 1) require(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   require(KSPSetFromOptions(ksp));
-  if (asks_for_presb(options)) require(PCSetType(pc, PCSHELL));
+  if (asks_for_presb(options)) {
+    if (options.has("-pc_type"))
+      throw Error("{} and {} are two preconditioners: leave one of them out", options.written("-presb"),
+                  options.written("-pc_type"));
+    require(PCSetType(pc, PCSHELL));
+  }
   if (is_direct(ksp)) return;
   if (is_of_type(static_cast<KSP>(ksp), KSPPREONLY)) {
     if (options.has("-ksp_type"))
@@ -69,7 +74,8 @@ class KspResolvent final : public Resolvent {
     }
     require(KSPSetOperators(ksp_, shifted_, shifted_));
     require(KSPSetUp(ksp_));
-    options_.require_known();
+    require(KSPSetUpOnBlocks(ksp_));
+    if (tolerance == KspResolvents::Tolerance::of_options) options_.require_known();
     const Index size = local_rows(shifted_);
     for (BorrowedVec* v : {&right_, &solution_}) v->set_layout(communicator, size);
     if (p.imag() == 0) return;
@@ -120,7 +126,9 @@ std::unique_ptr<Resolvent> KspResolvents::make(double h, std::complex<double> po
 bool KspResolvents::iterates() const {
   OwnedKsp ksp;
   make_solver(communicator_of(B_), options_, tolerance_, ksp);
-  return !is_direct(ksp);
+  if (!is_direct(ksp)) return true;
+  options_.require_known("mat_");  // which factorisations look for
+  return false;
 }
 
 }  // namespace seiche

@@ -24,7 +24,8 @@ class KspResolvents final : public Resolvents {
     B_.share(B);
   }
   std::unique_ptr<Resolvent> make(double h, std::complex<double> pole) const override;
-  bool iterates() const;  // by the options: results hold to a tolerance only
+  // By the options: results hold to a tolerance only. Throws Error where a factorisation is left with unknown options.
+  bool iterates() const;
   std::int64_t iterations() const { return iterations_; }
 
  private:

@@ -1,5 +1,6 @@
 #include <seiche/petsc/solver/presb.hpp>
 
+#include <array>
 #include <cmath>
 
 namespace seiche {
@@ -31,7 +32,9 @@ Presb::Presb(Mat B, double h, std::complex<double> p, Index first, const SolverO
   require(KSPSetOperators(ksp_, H_, H_));
   PC pc = nullptr;
   require(KSPGetPC(ksp_, &pc));
-  const bool splits = first > 0 && first < local_rows(B);
+  std::array<long long, 2> sizes = {first, local_rows(B)};  // of all processes, some of which may hold nothing
+  MPI_Allreduce(MPI_IN_PLACE, sizes.data(), 2, MPI_LONG_LONG, MPI_SUM, communicator);
+  const bool splits = sizes[0] > 0 && sizes[0] < sizes[1];
   if (splits) split_fields(pc, local_rows(B), first);
   require(KSPSetFromOptions(ksp_));
   require(KSPSetUp(ksp_));

@@ -9,6 +9,9 @@ namespace seiche {
 
 // Objects inside a solver look for their options among those of the program alone, where each text has a prefix.
 SolverOptions SolverOptions::of_text(const std::string& text) {
+  if (const auto first = text.find_first_not_of(" \t\n"); first == std::string::npos || text[first] != '-')
+    throw Error("backend.solver = \"{}\" must be a list of options of PETSc, such as \"-ksp_type gmres -pc_type ilu\"",
+                text);
   static std::map<std::string, std::string> prefixes;
   const auto [place, is_new] = prefixes.emplace(text, fmt::format("seiche_case_{}_", prefixes.size() + 1));
   SolverOptions options(place->second);
@@ -17,6 +20,7 @@ SolverOptions SolverOptions::of_text(const std::string& text) {
   require(PetscOptionsPrefixPush(nullptr, options.prefix_.c_str()));
   const PetscErrorCode code = PetscOptionsInsertString(nullptr, text.c_str());
   require(PetscOptionsPrefixPop(nullptr));
+  if (code != 0) prefixes.erase(place);
   require(code);
   return options;
 }
@@ -41,7 +45,7 @@ std::string SolverOptions::written(const char* name) const {
   return fmt::format("-{}{}", is_of_text_ ? "" : prefix_, name + 1);
 }
 
-void SolverOptions::require_known() const {
+void SolverOptions::require_known(const std::string& later) const {
   if (!is_of_text_) return;
   PetscInt count = 0;
   char** names = nullptr;
@@ -49,7 +53,9 @@ void SolverOptions::require_known() const {
   require(PetscOptionsLeftGet(nullptr, &count, &names, &values));
   std::string unknown;
   for (PetscInt i = 0; i < count && unknown.empty(); ++i)
-    if (const std::string name = names[i]; name.starts_with(prefix_)) unknown = name.substr(prefix_.size());
+    if (const std::string name = names[i];
+        name.starts_with(prefix_) && (later.empty() || !name.starts_with(prefix_ + later)))
+      unknown = name.substr(prefix_.size());
   require(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
   if (!unknown.empty()) throw Error("no linear solver here looks for the option -{} of backend.solver", unknown);
 }

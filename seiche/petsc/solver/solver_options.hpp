@@ -20,8 +20,9 @@ class SolverOptions {
   bool has(const char* name) const;             // "-ksp_type"
   bool is_true(const char* name) const;         // given without a value, or as true
   std::string written(const char* name) const;  // as a user writes it: "-seiche_ksp_type"
-  // Throws Error where the text has an option that no solver has looked for. A solver looks when it is set up.
-  void require_known() const;
+  // Throws Error where the text has an option that no solver has looked for, other than those that begin with `later`.
+  // A solver looks when it is set up.
+  void require_known(const std::string& later = "") const;
 
  private:
   std::string prefix_;
