@@ -37,7 +37,7 @@ struct State {
   double shift = 0.0;  // C
   double energy_scale = 0.0;
   // Methods that keep the law by projection, and multiplier closures where nothing changes H: what H(z) is to be, which
-  // it is to round-off.
+  // it is to round-off. The sav family where r² is relaxed: its modified energy.
   double energy = 0.0;
   double energy_terms = 0.0;  // the sizes of the terms of H(z), to which its round-off is relative
   // Collocation: the forces at the nodes of the last step, whose length was history_h; none after a start or restart.

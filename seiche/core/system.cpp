@@ -1,4 +1,5 @@
 #include <seiche/core/base/error.hpp>
+#include <seiche/core/generic_state.hpp>
 #include <seiche/core/system.hpp>
 
 namespace seiche {
@@ -64,6 +65,16 @@ bool is_skew(const System& system) {
   const Vector z = Vector::Zero(system.space->size());
   Vector image(z);
   return !system.linear->apply_symmetric_S(z, image);
+}
+
+bool is_gradient_flow(const System& system) {
+  if (is_skew(system)) return false;
+  const Vector z = generic_state(*system.space);
+  Vector symmetric = Vector::Zero(z.size()), all = symmetric;
+  system.linear->apply_symmetric_S(z, symmetric);
+  system.linear->apply_S(z, all);
+  const double size = system.space->norm(all);
+  return size > 0 && system.space->norm(all - symmetric) <= 1e3 * epsilon * size;
 }
 
 }  // namespace seiche

@@ -60,7 +60,9 @@ struct System {
   void right_hand_side(double t, const Vector& z, Vector& out) const;  // S(z)∇H − Dz − R + f
 };
 
-bool is_skew(const System& system);  // S without what changes with the state
+// S without what changes with the state:
+bool is_skew(const System& system);
+bool is_gradient_flow(const System& system);  // S = Sᵀ ≠ 0
 
 // How the sparse backend takes exponentials: by Padé approximation with factorised matrices, or by Lanczos iteration.
 enum class ExponentialKind { pade, lanczos };

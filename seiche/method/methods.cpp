@@ -30,7 +30,9 @@ constexpr EnergyLaw guard = EnergyLaw::guard;
 
 // ---- Closures, in the whole equation with the damping merged into S, or with its flow split off
 
-std::unique_ptr<Stepper> by_closure(const MethodEntry& method, const System& system, const MethodOptions& options) {
+std::unique_ptr<Stepper> by_closure(const MethodEntry& method, const System& system, const MethodOptions& given) {
+  MethodOptions options = given;
+  options.auxiliary = auxiliary_of(method, system, given);
   std::unique_ptr<Closure> closure = method.kind.make_closure(system, options);
   if (method.kind.splits_damping) return make_strang(system, method.propagator, std::move(closure));
   if (!system.damping->is_zero()) throw Error("{} needs its damping merged into S first", method.name);
@@ -233,15 +235,23 @@ void MethodOptions::validate(const MethodEntry& method) const {
   if (predictor != Predictor::remembered && !kind.takes_predictor)
     throw Error("predictor = \"gradient\" belongs to the avf, sav, lm and dm families; {} does not predict a midpoint",
                 method.name);
-  if (auxiliary == AuxiliaryMode::transport) return;
+  if (auxiliary == AuxiliaryMode::automatic || auxiliary == AuxiliaryMode::transport) return;
   if (!kind.takes_auxiliary)
     throw Error("auxiliary belongs to the sav and lm families; {} carries no auxiliary through the damping",
                 method.name);
+  if (auxiliary == AuxiliaryMode::relaxed && !kind.takes_C)
+    throw Error("auxiliary = \"relaxed\" belongs to the sav family; the law of {} is that of H itself", method.name);
   if (auxiliary != AuxiliaryMode::refresh || kind.takes_refresh) return;
   if (!kind.takes_C)
     throw Error("auxiliary = \"refresh\" has no meaning for {}: V is not carried; use \"transport\" or \"frozen\"",
                 method.name);
   throw Error("auxiliary = \"refresh\" acts after the damping flows, and {} has none", method.name);
+}
+
+AuxiliaryMode auxiliary_of(const MethodEntry& method, const System& system, const MethodOptions& options) {
+  if (options.auxiliary != AuxiliaryMode::automatic) return options.auxiliary;
+  const bool relaxes = method.kind.takes_C && !method.kind.merges_damping && is_gradient_flow(system);
+  return relaxes ? AuxiliaryMode::relaxed : AuxiliaryMode::transport;
 }
 
 MethodOptions MethodOptions::meant_for(const MethodEntry& method) const {

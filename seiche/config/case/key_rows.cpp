@@ -186,11 +186,16 @@ void add_method(KeyRows& rows) {
   C.write = [](const RunSpec& spec) {
     return spec.method_options.C ? toml_real(*spec.method_options.C) : toml_string("auto");
   };
-  rows.option<AuxiliaryMode>("auxiliary", "transport | frozen | refresh: what the damping does to r (sav, lm family)",
-                             {{"transport", AuxiliaryMode::transport},
-                              {"frozen", AuxiliaryMode::frozen},
-                              {"refresh", AuxiliaryMode::refresh}},
-                             Written::always, &MethodOptions::auxiliary);
+  rows.option<AuxiliaryMode>(
+      "auxiliary",
+      "auto | transport | relaxed | frozen | refresh: what becomes of r beside a substep (sav, lm "
+      "family)",
+      {{"auto", AuxiliaryMode::automatic},
+       {"transport", AuxiliaryMode::transport},
+       {"relaxed", AuxiliaryMode::relaxed},
+       {"frozen", AuxiliaryMode::frozen},
+       {"refresh", AuxiliaryMode::refresh}},
+      Written::always, &MethodOptions::auxiliary);
   rows.option<ScalarSolver>("scalar_solver", "lm family: robust | newton (the paper's)",
                             {{"robust", ScalarSolver::robust}, {"newton", ScalarSolver::newton}}, Written::always,
                             &MethodOptions::scalar_solver);

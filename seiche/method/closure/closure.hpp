@@ -21,6 +21,8 @@ class Closure {
   virtual void impulse(State& s, double t, double h) { system_.force->impulse(t, h, s.z); }
   // The Hamiltonian substep of length h within the step that starts at t. On failure s is left in any state.
   virtual StepReport advance(State& s, Propagators& propagators, double t, double h) = 0;
+  // Behind a step that succeeded as a whole: what the closure carries beside z may move.
+  virtual void settle(State& /*s*/) {}
   // Behind a step of length h that succeeded as a whole: what the next one is to remember of it.
   void keep(State& s, double h) { predictor_.keep(s, h, midpoint_gradient()); }
 

@@ -3,6 +3,7 @@
 #include <seiche/method/closure/sav.hpp>
 #include <seiche/method/closure/sav_algebra.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace seiche {
@@ -29,6 +30,7 @@ class SavClosure final : public Closure {
     return !system().damping->touches_potential() && auxiliary_ != AuxiliaryMode::refresh;
   }
   StepReport advance_damped(State& s, Propagators& propagators, double t, double h, const HalfFlows& flows) override;
+  void settle(State& s) override;
   bool has_modified_energy() const override { return true; }
   void expect(double error_rate) override { error_rate_ = error_rate; }
 
@@ -37,6 +39,11 @@ class SavClosure final : public Closure {
 
  private:
   Vector& midpoint_gradient() override { return g_; }
+  bool relaxes() const { return auxiliary_ == AuxiliaryMode::relaxed; }
+  bool transports() const { return auxiliary_ == AuxiliaryMode::transport || relaxes(); }
+  double modified_energy(const State& s) const {
+    return system().linear->quadratic_energy(s.z) + (s.r_squared - s.shift);
+  }
   double drift(const State& s) const;
   double margin_against_drift(double drift, double margin);
 
@@ -62,12 +69,13 @@ void SavClosure::begin(State& s) {
     throw Error("C = {} is too small: V(z₀) + C = {:.6g} must be > 0; C = {:.6g} would do, or C = \"auto\"", s.shift,
                 s.r_squared, 2 * s.energy_scale);
   }
+  if (relaxes()) s.energy = modified_energy(s);
 }
 
 // The damping flow must change H̃ by what it changes H: r² moves with V (transport). The paper keeps r (frozen), which
 // is consistent only where the damping does not touch V.
 void SavClosure::damp(State& s, double t, double h) {
-  const bool transports = auxiliary_ == AuxiliaryMode::transport && system().damping->touches_potential();
+  const bool transports = this->transports() && system().damping->touches_potential();
   const double v_before = transports ? potential().value(s.z) : 0.0;
   Closure::damp(s, t, h);
   if (transports) s.r_squared += potential().value(s.z) - v_before;
@@ -77,8 +85,22 @@ void SavClosure::damp(State& s, double t, double h) {
 void SavClosure::impulse(State& s, double t, double h) {
   const bool transports = system().force->touches_potential();
   const double v_before = transports ? potential().value(s.z) : 0.0;
+  const double before = relaxes() ? modified_energy(s) : 0.0;
   Closure::impulse(s, t, h);
   if (transports) s.r_squared += potential().value(s.z) - v_before;
+  if (relaxes()) s.energy += modified_energy(s) - before;  // work of the force, and no dissipation
+}
+
+// r² moves to V + C, or up towards it by a share of what the step has taken from H̃, which so does not rise (Jiang,
+// Zhang, Zhao, J. Comput. Phys. 456 (2022) 110954).
+void SavClosure::settle(State& s) {
+  if (!relaxes()) return;
+  constexpr double share = 0.95;
+  const double modified = modified_energy(s);
+  const double missing = potential().value(s.z) + s.shift - s.r_squared;
+  const double moves = std::min(missing, share * std::max(s.energy - modified, 0.0));
+  if (std::isfinite(moves)) s.r_squared += moves;  // else the next step says what is wrong
+  s.energy = modified + (std::isfinite(moves) ? moves : 0.0);
 }
 
 // r² − (V + C) where an error rate is given; else 0.

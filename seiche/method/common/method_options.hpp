@@ -10,14 +10,17 @@ namespace seiche {
 
 struct MethodEntry;
 
-enum class AuxiliaryMode { transport, frozen, refresh };
+// What becomes of r² of the sav family beside a substep: damping moves it as it moves V (transport); besides, a step
+// ends with r² moved towards V + C (relaxed); nothing does (frozen); it is V + C behind every half-flow (refresh).
+// automatic: relaxed by methods that split the damping off, of gradient flows (S = Sᵀ), else transport.
+enum class AuxiliaryMode { automatic, transport, relaxed, frozen, refresh };
 enum class ScalarSolver { robust, newton };
 enum class Predictor { gradient, remembered };         // seiche/method/closure/midpoint_predictor.hpp
 enum class LinearTreatment { exact, explicit_kicks };  // e^{hL}, or kicks by all forces between drifts
 
 struct MethodOptions {
   std::optional<double> C;                             // sav: the shift; automatic if not given
-  AuxiliaryMode auxiliary = AuxiliaryMode::transport;  // frozen, in the lm family, always solves by plain Newton
+  AuxiliaryMode auxiliary = AuxiliaryMode::automatic;  // frozen, in the lm family, always solves by plain Newton
   ScalarSolver scalar_solver = ScalarSolver::robust;
   std::optional<EnergyLaw> law = {};  // of methods that project; the strongest they can have if not given
 

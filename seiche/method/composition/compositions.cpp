@@ -23,6 +23,7 @@ class Composed : public Stepper {
   StepReport step(State& s, double h) override {
     StepReport report = compose(s, h);
     if (!report.solved()) return report;
+    closure_->settle(s);
     closure_->keep(s, h);
     s.t += h;
     ++s.n;

@@ -38,7 +38,7 @@ TEST(CaseFile, MissingKeysTakeTheirDefaults) {
     EXPECT_GT(spec.h, 0.0);
     EXPECT_EQ(spec.t_end, entry.default_end);
     EXPECT_FALSE(spec.method_options.C);
-    EXPECT_EQ(spec.method_options.auxiliary, AuxiliaryMode::transport);
+    EXPECT_EQ(spec.method_options.auxiliary, AuxiliaryMode::automatic);
     EXPECT_EQ(spec.method_options.scalar_solver, ScalarSolver::robust);
     EXPECT_EQ(spec.backend, "auto");
     EXPECT_FALSE(spec.measure_plans);
