@@ -11,6 +11,11 @@
 namespace seiche {
 namespace {
 
+// A loop may be given a system without a linear part.
+std::optional<SolverShare> solver_share_of(const System& system) {
+  return system.linear ? system.linear->solver_share() : std::nullopt;
+}
+
 bool is_finite(const EnergyReading& reading) { return std::isfinite(reading.H) && std::isfinite(reading.modified); }
 
 }  // namespace
@@ -43,7 +48,7 @@ Recording::Recording(const System& system, const Stepper& stepper, State& state,
       good_{.state = state},
       first_n_(state.n),
       counts_before_(system.potential->counts()),
-      solver_before_(system.linear->solver_share()),
+      solver_before_(solver_share_of(system)),
       begin_(std::chrono::steady_clock::now()) {}
 
 void Recording::count(const StepReport& step) {
@@ -225,11 +230,16 @@ Potential::Counts Recording::counts() const {
 }
 
 std::optional<SolverShare> Recording::solver_share() const {
-  std::optional<SolverShare> share = system_.linear->solver_share();
+  std::optional<SolverShare> share = solver_share_of(system_);
   if (!share) return share;
   share->iterations += solver_earlier_.iterations - (solver_before_ ? solver_before_->iterations : 0);
   share->restored = std::max(share->restored, solver_earlier_.restored);
   return share->iterations > 0 ? share : std::nullopt;  // a method may ask for no linear system
+}
+
+void Recording::count_from_here() {
+  counts_before_ = system_.potential->counts();
+  solver_before_ = solver_share_of(system_);
 }
 
 double Recording::seconds() const {

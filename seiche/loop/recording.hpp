@@ -69,10 +69,7 @@ class Recording {
   // in a run that goes on from here.
   void archive(Archive& a, const std::function<std::string()>& objection);
   // What was evaluated up to now to go on from a checkpoint has been counted before it.
-  void count_from_here() {
-    counts_before_ = system_.potential->counts();
-    solver_before_ = system_.linear->solver_share();
-  }
+  void count_from_here();
 
  private:
   void fail_not_finite(const char* what);

@@ -120,7 +120,7 @@ class HaloPotential final : public PointwisePotential {
   void along(std::span<const double> p, std::span<const double> q, std::span<double> coefficients) const override {
     const std::span<const double> from = with_halo(p, a_), direction = with_halo(q, b_);
     std::fill(coefficients.begin(), coefficients.end(), 0.0);
-    std::vector<double> own;
+    std::vector<double>& own = own_coefficients_;
     for (const Terms& terms : terms_) {
       if (!terms.is_counted) continue;
       own.assign(std::min(coefficients.size(), static_cast<std::size_t>(terms.V->degree()) + 1), 0.0);
@@ -194,7 +194,7 @@ class HaloPotential final : public PointwisePotential {
   std::vector<Index> points_beside_;
   Halo halo_;
   std::vector<Terms> terms_;
-  mutable std::vector<double> a_, b_;
+  mutable std::vector<double> a_, b_, own_coefficients_;
 };
 
 }  // namespace
