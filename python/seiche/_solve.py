@@ -157,8 +157,8 @@ def solve(
         True: a bar on stderr, with the time that is left. Or a function of (t, t_end, steps), called ten times a second at
         most, and at the end.
     **options
-        C, auxiliary, scalar_solver, predictor, law, linear (of methods); plan, exponential, pade_degree, lanczos_dimension,
-        solver (of backends), with the values of case files.
+        C, auxiliary, scalar_solver, predictor, law, linear (of methods); plan, exponential, pade_degree,
+        lanczos_dimension, solver (of backends), with the values of case files.
 
     Returns
     -------

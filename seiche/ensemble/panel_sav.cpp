@@ -46,10 +46,7 @@ class PanelSav final : public PanelStepper {
   void advance(PanelState& s, const PanelStep& maps, RowFactors after, PanelState& next, PanelReport& report) override;
   void modified_energy(const PanelState& s, const PanelValues& quadratic,
                        std::array<EnergyReading, panel_members>& readings) override;
-  bool transports() const {
-    const bool moves_r = auxiliary_ == AuxiliaryMode::automatic || auxiliary_ == AuxiliaryMode::transport;
-    return moves_r && system().damping_moves_potential();
-  }
+  bool transports() const { return auxiliary_ == AuxiliaryMode::transport && system().damping_moves_potential(); }
 
   AuxiliaryMode auxiliary_;
   Powers powers_;

@@ -30,10 +30,8 @@ constexpr EnergyLaw guard = EnergyLaw::guard;
 
 // ---- Closures, in the whole equation with the damping merged into S, or with its flow split off
 
-std::unique_ptr<Stepper> by_closure(const MethodEntry& method, const System& system, const MethodOptions& given) {
-  MethodOptions options = given;
-  options.auxiliary = auxiliary_of(method, system, given);
-  std::unique_ptr<Closure> closure = method.kind.make_closure(system, options);
+std::unique_ptr<Stepper> by_closure(const MethodEntry& method, const System& system, const MethodOptions& options) {
+  std::unique_ptr<Closure> closure = method.kind.make_closure(system, settled(method, system, options));
   if (method.kind.splits_damping) return make_strang(system, method.propagator, std::move(closure));
   if (!system.damping->is_zero()) throw Error("{} needs its damping merged into S first", method.name);
   return make_whole(system, method.propagator, std::move(closure));
@@ -248,10 +246,11 @@ void MethodOptions::validate(const MethodEntry& method) const {
   throw Error("auxiliary = \"refresh\" acts after the damping flows, and {} has none", method.name);
 }
 
-AuxiliaryMode auxiliary_of(const MethodEntry& method, const System& system, const MethodOptions& options) {
-  if (options.auxiliary != AuxiliaryMode::automatic) return options.auxiliary;
+MethodOptions settled(const MethodEntry& method, const System& system, MethodOptions options) {
+  if (options.auxiliary != AuxiliaryMode::automatic) return options;
   const bool relaxes = method.kind.takes_C && !method.kind.merges_damping && is_gradient_flow(system);
-  return relaxes ? AuxiliaryMode::relaxed : AuxiliaryMode::transport;
+  options.auxiliary = relaxes ? AuxiliaryMode::relaxed : AuxiliaryMode::transport;
+  return options;
 }
 
 MethodOptions MethodOptions::meant_for(const MethodEntry& method) const {

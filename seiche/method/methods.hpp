@@ -68,8 +68,8 @@ std::span<const MethodEntry> methods();
 std::vector<std::string> method_names();
 const MethodEntry& find_method(std::string_view name);  // throws unknown_method(name)
 
-// The mode that `automatic` stands for.
-AuxiliaryMode auxiliary_of(const MethodEntry& method, const System& system, const MethodOptions& options);
+// With the mode that `automatic` stands for.
+MethodOptions settled(const MethodEntry& method, const System& system, MethodOptions options);
 
 // `method` is a row of the list, or one like them. `system` outlives the stepper; for methods that merge the damping it
 // comes from with_damping_merged(problem).

@@ -42,7 +42,8 @@ class PetscLinear final : public LinearPart {
     if (!is_zero(symmetric_S_itself_)) symmetric_S_.emplace(symmetric_S_itself_);
     resolvents_.emplace(SM_, equation.solver, support.size);
     iterates_ = resolvents_->iterates();
-    if (iterates_ && radius_ > 0) resolvents_->make(1 / radius_, {1, 1});  // says now what is wrong with the options
+    if (iterates_ && radius_ > 0 && !options_.solver.empty())
+      resolvents_->make(1 / radius_, {1, 1});  // says now what is wrong with the options of a case
     for (Vector* v : {&image_, &sizes_}) v->resize(space.size());
   }
 

@@ -6,7 +6,6 @@
 #include <seiche/output/hdf5/hdf5.hpp>
 #include <seiche/output/solution_layout.hpp>
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

@@ -1,7 +1,10 @@
 #include <seiche/config/data/matrix_file.hpp>
 #include <seiche/config/data/matrix_market.hpp>
 #include <seiche/config/data/petsc_binary.hpp>
+#include <seiche/core/base/error.hpp>
 #include <seiche/core/base/memory_limit.hpp>
+#include <seiche/core/base/shortened.hpp>
+#include <seiche/core/text/input_file.hpp>
 
 #include <fmt/format.h>
 
@@ -16,6 +19,14 @@ SparseMatrix read_matrix(const std::filesystem::path& file, bool* repeats) {
 
 MatrixSizes matrix_sizes(const std::filesystem::path& file) {
   return is_petsc_binary(file) ? petsc_binary_sizes(file) : matrix_market_sizes(file);
+}
+
+std::ifstream open_matrix_file(const std::filesystem::path& file) {
+  const std::string name = shortened_path(file.string()), complaint = complaint_about_file(file);
+  if (!complaint.empty()) throw Error("{} {}", name, complaint);
+  std::ifstream input(file, std::ios::binary);
+  if (!input) throw Error("{} cannot be read", name);
+  return input;
 }
 
 std::string complaint_about_sizes(Index rows, Index columns) {

@@ -4,6 +4,7 @@
 #include <seiche/core/base/sparse_matrix.hpp>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace seiche {
@@ -20,6 +21,9 @@ SparseMatrix read_matrix(const std::filesystem::path& file, bool* repeats = null
 
 // What the head of the file says; nothing behind it is read.
 MatrixSizes matrix_sizes(const std::filesystem::path& file);
+
+// Throws Error where it cannot be read to its end.
+std::ifstream open_matrix_file(const std::filesystem::path& file);
 
 // Why no matrix of so many rows and columns can be held, or "".
 std::string complaint_about_sizes(Index rows, Index columns);

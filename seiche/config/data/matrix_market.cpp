@@ -1,7 +1,6 @@
 #include <seiche/config/data/matrix_market.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/base/shortened.hpp>
-#include <seiche/core/text/input_file.hpp>
 
 #include <fmt/ranges.h>
 
@@ -16,13 +15,10 @@ namespace {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : name_(shortened_path(file.string())) {
-    const std::string complaint = complaint_about_file(file);
-    if (!complaint.empty()) throw Error("{} {}", name_, complaint);
-    input_.open(file);
-    if (!input_) throw Error("{} cannot be read", name_);
-    bytes_ = static_cast<double>(std::filesystem::file_size(file));
-  }
+  explicit Reader(const std::filesystem::path& file)
+      : name_(shortened_path(file.string())),
+        input_(open_matrix_file(file)),
+        bytes_(static_cast<double>(std::filesystem::file_size(file))) {}
 
   MatrixSizes sizes() {
     read_header();
@@ -160,7 +156,7 @@ class Reader {
 
   std::string name_;
   std::ifstream input_;
-  double bytes_ = 0;
+  double bytes_;
   std::size_t line_ = 0;
   std::vector<std::string> words_;
   bool is_array_ = false, is_pattern_ = false, is_symmetric_ = false, is_skew_ = false;

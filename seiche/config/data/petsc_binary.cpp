@@ -1,7 +1,6 @@
 #include <seiche/config/data/petsc_binary.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/base/shortened.hpp>
-#include <seiche/core/text/input_file.hpp>
 
 #include <bit>
 #include <cmath>
@@ -17,13 +16,10 @@ constexpr std::int64_t dense = -1;  // in the place of the number of entries
 
 class PetscReader {
  public:
-  explicit PetscReader(const std::filesystem::path& file) : name_(shortened_path(file.string())) {
-    const std::string complaint = complaint_about_file(file);
-    if (!complaint.empty()) throw Error("{} {}", name_, complaint);
-    input_.open(file, std::ios::binary);
-    if (!input_) throw Error("{} cannot be read", name_);
-    bytes_ = static_cast<double>(std::filesystem::file_size(file));
-  }
+  explicit PetscReader(const std::filesystem::path& file)
+      : name_(shortened_path(file.string())),
+        input_(open_matrix_file(file)),
+        bytes_(static_cast<double>(std::filesystem::file_size(file))) {}
 
   // The number that tells what follows; 0 bytes before it are those of a wide index.
   std::int64_t mark() {
@@ -112,7 +108,7 @@ class PetscReader {
 
   std::string name_;
   std::ifstream input_;
-  double bytes_ = 0;
+  double bytes_;
   bool wide_ = false, is_dense_ = false;
   Index rows_ = 0, columns_ = 0, entries_ = 0;
 };
