@@ -170,15 +170,15 @@ void PanelStepper::energy(std::array<EnergyReading, panel_members>& readings) {
   modified_energy(*state_, quadratic, readings);
 }
 
-std::unique_ptr<PanelStepper> make_panel_stepper(PanelSimulations members, const MethodOptions& given) {
+std::unique_ptr<PanelStepper> make_panel_stepper(PanelSimulations members, const MethodOptions& options) {
   const MethodEntry& method = members.front()->method();
   if (method.kind.members == MembersTogether::none) return nullptr;
-  const MethodOptions options = settled(method, members.front()->system(), given);
-  if (options.auxiliary == AuxiliaryMode::relaxed) return nullptr;
+  const MethodOptions chosen = settled(method, members.front()->system(), options);
+  if (chosen.auxiliary == AuxiliaryMode::relaxed) return nullptr;
   std::unique_ptr<PanelSystem> system = PanelSystem::make(members, method.propagator);
   if (!system) return nullptr;
-  if (method.kind.members == MembersTogether::sav) return make_panel_sav(std::move(system), method, options);
-  return make_panel_avf(std::move(system), method, options);
+  if (method.kind.members == MembersTogether::sav) return make_panel_sav(std::move(system), method, chosen);
+  return make_panel_avf(std::move(system), method, chosen);
 }
 
 }  // namespace seiche
