@@ -80,8 +80,6 @@ void require_one_thread() {
 System make_system(const Problem& problem, const BackendOptions& options) {
   options.sparse.validate();
   require_one_thread();
-  if (options.sparse.exponential == ExponentialKind::lanczos)
-    throw Error("exponential = \"lanczos\" belongs to the sparse backend; petsc takes rational functions by KSP");
   begin_petsc();
   const Ranks& ranks = options.ranks != nullptr ? *options.ranks : one_rank;
   const MPI_Comm communicator = options.ranks != nullptr ? PETSC_COMM_WORLD : PETSC_COMM_SELF;

@@ -1,5 +1,6 @@
 #include <seiche/backend/sparse/pade_propagator.hpp>
 #include <seiche/petsc/petsc_krylov.hpp>
+#include <seiche/petsc/petsc_lanczos.hpp>
 #include <seiche/petsc/petsc_system.hpp>
 #include <seiche/petsc/solver/ksp_resolvents.hpp>
 
@@ -41,8 +42,10 @@ class PetscLinear final : public LinearPart {
     make_symmetric_part(equation.S, symmetric_S_itself_);
     if (!is_zero(symmetric_S_itself_)) symmetric_S_.emplace(symmetric_S_itself_);
     resolvents_.emplace(SM_, equation.solver, support.size);
+    if (options_.exponential == ExponentialKind::lanczos)
+      skew_ = std::make_shared<PetscSkewSystem>(equation, S_, M_, space_);
     iterates_ = resolvents_->iterates();
-    if (iterates_ && radius_ > 0 && !options_.solver.empty())
+    if (iterates_ && radius_ > 0 && !options_.solver.empty() && !skew_)
       resolvents_->make(1 / radius_, {1, 1});  // says now what is wrong with the options of a case
     for (Vector* v : {&image_, &sizes_}) v->resize(space.size());
   }
@@ -65,11 +68,12 @@ class PetscLinear final : public LinearPart {
   }
   std::unique_ptr<Propagator> propagator(PropagatorKind kind, double h) const override {
     if (kind == PropagatorKind::cayley) return propagator(force(h, {1, 1}), nullptr);
+    if (skew_) return lanczos_propagator(skew_, support_, h, options_.lanczos_dimension, iterates_ ? &moved_ : nullptr);
     return propagator(force(h, plan(h)), force(h / 2, plan(h / 2)));
   }
   std::optional<SolverShare> solver_share() const override {
     if (!iterates_) return {};
-    return SolverShare{.iterations = resolvents_->iterations(), .restored = moved_};
+    return SolverShare{.iterations = resolvents_->iterations() + (skew_ ? skew_->iterations() : 0), .restored = moved_};
   }
 
  private:
@@ -89,6 +93,7 @@ class PetscLinear final : public LinearPart {
   OwnedMat SM_, absolute_M_itself_, symmetric_S_itself_;
   std::optional<PetscProduct> absolute_M_, symmetric_S_;
   std::optional<KspResolvents> resolvents_;
+  std::shared_ptr<const PetscSkewSystem> skew_;  // null: Padé
   double radius_ = 0.0;
   bool iterates_ = false;
   mutable double moved_ = 0.0;

@@ -17,9 +17,9 @@ struct PetscEquation {
   SolverOptions solver = SolverOptions();
 };
 
-// All but V, the damping and z₀, which the caller adds before a method is made: propagators by KspResolvents,
-// φ-functions by Krylov spaces. `support`: of V, in the part of z that is here. An iterative solver holds to its
-// tolerance; closures keep their law to round-off all the same, by restoring_pade_propagator, where S is skew.
+// All but V, the damping and z₀, which the caller adds before a method is made: propagators by KspResolvents or Lanczos
+// iteration, φ-functions by Krylov spaces. `support`: of V, in the part of z that is here. An iterative solver holds to
+// its tolerance; closures keep their law to round-off all the same, by a Restoration, where S is skew.
 System petsc_system(const PetscEquation& equation, std::unique_ptr<Space> of_states, Potential::Support support,
                     const SparseOptions& options);
 // Rows side by side, those of each process in one array.

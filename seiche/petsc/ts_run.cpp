@@ -42,8 +42,6 @@ void TsRun::build(Vec u) {
 
 void TsRun::make_joint(Vec u) {
   const SimulationOptions& options = options_.simulation;
-  if (options.backend_options.sparse.exponential == ExponentialKind::lanczos)
-    throw Error("-ts_seiche_exponential lanczos factorises M on one process; leave it out where KSP solves");
   joint_ = std::make_unique<Joint>();
   joint_->ranks = mpi_ranks(MPI_Comm_c2f(communicator_of(equation_->M())));
   PetscEquation& equation = joint_->equation;

@@ -378,7 +378,8 @@ class Refusals(unittest.TestCase):
     def test_what_only_some_solvers_do(self):
         ring = Ring()
         for options, message in (
-            ({"ts_seiche_exponential": "lanczos", "ts_seiche_ksp": True}, "leave it out where KSP solves"),
+            ({"ts_seiche_exponential": "lanczos", "ts_seiche_ksp": True, "seiche_pc_type": "none",
+              "seiche_ksp_max_it": 1, "seiche_ksp_rtol": 1e-12}, "stopped after 1 iterations"),
             ({"ts_seiche_ksp": True, "seiche_ksp_type": "preonly", "seiche_pc_type": "jacobi"}, "solves nothing"),
         ):
             for name, value in options.items():

@@ -14,6 +14,13 @@ using Matrix = Eigen::MatrixXd;
 constexpr int most_blocks = 400;
 constexpr double dependent = 1e-13;  // a remainder this small against its vector is round-off
 
+std::span<double> span_of(Matrix::ColXpr x) { return {x.data(), static_cast<std::size_t>(x.size())}; }
+
+template <class Coefficients>
+void sum(const Space& space, Coefficients& c) {
+  space.sum({c.data(), static_cast<std::size_t>(c.size())});
+}
+
 }  // namespace
 
 void KrylovSpace::reserve(Index columns, Index rows) {
@@ -23,28 +30,33 @@ void KrylovSpace::reserve(Index columns, Index rows) {
   W_.conservativeResize(rows, capacity);
 }
 
+// (xᵀMx)^½, and Mx.
+double KrylovSpace::norm_in_M(Matrix::ColXpr x) {
+  M_.apply(span_of(x), {Mx_.data(), static_cast<std::size_t>(Mx_.size())});
+  return std::sqrt(std::max(0.0, space_.sum(x.dot(Mx_))));
+}
+
 // Orthonormalises the columns of `block` against V and each other and appends those that are new; block =
 // V·coefficients afterwards. Two passes of Gram–Schmidt keep V orthonormal to round-off. Returns how many were
 // appended.
-Index KrylovSpace::append(const SparseMatrix& M, Matrix& block, Matrix& coefficients) {
+Index KrylovSpace::append(Matrix& block, Matrix& coefficients) {
   const Index before = size_;
   reserve(size_ + block.cols(), block.rows());
   coefficients.setZero(size_ + block.cols(), block.cols());
-  Vector Mx(block.rows());
+  Mx_.resize(block.rows());
   for (Index j = 0; j < block.cols(); ++j) {
     auto x = block.col(j);
-    Mx.noalias() = M * x;
-    const double norm = std::sqrt(std::max(0.0, x.dot(Mx)));
+    const double norm = norm_in_M(x);
     for (int pass = 0; pass < 2 && size_ > 0; ++pass) {
-      const Vector c = W_.leftCols(size_).transpose() * x;
+      Vector c = W_.leftCols(size_).transpose() * x;
+      sum(space_, c);
       x.noalias() -= V_.leftCols(size_) * c;
       coefficients.col(j).head(size_) += c;
     }
-    Mx.noalias() = M * x;
-    const double remainder = std::sqrt(std::max(0.0, x.dot(Mx)));
+    const double remainder = norm_in_M(x);
     if (!(remainder > dependent * norm)) continue;
     V_.col(size_) = x / remainder;
-    W_.col(size_) = Mx / remainder;
+    W_.col(size_) = Mx_ / remainder;
     coefficients(size_, j) = remainder;
     ++size_;
   }
@@ -68,7 +80,7 @@ void KrylovSpace::complain(double h) const {
       most_blocks, h, std::abs(h) * radius, radius);
 }
 
-void KrylovSpace::build(const SparseMatrix& S, const SparseMatrix& M, const Matrix& start, double h, int blocks) {
+void KrylovSpace::build(const Matrix& start, double h, int blocks) {
   // What the next block would see of the change, against the vectors; and what round-off in e^{hT} may leave of it.
   constexpr double settled = 1e-15, round_off = 1e-13;
   int next_check = 4;
@@ -77,19 +89,21 @@ void KrylovSpace::build(const SparseMatrix& S, const SparseMatrix& M, const Matr
   T_.resize(0, 0);
   Matrix block = start;
   Matrix coefficients;
-  Index last = append(M, block, R_);
+  Index last = append(block, R_);
   const double scale = R_.norm();
   for (int k = 1; last > 0; ++k) {
     end_if_asked();
     // SM of the last block: inside the block, T; along the block before, −Tᵀ; the rest is the next block.
     const Index known = size_;
     const Index from = known - last;
-    block.noalias() = S * W_.middleCols(from, last);
-    const Matrix inside = W_.middleCols(from, last).transpose() * block;
+    block.resize(start.rows(), last);
+    for (Index j = 0; j < last; ++j) S_.apply(span_of(W_.col(from + j)), span_of(block.col(j)));
+    Matrix inside = W_.middleCols(from, last).transpose() * block;
+    sum(space_, inside);
     grow_T(known);
     T_.bottomRightCorner(last, last) = (inside - inside.transpose()) / 2;
     if (k == blocks) break;
-    const Index next = append(M, block, coefficients);
+    const Index next = append(block, coefficients);
     const Matrix coupling = coefficients.bottomRows(next);
     if (blocks == 0 && (k == next_check || k == most_blocks)) {
       exponentiate(h);

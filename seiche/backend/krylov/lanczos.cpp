@@ -1,17 +1,24 @@
 #include <seiche/backend/krylov/krylov_space.hpp>
 #include <seiche/backend/krylov/lanczos.hpp>
-#include <seiche/core/base/error.hpp>
-#include <seiche/core/numerics/definiteness.hpp>
+#include <seiche/backend/krylov/restoration.hpp>
 
-#include <cmath>
+#include <optional>
 
 namespace seiche {
 namespace {
 
 class LanczosPropagator final : public Propagator {
  public:
-  LanczosPropagator(std::shared_ptr<const SkewSystem> system, Potential::Support support, double h, int dimension)
-      : system_(std::move(system)), support_(support), h_(h), dimension_(dimension) {}
+  LanczosPropagator(std::shared_ptr<const SkewSystem> system, Potential::Support support, double h, int dimension,
+                    double* moved)
+      : system_(std::move(system)),
+        support_(support),
+        h_(h),
+        dimension_(dimension),
+        joint_(system_->S, system_->M, system_->space),
+        alone_(joint_) {
+    if (moved != nullptr) restoration_.emplace(system_->M, system_->space, *moved);
+  }
 
   // ẑ = z⁻ + (e^{hSM/2} − I)(z⁻ + M⁻¹∇V(z⁻))
   void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
@@ -28,12 +35,17 @@ class LanczosPropagator final : public Propagator {
   void increment(const Vector& z, Vector& dz) const override {
     dz.setZero(z.size());
     change(z, h_, dz);
+    if (!restoration_) return;
+    w_.resize(z.size());
+    system_->M.apply(z, w_);
+    restoration_->start(w_, dz);
   }
   void force(const Vector& f, Vector& q) const override {
     w_ = f;
     system_->divide_by_M(w_);
     q.setZero(f.size());
     change(w_, h_, q);
+    if (restoration_) restoration_->follow(f, q);
   }
 
   // In the space of z⁻ and M⁻¹f, the columns of V R: f = M V R e₂, so that fᵀy is a product of coordinates.
@@ -44,7 +56,7 @@ class LanczosPropagator final : public Propagator {
     multiply_fields(before, z_);
     start_.resize(z.size(), 2);
     start_ << z_, w_;
-    joint_.build(system_->S(), system_->M(), start_, h_, dimension_);
+    joint_.build(start_, h_, dimension_);
     const Eigen::MatrixXd& R = joint_.coordinates();
     const Eigen::MatrixXd& change = joint_.change();
     return {R.col(1).dot(change.col(0)), R.col(1).dot(change.col(1)), R.col(0).squaredNorm() / 2};
@@ -59,7 +71,7 @@ class LanczosPropagator final : public Propagator {
  private:
   // out += (e^{hSM} − I)w
   void change(const Vector& w, double h, Vector& out) const {
-    alone_.build(system_->S(), system_->M(), w, h, 0);
+    alone_.build(w, h, 0);
     alone_.add(alone_.change().col(0), out);
   }
 
@@ -69,34 +81,24 @@ class LanczosPropagator final : public Propagator {
   int dimension_;
   mutable KrylovSpace joint_, alone_;
   mutable Eigen::MatrixXd start_;
+  mutable std::optional<Restoration> restoration_;
   mutable Vector w_, z_;
 };
 
-SparseMatrix with_diagonal(const SparseMatrix& M) {
-  SparseMatrix a = M + SparseMatrix(0 * identity_matrix(M.rows()));
-  a.makeCompressed();
-  return a;
-}
-
 }  // namespace
 
-SkewSystem::SkewSystem(const SparseMatrix& S, const SparseMatrix& M) : S_(S), M_(with_diagonal(M)) {
-  if (SparseMatrix(S_ + SparseMatrix(S_.transpose())).norm() != 0)
-    throw Error(
-        "exponential = \"lanczos\" needs a skew S; with damping merged into S, or another S, use exponential = \"pade\"");
-  constexpr double least = 1e-12;
-  const SparseMatrix lowered = M_ - SparseMatrix(least * M_.norm() * identity_matrix(M_.rows()));
-  if (const auto x = negative_direction(lowered))
-    throw Error(
-        "exponential = \"lanczos\" needs M positive definite, but zᵀMz = {:.3g} for a z of norm 1; use exponential = "
-        "\"pade\"",
-        x->value + least * M_.norm());
-  M_factors_ = std::make_unique<SparseLdlt<double>>(std::make_shared<LdltPattern>(M_), M_.valuePtr());
+Error lanczos_needs_skew_S() {
+  return Error(
+      "exponential = \"lanczos\" needs a skew S; with damping merged into S, or another S, use exponential = \"pade\"");
+}
+
+Error lanczos_needs_definite_M(const std::string& found) {
+  return Error("exponential = \"lanczos\" needs M positive definite, but {}; use exponential = \"pade\"", found);
 }
 
 std::unique_ptr<Propagator> lanczos_propagator(std::shared_ptr<const SkewSystem> system, Potential::Support support,
-                                               double h, int dimension) {
-  return std::make_unique<LanczosPropagator>(std::move(system), support, h, dimension);
+                                               double h, int dimension, double* moved) {
+  return std::make_unique<LanczosPropagator>(std::move(system), support, h, dimension, moved);
 }
 
 }  // namespace seiche

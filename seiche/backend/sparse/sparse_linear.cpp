@@ -1,9 +1,13 @@
 #include <seiche/backend/krylov/lanczos.hpp>
+#include <seiche/backend/krylov/sparse_ldlt.hpp>
 #include <seiche/backend/sparse/equal_rows.hpp>
 #include <seiche/backend/sparse/pade_propagator.hpp>
 #include <seiche/backend/sparse/sparse_linear.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/base/memory_limit.hpp>
+#include <seiche/core/numerics/definiteness.hpp>
+
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -13,6 +17,32 @@ namespace {
 struct Operators {
   SparseMatrix S, M, absolute_M;
   Potential::Support support;
+};
+
+SparseMatrix with_diagonal(const SparseMatrix& M) {
+  SparseMatrix a = M + SparseMatrix(0 * identity_matrix(M.rows()));
+  a.makeCompressed();
+  return a;
+}
+
+class SparseSkewSystem final : public SkewSystem {
+ public:
+  SparseSkewSystem(const Operators& operators, const Product& of_S, const Product& of_M, const Space& of_states)
+      : SkewSystem(of_S, of_M, of_states) {
+    const auto& [S_matrix, M_matrix, absolute_M, support] = operators;
+    if (SparseMatrix(S_matrix + SparseMatrix(S_matrix.transpose())).norm() != 0) throw lanczos_needs_skew_S();
+    constexpr double least = 1e-12;
+    const double size = M_matrix.norm();
+    const SparseMatrix lowered = M_matrix - SparseMatrix(least * size * identity_matrix(M_matrix.rows()));
+    if (const auto x = negative_direction(lowered))
+      throw lanczos_needs_definite_M(fmt::format("zᵀMz = {:.3g} for a z of norm 1", x->value + least * size));
+    const SparseMatrix a = with_diagonal(M_matrix);
+    M_factors_ = std::make_unique<SparseLdlt<double>>(std::make_shared<LdltPattern>(a), a.valuePtr());
+  }
+  void divide_by_M(Vector& f) const override { M_factors_->solve(f); }
+
+ private:
+  std::unique_ptr<SparseLdlt<double>> M_factors_;
 };
 
 class SparseLinear final : public LinearPart {
@@ -26,7 +56,7 @@ class SparseLinear final : public LinearPart {
         scratch_(operators_.S.rows()),
         absolute_(operators_.S.rows()) {
     if (options.exponential == ExponentialKind::lanczos)
-      skew_ = std::make_shared<SkewSystem>(operators_.S, operators_.M);
+      skew_ = std::make_shared<SparseSkewSystem>(operators_, S_, M_, space_);
   }
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = operators_.S * z; }

@@ -228,14 +228,14 @@ void add_backend(KeyRows& rows) {
       "plan", "FFTW: estimate (repeatable to the bit) | measure (fastest)", {{"estimate", false}, {"measure", true}},
       Written::always, [](auto& spec) -> auto& { return spec.measure_plans; });
   rows.choice<ExponentialKind>(
-      "exponential", "sparse: pade (factorises) | lanczos (does not; S skew, M definite)",
+      "exponential", "sparse, petsc: pade (factorises) | lanczos (M alone; S skew, M definite)",
       {{"pade", ExponentialKind::pade}, {"lanczos", ExponentialKind::lanczos}}, Written::always,
       [](auto& spec) -> auto& { return spec.sparse.exponential; });
   rows.sparse_option(
-      "pade_degree", "sparse: 1 to 12; 0: whatever round-off asks for",
+      "pade_degree", "sparse, petsc: 1 to 12; 0: whatever round-off asks for",
       [](auto& spec) -> auto& { return spec.sparse.pade_degree; });
   rows.sparse_option(
-      "lanczos_dimension", "sparse: pairs of vectors, at least 2; 0: until nothing changes",
+      "lanczos_dimension", "sparse, petsc: pairs of vectors, at least 2; 0: until nothing changes",
       [](auto& spec) -> auto& { return spec.sparse.lanczos_dimension; });
   KeyRow& solver =
       rows.add(Kind::text, "solver",
