@@ -31,6 +31,8 @@
 #include <seiche/problem/burgers.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
+#include <seiche/problem/gradient_flow/pattern_formation.hpp>
+#include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/network.hpp>
 #include <seiche/problem/nls.hpp>

@@ -27,8 +27,10 @@ import notebooks  # noqa: E402
 import run_blocks  # noqa: E402
 
 
-FILMED = {"klein_gordon_ring": "output.snapshot_every=8"}  # its run again with more states
-PLOTTED = {"sine_gordon_kinks": "space_time_u", "klein_gordon_ring": "slices_u"}  # by `seiche plot`, the others by draw.py
+FILMED = {"klein_gordon_ring": "output.snapshot_every=8", "pfhub_1a": "output.snapshot_every=100",
+          "phase_field_crystal": "output.snapshot_every=40"}  # its run again with more states
+PLOTTED = {"sine_gordon_kinks": "space_time_u", "klein_gordon_ring": "slices_u", "pfhub_1a": "slices_u",
+           "phase_field_crystal": "slices_u"}  # by `seiche plot`, the others by draw.py
 
 
 def both_grounds(run, name, picture):

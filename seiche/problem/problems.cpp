@@ -5,6 +5,8 @@
 #include <seiche/problem/burgers.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
+#include <seiche/problem/gradient_flow/pattern_formation.hpp>
+#include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/network.hpp>
 #include <seiche/problem/nls.hpp>
@@ -20,9 +22,12 @@ namespace seiche {
 
 std::span<const ProblemEntry> problems() {
   static const std::vector<ProblemEntry> list = {
-      klein_gordon_entry(), alpha_fpu_entry(), gkdv_entry(),    sine_gordon_entry(),   oscillator_entry(),
-      nls_entry(),          beta_fpu_entry(),  chain_entry(),   variable_wave_entry(), truss_entry(),
-      network_entry(),      sparse_entry(),    burgers_entry(), rigid_body_entry(),
+      klein_gordon_entry(),  alpha_fpu_entry(),       gkdv_entry(),
+      sine_gordon_entry(),   oscillator_entry(),      nls_entry(),
+      beta_fpu_entry(),      chain_entry(),           variable_wave_entry(),
+      truss_entry(),         network_entry(),         sparse_entry(),
+      burgers_entry(),       rigid_body_entry(),      allen_cahn_entry(),
+      cahn_hilliard_entry(), swift_hohenberg_entry(), phase_field_crystal_entry(),
   };
   return list;
 }

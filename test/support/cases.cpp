@@ -12,6 +12,8 @@
 #include <seiche/problem/burgers.hpp>
 #include <seiche/problem/chain.hpp>
 #include <seiche/problem/gkdv.hpp>
+#include <seiche/problem/gradient_flow/pattern_formation.hpp>
+#include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/network.hpp>
 #include <seiche/problem/nls.hpp>
@@ -215,6 +217,26 @@ std::vector<NamedProblem> beyond_linear_cases() {
   };
 }
 
+std::vector<NamedProblem> gradient_flow_cases() {
+  using enum Boundary;
+  return {
+      {"Allen_Cahn", allen_cahn({.grid = {.points = {12}, .boundary = {dirichlet}}, .kappa = 0.01, .mobility = 0.25})},
+      {"Cahn_Hilliard_2d", cahn_hilliard({.grid = {.points = {5, 4}, .length = {4.0}, .boundary = {neumann, periodic}},
+                                          .kappa = 0.5,
+                                          .mobility = 0.1,
+                                          .low = -0.5,
+                                          .high = 1.0,
+                                          .mean = 0.2})},
+      {"Swift_Hohenberg", swift_hohenberg({.grid = {.points = {16}, .length = {20.0}}, .g = 0.5, .amplitude = 0.4})},
+      {"phase_field_crystal_2d",
+       phase_field_crystal({.grid = {.points = {5, 4}, .length = {6.0}, .boundary = {periodic, neumann}},
+                            .r = 0.25,
+                            .mean = -0.25,
+                            .amplitude = 0.3,
+                            .initial = PatternFormation::Initial::seed})},
+  };
+}
+
 std::vector<NamedProblem> written_cases() {
   const GridOptions line{.points = {10}, .length = {6.0}};
   const GridOptions chain{.points = {7}, .length = {7.0}, .boundary = {Boundary::dirichlet}};
@@ -263,6 +285,7 @@ std::vector<NamedProblem> all_cases() {
   for (NamedProblem& c : field_rate_cases()) cases.push_back(std::move(c));
   for (NamedProblem& c : matrix_cases()) cases.push_back(std::move(c));
   for (NamedProblem& c : beyond_linear_cases()) cases.push_back(std::move(c));
+  for (NamedProblem& c : gradient_flow_cases()) cases.push_back(std::move(c));
   for (NamedProblem& c : written_cases()) cases.push_back(std::move(c));
   cases.push_back({"KG_defocusing", klein_gordon_case(0.1, 1.0)});
   cases.push_back({"gKdV_sigma_1", gkdv_case(0.5, 1.0, 1.0)});

@@ -33,6 +33,8 @@ std::vector<NamedProblem> field_rate_cases();
 std::vector<NamedProblem> matrix_cases();
 // Friction beyond linear, external forces, structure matrices that change with the state.
 std::vector<NamedProblem> beyond_linear_cases();
+// Phases that part, and patterns of one wavelength: S ⪯ 0.
+std::vector<NamedProblem> gradient_flow_cases();
 // Energies, structure and damping by formulas.
 std::vector<NamedProblem> written_cases();
 // Every problem that each method is to be tried on: all of the above and a few more.

@@ -125,6 +125,12 @@ Stencil Stencil::multiplier(const Grid& grid, WaveFunction f, Parity parity) {
   return s;
 }
 
+Stencil Stencil::product(const Stencil& a, const Stencil& b) {
+  Stencil s;
+  s.products_.push_back({std::make_shared<Stencil>(a), std::make_shared<Stencil>(b), 1.0});
+  return s;
+}
+
 Stencil Stencil::third_derivative(const Grid& grid, Index axis, Discretisation discretisation) {
   return odd_derivative(grid, axis, 3, discretisation);
 }
@@ -150,6 +156,7 @@ Stencil& Stencil::operator+=(const Stencil& other) {
       same->factor += multiplier.factor;
     }
   }
+  products_.insert(products_.end(), other.products_.begin(), other.products_.end());
   drop_what_vanishes();
   return *this;
 }
@@ -158,6 +165,7 @@ Stencil& Stencil::operator*=(double factor) {
   identity_ *= factor;
   for (Term& term : terms_) term.factor *= factor;
   for (Multiplier& multiplier : multipliers_) multiplier.factor *= factor;
+  for (Product& product : products_) product.factor *= factor;
   drop_what_vanishes();
   return *this;
 }
@@ -166,22 +174,26 @@ void Stencil::drop_what_vanishes() {
   const auto vanishes = [](const auto& term) { return term.factor == 0; };
   std::erase_if(terms_, vanishes);
   std::erase_if(multipliers_, vanishes);
+  std::erase_if(products_, vanishes);
 }
 
 std::optional<double> Stencil::factor_of_identity() const {
-  return terms_.empty() && multipliers_.empty() ? std::optional(identity_) : std::nullopt;
+  return terms_.empty() && multipliers_.empty() && products_.empty() ? std::optional(identity_) : std::nullopt;
 }
 
 bool Stencil::is_symmetric() const {
   return std::all_of(terms_.begin(), terms_.end(), [](const Term& t) { return t.order % 2 == 0; }) &&
          std::all_of(multipliers_.begin(), multipliers_.end(),
-                     [](const Multiplier& m) { return m.function->parity() == Parity::even; });
+                     [](const Multiplier& m) { return m.function->parity() == Parity::even; }) &&
+         std::all_of(products_.begin(), products_.end(), [](const Product& p) { return p.is_symmetric(); });
 }
 
 bool Stencil::is_sparse() const {
-  return multipliers_.empty() && std::none_of(terms_.begin(), terms_.end(), [](const Term& t) {
-           return t.discretisation == Discretisation::spectral;
-         });
+  return multipliers_.empty() &&
+         std::none_of(terms_.begin(), terms_.end(),
+                      [](const Term& t) { return t.discretisation == Discretisation::spectral; }) &&
+         std::all_of(products_.begin(), products_.end(),
+                     [](const Product& p) { return p.first->is_sparse() && p.second->is_sparse(); });
 }
 
 // With θ = 2πk/period the phase from point to point and s = sin(θ/2):
@@ -222,6 +234,7 @@ std::complex<double> Stencil::symbol(const Mode& mode) const {
     sum += symbol(term, mode.k[a], mode.period[a]);
   }
   for (const Multiplier& multiplier : multipliers_) sum += multiplier.factor * multiplier.function->symbol(mode);
+  for (const Product& p : products_) sum += p.factor * p.first->symbol(mode) * p.second->symbol(mode);
   return sum;
 }
 
@@ -267,15 +280,28 @@ Eigen::MatrixXd Stencil::matrix(const Grid& grid) const {
     }
   }
   for (const Multiplier& multiplier : multipliers_) a += multiplier.factor * multiplier.function->matrix(grid);
+  for (const Product& p : products_) a += p.factor * p.first->matrix(grid) * p.second->matrix(grid);
   return a;
+}
+
+// At most.
+double Stencil::entries_per_row() const {
+  double count = identity_ != 0 ? 1 : 0;
+  for (const Term& term : terms_) count += static_cast<double>(taps(term.order, term.discretisation, term.dx).size());
+  for (const Product& p : products_) count += p.first->entries_per_row() * p.second->entries_per_row();
+  return count;
+}
+
+SparseMatrix Stencil::Product::sparse_matrix(const Grid& grid) const {
+  const SparseMatrix product = factor * first->sparse_matrix(grid) * second->sparse_matrix(grid);
+  if (!is_symmetric()) return product;
+  return 0.5 * (product + SparseMatrix(product.transpose()));  // to the last bit, as the sums need not be
 }
 
 SparseMatrix Stencil::sparse_matrix(const Grid& grid) const {
   if (!is_sparse()) throw Error("spectral derivatives couple every point with every other and have no sparse matrix");
   const Index n = grid.unknowns();
-  double per_row = identity_ != 0 ? 1 : 0;
-  for (const Term& term : terms_) per_row += static_cast<double>(taps(term.order, term.discretisation, term.dx).size());
-  require_entries(per_row * static_cast<double>(n));
+  require_entries(entries_per_row() * static_cast<double>(n));
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&entries](Index i, Index j, double value) {
     entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
@@ -296,6 +322,7 @@ SparseMatrix Stencil::sparse_matrix(const Grid& grid) const {
   }
   SparseMatrix a(n, n);
   a.setFromTriplets(entries.begin(), entries.end());
+  for (const Product& product : products_) a += product.sparse_matrix(grid);
   return a;
 }
 

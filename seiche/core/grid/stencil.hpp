@@ -18,7 +18,8 @@ namespace seiche {
 // How derivatives are taken: central differences of order two or four, or exactly on the modes of the grid.
 enum class Discretisation { fd2, fd4, spectral };
 
-// A multiple of the identity, plus derivatives of order one to four along the axes, plus functions of the wave vector.
+// A multiple of the identity, plus derivatives of order one to four along the axes, plus functions of the wave vector,
+// plus products of such.
 // Beyond a Dirichlet end a field is continued as an odd function, beyond a Neumann end as an even one; odd derivatives
 // need periodic axes.
 class Stencil {
@@ -39,6 +40,8 @@ class Stencil {
 
   // Symbol f(κ), or i f(κ) where f is odd; throws Error as FourierMultiplier does.
   static Stencil multiplier(const Grid& grid, WaveFunction f, Parity parity = Parity::even);
+  // One after the other: Δ² of several axes, which no sum over axes is.
+  static Stencil product(const Stencil& a, const Stencil& b);
 
   Stencil& operator+=(const Stencil& other);
   Stencil& operator*=(double factor);
@@ -69,6 +72,13 @@ class Stencil {
     std::shared_ptr<const FourierMultiplier> function;
     double factor;
   };
+  struct Product {
+    std::shared_ptr<const Stencil> first, second;
+    double factor;
+    bool is_symmetric() const { return first->is_symmetric() && second->is_symmetric(); }
+    SparseMatrix sparse_matrix(const Grid& grid) const;
+  };
+  double entries_per_row() const;
   static Stencil odd_derivative(const Grid& grid, Index axis, int order, Discretisation discretisation);
   static std::complex<double> symbol(const Term& term, Index k, Index period);
   static Eigen::MatrixXd line_matrix(const Term& term, const GridAxis& axis);
@@ -78,6 +88,7 @@ class Stencil {
   double identity_ = 0.0;
   std::vector<Term> terms_;
   std::vector<Multiplier> multipliers_;
+  std::vector<Product> products_;
 };
 
 // An m × m block of stencils acting on m fields: the S, M or D of a problem.

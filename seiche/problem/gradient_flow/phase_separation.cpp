@@ -1,0 +1,105 @@
+#include <seiche/core/base/error.hpp>
+#include <seiche/potential/polynomials.hpp>
+#include <seiche/problem/common/problem_rows.hpp>
+#include <seiche/problem/common/wave.hpp>
+#include <seiche/problem/gradient_flow/initial_fields.hpp>
+#include <seiche/problem/gradient_flow/phase_separation.hpp>
+
+#include <cmath>
+
+namespace seiche {
+namespace {
+
+// ρ(u − a)²(u − b)² = ρ(u² − su + p)², s = a + b, p = ab; less what stands in M.
+std::vector<double> double_well(const PhaseSeparation& options) {
+  const double s = options.low + options.high, p = options.low * options.high, rho = options.barrier;
+  return {rho * p * p, -2 * rho * s * p, rho * (s * s + 2 * p) - options.stabilisation / 2, -2 * rho * s, rho};
+}
+
+// u = (a + b)/2 + (b − a)/2 tanh((R − r)/w), which a flat interface has at rest: w = √(2κ/ρ)/|b − a|.
+double drop(const PhaseSeparation& options, const Grid& grid, Index point) {
+  const double span = options.high - options.low;
+  const double width = std::sqrt(2 * options.kappa / options.barrier) / std::abs(span);
+  const double inside = grid.axis(0).length / 4 - distance_from_centre(grid, point);
+  return (options.low + options.high) / 2 + span / 2 * std::tanh(inside / width);
+}
+
+Problem phase_separation(const char* name, const PhaseSeparation& options, bool is_conserved) {
+  for (const auto& [what, value] : {std::pair("kappa", options.kappa), std::pair("mobility", options.mobility),
+                                    std::pair("barrier", options.barrier)})
+    if (!(value > 0)) throw Error("{} = {} must be > 0", what, value);
+  if (!(options.stabilisation >= 0)) throw Error("stabilisation = {} must be ≥ 0", options.stabilisation);
+  if (options.low == options.high) throw Error("low = {} and high = {} must differ", options.low, options.high);
+  Problem p;
+  p.name = name;
+  p.grid = make_grid(options.grid);
+  p.fields = {"u"};
+  const Stencil laplacian = Stencil::laplacian(p.grid, options.grid.discretisation);
+  p.S = BlockStencil(1);
+  p.S(0, 0) = is_conserved ? options.mobility * laplacian : Stencil::identity(-options.mobility);
+  p.M = BlockStencil(1);
+  p.M(0, 0) = Stencil::identity(options.stabilisation) + -options.kappa * laplacian;
+  p.damping = rate_damping(nullptr, p.grid, {false});
+  p.potential = on_grid(nodal_polynomial(double_well(options)), p.grid, options.grid);
+  if (options.initial == PhaseSeparation::Initial::waves) {
+    p.initial = low_waves(p.grid, options.mean, options.amplitude);
+  } else {
+    p.initial.resize(p.grid.unknowns());
+    for (Index i = 0; i < p.initial.size(); ++i) p.initial[i] = drop(options, p.grid, i);
+  }
+  return p;
+}
+
+ProblemEntry with_rows(ProblemEntry about, Problem (*make)(const PhaseSeparation&)) {
+  using P = PhaseSeparation;
+  about.fields = {"u"};
+  about.meanings = {"order parameter"};
+  about.default_method = "seisav";
+  return ProblemRows<P>(std::move(about), make)
+      .grid(&P::grid)
+      .row(&P::kappa,
+           {.name = "kappa", .meaning = "κ, gradient energy ½κ|∇u|²", .minimum = 0, .minimum_excluded = true})
+      .row(&P::mobility, {.name = "mobility", .meaning = "m, mobility", .minimum = 0, .minimum_excluded = true})
+      .row(&P::barrier, {.name = "barrier",
+                         .meaning = "ρ, of the double well ρ(u − a)²(u − b)²",
+                         .minimum = 0,
+                         .minimum_excluded = true})
+      .row(&P::low, {.name = "low", .meaning = "a, one phase"})
+      .row(&P::high, {.name = "high", .meaning = "b, the other phase"})
+      .row(&P::stabilisation,
+           {.name = "stabilisation",
+            .meaning = "β, of ½βu² that stands in M and not in V: H is the same, and steps may be longer",
+            .minimum = 0})
+      .row(&P::mean, {.name = "mean", .meaning = "of the initial waves"})
+      .row(&P::amplitude, {.name = "amplitude", .meaning = "A, of the initial waves"})
+      .presets(&P::initial, {"waves", "drop"});
+}
+
+}  // namespace
+
+Problem allen_cahn(const PhaseSeparation& options) { return phase_separation("allen_cahn", options, false); }
+Problem cahn_hilliard(const PhaseSeparation& options) { return phase_separation("cahn_hilliard", options, true); }
+
+ProblemEntry allen_cahn_entry() {
+  return with_rows({.name = "allen_cahn",
+                    .title = "Allen–Cahn equation",
+                    .equation = "u_t = m(κΔu − W′(u)), W = ρ(u − a)²(u − b)²",
+                    .reference = "Allen, Cahn (1979)",
+                    .fields = {},
+                    .default_h = "1/16",
+                    .default_end = 20.0},
+                   allen_cahn);
+}
+
+ProblemEntry cahn_hilliard_entry() {
+  return with_rows({.name = "cahn_hilliard",
+                    .title = "Cahn–Hilliard equation",
+                    .equation = "u_t = mΔ(W′(u) − κΔu), W = ρ(u − a)²(u − b)²",
+                    .reference = "Cahn, Hilliard (1958)",
+                    .fields = {},
+                    .default_h = "1/8192",
+                    .default_end = 0.1},
+                   cahn_hilliard);
+}
+
+}  // namespace seiche
