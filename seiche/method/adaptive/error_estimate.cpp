@@ -2,6 +2,7 @@
 #include <seiche/core/control/archive.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/adaptive/error_estimate.hpp>
+#include <seiche/method/adaptive/error_measure.hpp>
 #include <seiche/method/common/nonlinear_force.hpp>
 
 #include <algorithm>
@@ -21,11 +22,11 @@ class Estimated final : public AdaptiveStepper {
         stepper_(std::move(stepper)),
         phi_(system.make_phi()),
         force_(system),
+        measure_(system, phi_.get()),
         cache_(cached_step_sizes(system.space->size_of_all())) {
     const Index size = system.space->size();
     forces_.assign(3, Vector::Zero(size));
     out_.assign(1, Vector::Zero(size));
-    physical_.setZero(system.space->physical_size());
   }
 
   void begin(State& s) override {
@@ -59,9 +60,8 @@ class Estimated final : public AdaptiveStepper {
     end_force_is_known_ = true;
     maps.end->apply(before_.z, forces_, out_);
     out_[0] -= s.z;
-    system_.space->to_physical(out_[0], physical_);
-    if (!system_.space->is_finite(physical_)) return std::numeric_limits<double>::infinity();
-    return system_.space->max_norm(physical_);
+    measure_.start(before_.z, s.z, h_);
+    return measure_(out_[0]);
   }
 
   void undo(State& s) override {
@@ -103,12 +103,12 @@ class Estimated final : public AdaptiveStepper {
   std::unique_ptr<Stepper> stepper_;
   std::unique_ptr<PhiEvaluator> phi_;
   NonlinearForce force_;
+  ErrorMeasure measure_;
   StepCache<Maps> cache_;
   State before_, between_;
   double h_ = 0;
   bool end_force_is_known_ = false;  // forces_[2] is N at the state
   std::vector<Vector> forces_, out_;
-  Vector physical_;
 };
 
 class Doubled final : public AdaptiveStepper {
@@ -118,13 +118,13 @@ class Doubled final : public AdaptiveStepper {
   using Blur = std::function<double()>;  // how far round-off in H may have moved what it gave
 
   Doubled(const System& system, std::unique_ptr<Stepper> stepper, Attempt attempt, Blur blur, int order)
-      : system_(system),
-        stepper_(std::move(stepper)),
+      : stepper_(std::move(stepper)),
         attempt_(std::move(attempt)),
         blur_(std::move(blur)),
-        order_(order) {
+        order_(order),
+        phi_(is_gradient_flow(system) ? system.make_phi() : nullptr),
+        measure_(system, phi_.get()) {
     difference_.setZero(system.space->size());
-    physical_.setZero(system.space->physical_size());
   }
 
   void begin(State& s) override { stepper_->begin(s); }
@@ -156,9 +156,8 @@ class Doubled final : public AdaptiveStepper {
 
   std::optional<double> error(const State& s) override {
     difference_ = whole_.z - s.z;
-    system_.space->to_physical(difference_, physical_);
-    if (!system_.space->is_finite(physical_)) return std::numeric_limits<double>::infinity();
-    return std::max(0.0, system_.space->max_norm(physical_) - moved_) / (std::exp2(order_) - 1);
+    measure_.start(before_.z, s.z, h_);
+    return std::max(0.0, measure_(difference_) - measure_.most() * moved_) / (std::exp2(order_) - 1);
   }
 
   void undo(State& s) override { s = before_; }
@@ -176,14 +175,15 @@ class Doubled final : public AdaptiveStepper {
   void restart(State& s) override { begin(s); }
 
  private:
-  const System& system_;
   std::unique_ptr<Stepper> stepper_;
   Attempt attempt_;
   Blur blur_;
   int order_;
+  std::unique_ptr<PhiEvaluator> phi_;  // of gradient flows
+  ErrorMeasure measure_;
   State before_, middle_, whole_, between_;
   double h_ = 0, moved_ = 0;
-  Vector difference_, physical_;
+  Vector difference_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <seiche/core/numerics/end_extrapolation.hpp>
 #include <seiche/core/numerics/quadrature.hpp>
 #include <seiche/core/step_cache.hpp>
+#include <seiche/method/adaptive/error_measure.hpp>
 #include <seiche/method/collocation/collocation_weights.hpp>
 #include <seiche/method/collocation/continuous_extension.hpp>
 #include <seiche/method/collocation/egc.hpp>
@@ -33,6 +34,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
         dissipation_(system, *phi_, output_, output_, {rule_, GaussRule(stages + 2), NestedRules(stages)}),
         projected_(system, *phi_, *this, law),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
+        is_gradient_flow_(is_gradient_flow(system)),
+        measure_(system, phi_.get()),
         cache_(cached_step_sizes(system.space->size_of_all())),
         forces_(static_cast<std::size_t>(stages)),
         of_forces_(force_.kind() == PhiRows::Forces::gradients ? system.potential->support()
@@ -50,7 +53,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     for (Vector* v : {&moment_, &change_, &rate_}) v->setZero(size);
     if (output_.kind == PhiRows::Forces::gradients) {
       moment_ = generic_state(*system.space);
-      as_rate(moment_);
+      apply_S(moment_);
       moves_itself_ = space().squared_norm(moment_.segment(of_forces_.begin, of_forces_.size)) > 0;
     }
   }
@@ -73,15 +76,15 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   std::optional<double> error(const State& s) override {
     if (last_.history_h == 0) return std::nullopt;
-    const double quadrature_error = this->quadrature_error(s);
-    system_.space->to_physical(extension_.defect(last_, forces_, s.history), physical_);
-    if (!space().is_finite(physical_)) return std::numeric_limits<double>::infinity();
-    const double of_linear_flow = space().max_norm(physical_);
+    measure_.start(projected_.before(), s.z, last_.h);
+    const double quadrature_error = measure_.most() * this->quadrature_error(s);
+    const double of_linear_flow = measure_(extension_.defect(last_, forces_, s.history));
+    if (!std::isfinite(of_linear_flow)) return of_linear_flow;
     const double of_polynomial = std::max({of_linear_flow, of_nonlinear_part(s, of_linear_flow), quadrature_error});
     const double of_forces = std::max(of_polynomial, unsolved(s, of_polynomial));
     // Orthonormal coordinates: the Euclidean norm bounds the max norm, and mostly that is enough to know. Where it is
     // not, the move is taken to be as spread out as the solution, which it is parallel to but for Casimirs.
-    const double displacement = projected_.last().displacement - projected_.last().blur;
+    const double displacement = measure_.most() * (projected_.last().displacement - projected_.last().blur);
     if (displacement <= of_forces) return of_forces;
     system_.space->to_physical(s.z, physical_);
     const double share = space().max_norm(physical_) / space().norm_of_values(physical_);
@@ -158,7 +161,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     as_rate(change_);
     const double steepness = space().norm(change_) / space().norm(s.z - projected_.before());
     constexpr double little = 0.25;
-    if (!(little * steepness * moved > of_linear_flow)) return 0;
+    if (!(little * steepness * moved * measure_.most() > of_linear_flow)) return 0;
     const double t = projected_.last().t + last_.h;
     moment_ += s.z;
     change_ = s.z;
@@ -166,13 +169,19 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     force_.evaluate(t, change_);
     moment_ -= change_;
     as_rate(moment_);
-    system_.space->to_physical(moment_, physical_);
     constexpr double with_higher_moments = 2;  // of N′², N′³, …, and the quadrature of N itself: as large together
-    return with_higher_moments * space().max_norm(physical_);
+    return with_higher_moments * measure_(moment_);
   }
 
-  // A force, as PhiRows has it, as what it adds to ż.
+  // A force, as PhiRows has it, as what it adds to ż; in a gradient flow φ₁(hL) times that, which is what it adds to z
+  // in a step, over h: fast components have forgotten the rest when the step ends.
   void as_rate(Vector& f) {
+    if (!is_gradient_flow_) return apply_S(f);
+    tables(last_.h, steps_are_alike_).of_constant->apply(rate_, {&f, 1}, {&rate_, 1});
+    f = rate_ / last_.h;
+  }
+
+  void apply_S(Vector& f) {
     if (output_.kind == PhiRows::Forces::states) return;
     const Index behind = of_forces_.begin + of_forces_.size;
     f.head(of_forces_.begin).setZero();
@@ -192,14 +201,14 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
         calibration * last_.h * convergence_ *
         (s.history.back().segment(of_forces_.begin, of_forces_.size) - components_before_);
     as_rate(change_);
-    if (space().norm(change_) <= enough) return enough;  // which bounds the max norm
-    system_.space->to_physical(change_, physical_);
-    return space().max_norm(physical_);
+    if (measure_.most() * space().norm(change_) <= enough) return enough;  // which bounds the max norm
+    return measure_(change_);
   }
 
   struct Tables {
-    std::unique_ptr<PhiMap> nodes;  // forces → Z_i
-    std::unique_ptr<PhiMap> end;    // forces → ẑ
+    std::unique_ptr<PhiMap> nodes;        // forces → Z_i
+    std::unique_ptr<PhiMap> end;          // forces → ẑ
+    std::unique_ptr<PhiMap> of_constant;  // of gradient flows: a force → hφ₁(hL) of it
   };
 
   // Steps of one length find all they need after the first of them.
@@ -210,6 +219,9 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       const bool all = evaluates_states();
       made->nodes = phi_->map(output_.at(rule_.nodes, all ? PhiRows::Outputs::all : PhiRows::Outputs::support), h);
       made->end = phi_->map(output_.at(Eigen::VectorXd::Ones(1), PhiRows::Outputs::all), h);
+      if (is_gradient_flow_)
+        made->of_constant =
+            phi_->map({.rows = {{1.0, {1.0}}}, .forces = 1, .order = 1, .kind = output_.kind, .of_state = false}, h);
       return made;
     });
   }
@@ -314,6 +326,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   StepDissipation dissipation_;
   Projected projected_;
   ContinuousExtension extension_;
+  bool is_gradient_flow_;
+  ErrorMeasure measure_;
   StepCache<Tables> cache_;
   StepCache<Eigen::MatrixXd> extrapolations_{16};  // by the ratio of two step sizes
   std::vector<Vector> forces_;

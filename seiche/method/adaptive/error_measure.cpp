@@ -1,0 +1,53 @@
+#include <seiche/method/adaptive/error_measure.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace seiche {
+namespace {
+
+constexpr double counted = 4;
+
+}  // namespace
+
+ErrorMeasure::ErrorMeasure(const System& system, const PhiEvaluator* phi)
+    : system_(system),
+      phi_(phi),
+      is_gradient_flow_(is_gradient_flow(system)),
+      forgetting_(cached_step_sizes(system.space->size_of_all())),
+      physical_(system.space->physical_size()) {
+  if (is_gradient_flow_) sum_.setZero(system.space->size());
+}
+
+void ErrorMeasure::start(const Vector& before, const Vector& after, double h) {
+  if (!is_gradient_flow_) return;
+  constexpr double least = 1e-3;  // of a solution that hardly moves
+  const Space& space = *system_.space;
+  const double share = space.norm(after - before) / std::max(space.norm(before), space.norm(after));
+  // By powers of two, so that few maps are made.
+  moved_ = std::isfinite(share) ? std::exp2(std::floor(std::log2(std::clamp(share, least, 1.0)))) : 1.0;
+  h_ = h;
+  most_ = counted * h * (1 + 1 / moved_);
+}
+
+double ErrorMeasure::operator()(const Vector& e) {
+  const Space& space = *system_.space;
+  if (is_gradient_flow_) {
+    // What Krylov spaces would take over so long a time, e itself bounds; they look as far as the step.
+    const double time = phi_->has_tables() ? h_ * std::pow(moved_, -0.75) : h_;
+    const PhiMap& map = forgetting_.at(time, [&] {
+      const PhiRows rows{
+          .rows = {{1.0, {1.0}}}, .forces = 1, .order = 1, .kind = PhiRows::Forces::states, .of_state = false};
+      return phi_->map(rows, time);
+    });
+    map.apply(e, {&e, 1}, {&sum_, 1});
+    sum_ = counted * h_ * (e + sum_ / (moved_ * time));
+    space.to_physical(sum_, physical_);
+  } else {
+    space.to_physical(e, physical_);
+  }
+  return space.is_finite(physical_) ? space.max_norm(physical_) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace seiche

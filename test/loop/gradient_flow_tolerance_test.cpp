@@ -1,0 +1,69 @@
+// Tolerances on gradient flows, where fast components forget errors and the solution has its own time.
+#include <seiche/problem/gradient_flow/pattern_formation.hpp>
+#include <seiche/problem/gradient_flow/phase_separation.hpp>
+#include <seiche/simulation/solve.hpp>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace seiche {
+namespace TEST_FILE {
+
+struct Flow {
+  std::string name;
+  Problem problem;
+  double t_end;
+  double reference_h;
+  int most_steps;  // at a tolerance of 0.01
+};
+
+std::vector<Flow> flows() {
+  const auto grid = [](Index n, double length) {
+    return GridOptions{.points = {n, n}, .length = {length}, .discretisation = Discretisation::spectral};
+  };
+  return {
+      // Separation begins within 4κ = 0.002, and hρ of the reference is 2000 for the fastest mode.
+      {"Cahn–Hilliard", cahn_hilliard({.grid = grid(48, 1), .kappa = 5e-4, .amplitude = 0.3}), 0.1, 2e-5, 4000},
+      {"Allen–Cahn", allen_cahn({.grid = grid(32, 1), .kappa = 1e-3, .amplitude = 0.9}), 20, 0.02, 1000},
+      {"Swift–Hohenberg", swift_hohenberg({.grid = grid(32, 25), .amplitude = 0.5}), 60, 0.1, 1000},
+      {"phase-field crystal", phase_field_crystal({.grid = grid(32, 25), .r = 0.25, .mean = -0.25}), 60, 0.1, 1000},
+  };
+}
+
+Vector last(const Solution& s) { return Eigen::Map<const Vector>(s.z.data() + s.z.size() - s.size, s.size); }
+
+// The spinodal decomposition multiplies errors at its beginning by about ten.
+TEST(GradientFlowToleranceSlow, SaysWhatTheErrorWillBeOverFourDecades) {
+  for (const Flow& flow : flows()) {
+    const Vector exact = last(solve(flow.problem, {.method = "egc6", .h = flow.reference_h, .t_end = flow.t_end}));
+    for (const char* method : {"seisav", "seilm", "egc4", "egc6", "etdrk4"}) {
+      for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
+        const Solution s = solve(flow.problem, {.method = method, .tolerance = tolerance, .t_end = flow.t_end});
+        ASSERT_TRUE(s.success()) << s.report.message;
+        EXPECT_LE((last(s) - exact).lpNorm<Eigen::Infinity>(), 20 * tolerance)
+            << flow.name << ", " << method << ", " << tolerance << ": " << s.report.message;
+        EXPECT_EQ(s.report.law, LawVerdict::holds) << flow.name << ", " << method;
+        if (tolerance == 1e-2) {
+          EXPECT_LE(s.report.steps, flow.most_steps) << flow.name << ", " << method << ": " << s.report.message;
+        }
+      }
+    }
+  }
+}
+
+// Phases part within ten units of time, and then rest. With the curvature of the wells in M nothing keeps steps short.
+TEST(GradientFlowTolerance, StepsGrowWithTheSolutionsOwnTime) {
+  const Problem p = allen_cahn(
+      {.grid = {.points = {64}, .discretisation = Discretisation::spectral}, .kappa = 2e-3, .stabilisation = 2});
+  for (const char* method : {"seisav", "egc4", "etdrk4"}) {
+    const auto steps = [&](double t_end) {
+      return solve(p, {.method = method, .tolerance = 1e-3, .t_end = t_end}).report.steps;
+    };
+    EXPECT_LT(steps(10000), 20 * steps(100)) << method;
+  }
+}
+
+}  // namespace TEST_FILE
+}  // namespace seiche
