@@ -156,7 +156,16 @@ Stencil& Stencil::operator+=(const Stencil& other) {
       same->factor += multiplier.factor;
     }
   }
-  products_.insert(products_.end(), other.products_.begin(), other.products_.end());
+  for (const Product& product : other.products_) {
+    const auto same = std::find_if(products_.begin(), products_.end(), [&](const Product& p) {
+      return p.first == product.first && p.second == product.second;
+    });
+    if (same == products_.end()) {
+      products_.push_back(product);
+    } else {
+      same->factor += product.factor;
+    }
+  }
   drop_what_vanishes();
   return *this;
 }

@@ -122,9 +122,11 @@ class Doubled final : public AdaptiveStepper {
         attempt_(std::move(attempt)),
         blur_(std::move(blur)),
         order_(order),
+        space_(*system.space),
         phi_(is_gradient_flow(system) ? system.make_phi() : nullptr),
         measure_(system, phi_.get()) {
     difference_.setZero(system.space->size());
+    physical_.setZero(system.space->physical_size());
   }
 
   void begin(State& s) override { stepper_->begin(s); }
@@ -157,7 +159,11 @@ class Doubled final : public AdaptiveStepper {
   std::optional<double> error(const State& s) override {
     difference_ = whole_.z - s.z;
     measure_.start(before_.z, s.z, h_);
-    return std::max(0.0, measure_(difference_) - measure_.most() * moved_) / (std::exp2(order_) - 1);
+    const double size = measure_(difference_) / (std::exp2(order_) - 1);
+    if (moved_ == 0 || !std::isfinite(size)) return size;
+    // What round-off in H has moved is no error of the scheme.
+    space_.to_physical(difference_, physical_);
+    return size * std::max(0.0, 1 - moved_ / space_.max_norm(physical_));
   }
 
   void undo(State& s) override { s = before_; }
@@ -179,11 +185,12 @@ class Doubled final : public AdaptiveStepper {
   Attempt attempt_;
   Blur blur_;
   int order_;
+  const Space& space_;
   std::unique_ptr<PhiEvaluator> phi_;  // of gradient flows
   ErrorMeasure measure_;
   State before_, middle_, whole_, between_;
   double h_ = 0, moved_ = 0;
-  Vector difference_;
+  Vector difference_, physical_;
 };
 
 }  // namespace

@@ -25,8 +25,7 @@ void ErrorMeasure::start(const Vector& before, const Vector& after, double h) {
   constexpr double least = 1e-3;  // of a solution that hardly moves
   const Space& space = *system_.space;
   const double share = space.norm(after - before) / std::max(space.norm(before), space.norm(after));
-  // By powers of two, so that few maps are made.
-  moved_ = std::isfinite(share) ? std::exp2(std::floor(std::log2(std::clamp(share, least, 1.0)))) : 1.0;
+  moved_ = std::isfinite(share) ? std::clamp(share, least, 1.0) : 1.0;
   h_ = h;
   most_ = counted * h * (1 + 1 / moved_);
 }
@@ -35,13 +34,16 @@ double ErrorMeasure::operator()(const Vector& e) {
   const Space& space = *system_.space;
   if (is_gradient_flow_) {
     // What Krylov spaces would take over so long a time, e itself bounds; they look as far as the step.
-    const double time = phi_->has_tables() ? h_ * std::pow(moved_, -0.75) : h_;
+    // By powers of two, so that few maps are made.
+    const double steps = phi_->has_tables() ? std::exp2(std::round(-0.75 * std::log2(moved_))) : 1;
+    const double time = h_ * steps;
     const PhiMap& map = forgetting_.at(time, [&] {
       const PhiRows rows{
           .rows = {{1.0, {1.0}}}, .forces = 1, .order = 1, .kind = PhiRows::Forces::states, .of_state = false};
       return phi_->map(rows, time);
     });
     map.apply(e, {&e, 1}, {&sum_, 1});
+    if (space.norm(sum_) > time * space.norm(e)) sum_ = time * e;  // an L that lets errors grow forgets none
     sum_ = counted * h_ * (e + sum_ / (moved_ * time));
     space.to_physical(sum_, physical_);
   } else {

@@ -7,13 +7,14 @@
 
 namespace seiche {
 
-// The max norm of physical values. Of gradient flows in their own time: an error e made while the solution moves by the
-// share ρ of itself counts as
-//   4h |e + ρ⁻¹φ₁(τL)e|,  τ = h ρ^{−3/4}:
-// as 4h e/ρ where nothing forgets it until the solution has moved by all of itself, and as 4h e where L soon does.
-// Divided by h, as errors are, these add up over the path, which has an end, and not over the time, which may be as
-// long as one likes: a gradient flow rests for most of it. That τ is less than h/ρ, and the 4, are from runs of
-// test/loop/gradient_flow_tolerance_test.cpp: what L forgets has moved other modes before.
+// The max norm of physical values. Of gradient flows in their own time: an error e made while ‖z‖ moves by the share ρ
+// of itself counts as
+//   4h |e + ρ⁻¹φ₁(τL)e|,  τ ≈ hρ^{−3/4}:
+// as 4h e/ρ where L forgets nothing, and as little as 4h e where it damps by e⁻¹ within a fraction of the step. Divided
+// by h, as errors are, these add up over the path, which has an end, and not over the time, which may be as long as one
+// likes: a gradient flow rests for most of it. ρ ≥ 1e-3, so that rest does not cost. τ < h/ρ and the factor 4 are from
+// runs of test/loop/gradient_flow_tolerance_test.cpp: what L forgets has moved other modes before. Backends without
+// tables of φ take τ = h, and thus somewhat shorter steps. A field with a large constant part moves by a small share.
 class ErrorMeasure {
  public:
   ErrorMeasure(const System& system, const PhiEvaluator* phi);  // which outlive it; phi: null if no gradient flow
@@ -21,7 +22,7 @@ class ErrorMeasure {
   // The step whose errors are measured next.
   void start(const Vector& before, const Vector& after, double h);
   double operator()(const Vector& e);    // infinite where e is not finite
-  double most() const { return most_; }  // of the measure of an error whose max norm is one
+  double most() const { return most_; }  // of the measure over |e|, in the Euclidean norm
 
  private:
   const System& system_;

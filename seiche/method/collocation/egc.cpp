@@ -173,11 +173,15 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     return with_higher_moments * measure_(moment_);
   }
 
-  // A force, as PhiRows has it, as what it adds to ż; in a gradient flow φ₁(hL) times that, which is what it adds to z
-  // in a step, over h: fast components have forgotten the rest when the step ends.
+  // A force, as PhiRows has it, as Sf; in a gradient flow as φ₁(hL)Sf, by which it changes z in a step, over h.
   void as_rate(Vector& f) {
     if (!is_gradient_flow_) return apply_S(f);
-    tables(last_.h, steps_are_alike_).of_constant->apply(rate_, {&f, 1}, {&rate_, 1});
+    std::unique_ptr<PhiMap>& of_constant = tables(last_.h, steps_are_alike_).of_constant;
+    if (!of_constant) {
+      const PhiRows rows{.rows = {{1.0, {1.0}}}, .forces = 1, .order = 1, .kind = output_.kind, .of_state = false};
+      of_constant = phi_->map(rows, last_.h);
+    }
+    of_constant->apply(rate_, {&f, 1}, {&rate_, 1});
     f = rate_ / last_.h;
   }
 
@@ -208,7 +212,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   struct Tables {
     std::unique_ptr<PhiMap> nodes;        // forces → Z_i
     std::unique_ptr<PhiMap> end;          // forces → ẑ
-    std::unique_ptr<PhiMap> of_constant;  // of gradient flows: a force → hφ₁(hL) of it
+    std::unique_ptr<PhiMap> of_constant;  // a force → hφ₁(hL)S of it; when first asked for
   };
 
   // Steps of one length find all they need after the first of them.
@@ -219,9 +223,6 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       const bool all = evaluates_states();
       made->nodes = phi_->map(output_.at(rule_.nodes, all ? PhiRows::Outputs::all : PhiRows::Outputs::support), h);
       made->end = phi_->map(output_.at(Eigen::VectorXd::Ones(1), PhiRows::Outputs::all), h);
-      if (is_gradient_flow_)
-        made->of_constant =
-            phi_->map({.rows = {{1.0, {1.0}}}, .forces = 1, .order = 1, .kind = output_.kind, .of_state = false}, h);
       return made;
     });
   }

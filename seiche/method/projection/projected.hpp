@@ -70,6 +70,7 @@ class Projected {
   EnergyLaw law_;
   bool may_flow_freely_;  // e^{hL}z leaves out neither a force nor friction
   bool feeds_;            // Q is a form of z that is negative somewhere: H may rise in any step
+  bool rests_;            // a gradient flow without other damping
   EnergyProjection projection_;
   DampingStrength rate_;
   StepCache<PhiMap> free_;  // e^{hL}z

@@ -6,8 +6,8 @@
 
 namespace seiche {
 
-// mean + A Σ of four products of low modes of the axes, of norm one in the maximum: it has no symmetry of the grid, is
-// smooth up to the ends, and is the same function whatever the number of points.
+// mean + A times the mean of four products of low modes of the axes: it has no symmetry of the grid, and is the same
+// function whatever the number of points. Where a field is held at zero it jumps to the mean beside the end.
 Vector low_waves(const Grid& grid, double mean, double amplitude);
 
 // |x − L/2|, the distance of a point from the centre.

@@ -41,6 +41,10 @@ Problem phase_separation(const char* name, const PhaseSeparation& options, bool 
   p.M(0, 0) = Stencil::identity(options.stabilisation) + -options.kappa * laplacian;
   p.damping = rate_damping(nullptr, p.grid, {false});
   p.potential = on_grid(nodal_polynomial(double_well(options)), p.grid, options.grid);
+  constexpr double far = 10;  // beside their distance: V is a difference of terms as much larger
+  if (std::abs(options.low + options.high) > far * std::abs(options.high - options.low))
+    p.notes.push_back(
+        fmt::format("low = {} and high = {} lie far from 0, and V loses digits: shift u", options.low, options.high));
   if (options.initial == PhaseSeparation::Initial::waves) {
     p.initial = low_waves(p.grid, options.mean, options.amplitude);
   } else {

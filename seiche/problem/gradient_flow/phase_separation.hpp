@@ -11,7 +11,7 @@ struct PhaseSeparation {
   enum class Initial { waves, drop };
 
   GridOptions grid = {.points = {128}, .length = {1.0}, .discretisation = Discretisation::spectral};
-  double kappa = 1e-3;    // κ > 0, gradient energy; an interface is √(κ/ρ)/|b − a| wide
+  double kappa = 1e-3;    // κ > 0, gradient energy; an interface is √(2κ/ρ)/|b − a| wide
   double mobility = 1.0;  // m > 0
   double barrier = 0.25;  // ρ > 0; ¼ with a = −1, b = 1 is ¼(u² − 1)²
   double low = -1.0;      // a
