@@ -13,14 +13,16 @@ namespace seiche::bench {
 //   klein_gordon  u' = v, v' = κRu − m²u − αu³ − γv                              periodic, one or two dimensions
 //   alpha_fpu     u' = v, v' = Ru − m²u − ∇W(u) + βRv − γv, W = ε/(6Δx³) Σ(u_{j+1} − u_j)³      u = 0 at both ends
 //   gkdv          u' = ∂(−εRu − σu²) − μu                                                      periodic
+//   allen_cahn    u' = κRu + u − u³                                                periodic, two dimensions
+//   cahn_hilliard u' = R(u³ − u − κRu)                                             periodic, two dimensions
 struct Equation {
-  enum class Kind { klein_gordon, alpha_fpu, gkdv };
+  enum class Kind { klein_gordon, alpha_fpu, gkdv, allen_cahn, cahn_hilliard };
 
   Kind kind = Kind::klein_gordon;
   std::size_t rows = 1;  // of unknowns; 1 in one dimension
   std::size_t columns = 1;
   double dx = 1.0;            // length
-  double stiffness = 1.0;     // κ, 1 or ε
+  double stiffness = 1.0;     // κ, 1, ε or κ
   double mass_squared = 0.0;  // m²
   double strength = 0.0;      // α, ε or σ of the nonlinear term
   double gamma = 0.0;         // γ or μ, 1/time
@@ -32,7 +34,8 @@ struct Equation {
 
   std::size_t unknowns() const { return rows * columns; }  // per field
   std::size_t size() const { return initial.size(); }
-  bool is_second_order() const { return kind != Kind::gkdv; }  // in time
+  bool is_second_order() const { return kind == Kind::klein_gordon || kind == Kind::alpha_fpu; }  // in time
+  bool is_gradient_flow() const { return kind == Kind::allen_cahn || kind == Kind::cahn_hilliard; }
   bool is_periodic() const { return kind != Kind::alpha_fpu; }
 };
 

@@ -97,7 +97,7 @@ class WaveEtdrk4 : public Etdrk4Run {
   std::vector<Slot> weights_;
 };
 
-// gkdv: one complex number per mode.
+// gkdv and gradient flows: one complex number per mode.
 class ScalarEtdrk4 : public Etdrk4Run {
  public:
   ScalarEtdrk4(const Equation& equation, double h) : Etdrk4Run(equation, h) {

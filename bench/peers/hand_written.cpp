@@ -10,7 +10,8 @@ PeerGroup hand_written_peers() {
   const std::string own = "hand-written";
   PeerGroup group{.library = {.name = "FFTW", .version = fftw_version, .note = "plans measured, in set-up"},
                   .peers = {{"ETDRK4", own, origin, sweep, any_equation, make_etdrk4},
-                            {"Strang exact flow", own, origin, sweep, any_equation, make_strang}}};
+                            {"Strang exact flow", own, origin, sweep, no_gradient_flow, make_strang},
+                            {"semi-implicit BDF2", own, origin, sweep, gradient_flow, make_semi_implicit}}};
   for (Peer& peer : rkn_peers()) group.peers.push_back(std::move(peer));
   return group;
 }

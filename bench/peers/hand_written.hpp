@@ -6,7 +6,8 @@
 namespace seiche::bench {
 
 std::unique_ptr<Run> make_etdrk4(const Equation& equation, double h);
-std::unique_ptr<Run> make_strang(const Equation& equation, double h);  // exact damped linear flow, kicks
+std::unique_ptr<Run> make_strang(const Equation& equation, double h);         // exact damped linear flow, kicks
+std::unique_ptr<Run> make_semi_implicit(const Equation& equation, double h);  // of gradient flows
 // Runge–Kutta–Nyström splitting: "kicks" takes the whole force by differences as a kick, explicit; "exact flow" the
 // damped linear part exactly.
 std::vector<Peer> rkn_peers();

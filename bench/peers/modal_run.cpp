@@ -58,8 +58,10 @@ void ModalRun::nonlinear(const double* u, double* out) {
   const double* p = points_.data();
   double* s = slope_.data();
   switch (e.kind) {
+    case Equation::Kind::allen_cahn:
+    case Equation::Kind::cahn_hilliard:
     case Equation::Kind::klein_gordon: {
-      const double c = -e.strength * scale;
+      const double c = (e.kind == Equation::Kind::klein_gordon ? -e.strength : -1) * scale;
       for (std::size_t j = 0; j < n; ++j) s[j] = c * p[j] * p[j] * p[j];
       break;
     }
@@ -81,6 +83,8 @@ void ModalRun::nonlinear(const double* u, double* out) {
     }
   }
   transform_.to_modes(s, out);
+  if (e.kind == Equation::Kind::cahn_hilliard)
+    for (std::size_t k = 0; k < u_.size(); ++k) out[k] *= symbols_.lambda[k];
   if (e.kind != Equation::Kind::gkdv) return;
   for (std::size_t k = 0; k < u_.size(); k += 2) {
     const double re = out[k];

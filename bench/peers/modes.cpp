@@ -98,6 +98,13 @@ Symbols symbols(const Equation& e) {
   return result;
 }
 
+std::complex<double> scalar_symbol(const Equation& e, const Symbols& symbols, std::size_t k) {
+  const double lambda = symbols.lambda[k];
+  if (e.kind == Equation::Kind::allen_cahn) return 1 - e.stiffness * lambda;
+  if (e.kind == Equation::Kind::cahn_hilliard) return lambda - e.stiffness * lambda * lambda;
+  return {-e.gamma, symbols.derivative[k] * e.stiffness * lambda};
+}
+
 LinearSolve::LinearSolve(const Equation& equation)
     : equation_(equation), transform_(equation), symbols_(symbols(equation)), u_(transform_.slots()), v_(u_) {}
 
@@ -108,8 +115,9 @@ void LinearSolve::operator()(double c, const double* right, double* solution) {
   transform_.to_modes(right, u_.data());
   if (!e.is_second_order()) {
     for (std::size_t k = 0; k < u_.size(); k += 2) {
-      const double a = 1 + c * e.gamma;
-      const double b = -c * symbols_.derivative[k] * e.stiffness * symbols_.lambda[k];
+      const std::complex<double> linear = scalar_symbol(e, symbols_, k);
+      const double a = 1 - c * linear.real();
+      const double b = -c * linear.imag();
       const double inverse = scale / (a * a + b * b);
       const double re = u_[k];
       const double im = u_[k + 1];

@@ -39,7 +39,7 @@ class OdeintRun : public Run {
     stepper_ = make_stepper(tolerance_);
     z_ = equation_.initial;
     t_ = 0;
-    dt_ = 1e-3;
+    dt_ = 1e-5 * equation_.t_end;  // what a longer one computes of a stiff equation is not finite
     steps_ = rhs_.evaluations = 0;
   }
 

@@ -63,6 +63,8 @@ struct PeerGroup {
 };
 
 inline bool any_equation(const Equation&) { return true; }
+inline bool gradient_flow(const Equation& equation) { return equation.is_gradient_flow(); }
+inline bool no_gradient_flow(const Equation& equation) { return !equation.is_gradient_flow(); }
 inline bool second_order_in_time(const Equation& equation) { return equation.is_second_order(); }
 
 }  // namespace seiche::bench

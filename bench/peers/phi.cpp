@@ -15,7 +15,8 @@ std::vector<Matrix2> wave_blocks(const Equation& e, const Symbols& symbols) {
 std::vector<Complex> scalar_blocks(const Equation& e, const Symbols& symbols) {
   std::vector<Complex> blocks;
   for (std::size_t k = 0; k < symbols.lambda.size(); k += 2) {
-    blocks.emplace_back(-e.gamma, Real{symbols.derivative[k]} * e.stiffness * symbols.lambda[k]);
+    const std::complex<double> linear = scalar_symbol(e, symbols, k);
+    blocks.emplace_back(linear.real(), linear.imag());
   }
   return blocks;
 }

@@ -66,7 +66,7 @@ Phi<T> phi(const T& z) {
 
 // The linear part of every slot: [[0, 1], [−K, −d]] of second-order equations …
 std::vector<Matrix2> wave_blocks(const Equation& equation, const Symbols& symbols);
-// … and i∂ελ − μ of gkdv, once per pair of slots.
+// … and scalar_symbol of the others, once per pair of slots.
 std::vector<Complex> scalar_blocks(const Equation& equation, const Symbols& symbols);
 
 // e^{hA} on (û, v̂), slot by slot.

@@ -59,6 +59,8 @@ void RightHandSide::full(const double* z, double* dz) {
     case Kind::klein_gordon: return wave(z, dz);
     case Kind::alpha_fpu: return fpu(z, dz);
     case Kind::gkdv: return gkdv(z, dz);
+    case Kind::allen_cahn: return allen_cahn(z, dz);
+    case Kind::cahn_hilliard: return cahn_hilliard(z, dz);
   }
 }
 
@@ -115,9 +117,42 @@ void RightHandSide::gkdv(const double* z, double* dz) const {
   for (std::size_t j = 0; j < n; ++j) dz[j] = c * (f[j + 2] - f[j]) - mu * z[j];
 }
 
+void RightHandSide::allen_cahn(const double* u, double* du) const {
+  const Equation& e = equation_;
+  const double c = e.stiffness / (e.dx * e.dx);
+  for (std::size_t row = 0; row < e.rows; ++row) {
+    const double* v = u + row * e.columns;
+    double* out = du + row * e.columns;
+    row_laplacian(e, u, row)([=](std::size_t j, double sum) { out[j] = c * sum + v[j] - v[j] * v[j] * v[j]; });
+  }
+}
+
+void RightHandSide::cahn_hilliard(const double* u, double* du) const {
+  const Equation& e = equation_;
+  const double c = -e.stiffness / (e.dx * e.dx);
+  for (std::size_t row = 0; row < e.rows; ++row) {
+    const double* v = u + row * e.columns;
+    double* w = flux_.data() + row * e.columns;  // ∇H
+    row_laplacian(e, u, row)([=](std::size_t j, double sum) { w[j] = c * sum + v[j] * v[j] * v[j] - v[j]; });
+  }
+  std::fill_n(du, e.unknowns(), 0.0);
+  add_laplacian(e, 1, flux_.data(), du);
+}
+
 void RightHandSide::linear(const double* z, double* dz) const {
   const Equation& e = equation_;
   const std::size_t n = e.unknowns();
+  if (e.kind == Kind::allen_cahn) {
+    std::copy_n(z, n, dz);
+    return add_laplacian(e, e.stiffness, z, dz);
+  }
+  if (e.kind == Kind::cahn_hilliard) {
+    double* w = flux_.data();
+    for (std::size_t j = 0; j < n; ++j) w[j] = -z[j];
+    add_laplacian(e, -e.stiffness, z, w);
+    std::fill_n(dz, n, 0.0);
+    return add_laplacian(e, 1, w, dz);
+  }
   if (e.kind == Kind::gkdv) {
     double* w = flux_.data() + 1;
     const double a = -e.stiffness / (e.dx * e.dx);
@@ -163,6 +198,15 @@ void RightHandSide::nonlinear(const double* z, double* dz) const {
       out[n - 1] = difference(n - 2, 0);
       return;
     }
+    case Kind::allen_cahn:
+      for (std::size_t j = 0; j < n; ++j) out[j] = -z[j] * z[j] * z[j];
+      return;
+    case Kind::cahn_hilliard: {
+      double* w = flux_.data();
+      for (std::size_t j = 0; j < n; ++j) w[j] = z[j] * z[j] * z[j];
+      std::fill_n(out, n, 0.0);
+      return add_laplacian(e, 1, w, out);
+    }
   }
 }
 
@@ -192,6 +236,14 @@ void RightHandSide::jacobian(const double* z, const double* w, double* jw) const
         jw[j] += c * (z[after] * w[after] - z[before] * w[before]);
       }
       return;
+    }
+    case Kind::allen_cahn:
+      for (std::size_t j = 0; j < n; ++j) jw[j] -= 3 * z[j] * z[j] * w[j];
+      return;
+    case Kind::cahn_hilliard: {
+      double* s = flux_.data();
+      for (std::size_t j = 0; j < n; ++j) s[j] = 3 * z[j] * z[j] * w[j];
+      return add_laplacian(e, 1, s, jw);
     }
   }
 }

@@ -28,6 +28,8 @@ class RightHandSide {
   void wave(const double* z, double* dz) const;
   void fpu(const double* z, double* dz) const;
   void gkdv(const double* z, double* dz) const;
+  void allen_cahn(const double* u, double* du) const;
+  void cahn_hilliard(const double* u, double* du) const;
 
   const Equation equation_;
   std::int64_t first_ = 0;            // evaluations when the advance began

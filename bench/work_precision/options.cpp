@@ -33,7 +33,7 @@ double positive(const std::string& option, const std::string& text) {
 const char* const usage =
     "seiche_work_precision: error against CPU time, Seiche's methods beside other integrators\n"
     "  --out DIR         where work_precision.csv, index.html and figures/ go (out/work_precision)\n"
-    "  --problem LIST    of kg20,kg4096,kgs,kg2d,fpu,gkdv (all)\n"
+    "  --problem LIST    of kg20,kg4096,kgs,kg2d,fpu,gkdv,ac2d,ch2d (all)\n"
     "  --method LIST     of Seiche's methods (all that apply), as egc6, \"crkn6 explicit\", \"auto by tolerance\"\n"
     "  --no-peers        Seiche's methods alone\n"
     "  --quick           every second step size, short runs only: for trying\n"

@@ -69,7 +69,7 @@ double nearest_etdrk4(const TestProblem& test, const std::vector<double>& other)
 }
 
 Reference compute(const TestProblem& test) {
-  constexpr double tolerance = 1e-14;
+  const double tolerance = test.reference_tolerance;
   constexpr double disagreement = 1e-8;
   Reference reference;
   reference.z = by_fehlberg(test.equation, tolerance);

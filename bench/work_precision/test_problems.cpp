@@ -3,6 +3,7 @@
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
 #include <seiche/problem/gkdv.hpp>
+#include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 
 #include <cmath>
@@ -119,9 +120,36 @@ TestProblem gkdv_problem() {
   return test;
 }
 
+TestProblem gradient_flow_problem(const std::string& key) {
+  const bool is_conserved = key == "ch2d";
+  const Index points = is_conserved ? 64 : 128;
+  const double kappa = is_conserved ? 1e-3 : 5e-4, t_end = is_conserved ? 0.0625 : 16.0;
+  const PhaseSeparation options{.grid = {.points = {points, points}, .length = {1.0}},
+                                .kappa = kappa,
+                                .amplitude = is_conserved ? 0.5 : 0.9};
+  TestProblem test{.key = key,
+                   .title = is_conserved ? "Cahn–Hilliard in the plane, 64 × 64 points, stiff"
+                                         : "Allen–Cahn in the plane, 128 × 128 points"};
+  test.problem = is_conserved ? cahn_hilliard(options) : allen_cahn(options);
+  test.parameters = fmt::format("u_t = {}, κ = {}, {} × {} periodic points on the unit square, T = {}, u₀: waves",
+                                is_conserved ? "Δ(u³ − u − κΔu)" : "κΔu + u − u³", kappa, points, points, t_end);
+  test.equation = {.kind = is_conserved ? Equation::Kind::cahn_hilliard : Equation::Kind::allen_cahn,
+                   .rows = static_cast<std::size_t>(points),
+                   .columns = static_cast<std::size_t>(points),
+                   .dx = 1 / static_cast<double>(points),
+                   .stiffness = kappa,
+                   .t_end = t_end,
+                   .initial = plain(test.problem.initial)};
+  test.coarsest = is_conserved ? 9 : 1;
+  if (is_conserved) test.reference_tolerance = 1e-12;
+  return test;
+}
+
 }  // namespace
 
-std::vector<std::string> test_problem_keys() { return {"kg20", "kg4096", "kgs", "kg2d", "fpu", "gkdv"}; }
+std::vector<std::string> test_problem_keys() {
+  return {"kg20", "kg4096", "kgs", "kg2d", "fpu", "gkdv", "ac2d", "ch2d"};
+}
 
 TestProblem make_test_problem(const std::string& key) {
   if (key == "kg20") {
@@ -142,6 +170,7 @@ TestProblem make_test_problem(const std::string& key) {
   }
   if (key == "fpu") return fpu_problem();
   if (key == "gkdv") return gkdv_problem();
+  if (key == "ac2d" || key == "ch2d") return gradient_flow_problem(key);
   throw unknown_name("problem", key, test_problem_keys());
 }
 
