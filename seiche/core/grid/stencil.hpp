@@ -19,9 +19,8 @@ namespace seiche {
 enum class Discretisation { fd2, fd4, spectral };
 
 // A multiple of the identity, plus derivatives of order one to four along the axes, plus functions of the wave vector,
-// plus products of such.
-// Beyond a Dirichlet end a field is continued as an odd function, beyond a Neumann end as an even one; odd derivatives
-// need periodic axes.
+// plus products of such. Beyond a Dirichlet end a field is continued as an odd function, beyond a Neumann end as an
+// even one; odd derivatives need periodic axes.
 class Stencil {
  public:
   Stencil() = default;  // the zero operator

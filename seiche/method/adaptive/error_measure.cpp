@@ -28,6 +28,7 @@ void ErrorMeasure::start(const Vector& before, const Vector& after, double h) {
   moved_ = std::isfinite(share) ? std::clamp(share, least, 1.0) : 1.0;
   h_ = h;
   most_ = counted * h * (1 + 1 / moved_);
+  round_off_ = 8 * epsilon * space.norm(after);
 }
 
 double ErrorMeasure::operator()(const Vector& e) {
@@ -43,8 +44,10 @@ double ErrorMeasure::operator()(const Vector& e) {
       return phi_->map(rows, time);
     });
     map.apply(e, {&e, 1}, {&sum_, 1});
-    if (space.norm(sum_) > time * space.norm(e)) sum_ = time * e;  // an L that lets errors grow forgets none
-    sum_ = counted * h_ * (e + sum_ / (moved_ * time));
+    const double size = space.norm(e);
+    if (space.norm(sum_) > time * size) sum_ = time * e;  // an L that lets errors grow forgets none
+    const double beyond_round_off = size > round_off_ ? 1 - round_off_ / size : 0;
+    sum_ = beyond_round_off * counted * h_ * (e + sum_ / (moved_ * time));
     space.to_physical(sum_, physical_);
   } else {
     space.to_physical(e, physical_);

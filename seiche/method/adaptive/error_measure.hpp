@@ -15,6 +15,7 @@ namespace seiche {
 // likes: a gradient flow rests for most of it. ρ ≥ 1e-3, so that rest does not cost. τ < h/ρ and the factor 4 are from
 // runs of test/loop/gradient_flow_tolerance_test.cpp: what L forgets has moved other modes before. Backends without
 // tables of φ take τ = h, and thus somewhat shorter steps. A field with a large constant part moves by a small share.
+// What round-off in z is of e is left out, since at rest 1/ρ would make a lot of it.
 class ErrorMeasure {
  public:
   ErrorMeasure(const System& system, const PhiEvaluator* phi);  // which outlive it; phi: null if no gradient flow
@@ -28,8 +29,8 @@ class ErrorMeasure {
   const System& system_;
   const PhiEvaluator* phi_;
   bool is_gradient_flow_;
-  double h_ = 0, moved_ = 1, most_ = 1;  // moved_: ρ
-  StepCache<PhiMap> forgetting_;         // by τ
+  double h_ = 0, moved_ = 1, most_ = 1, round_off_ = 0;  // moved_: ρ
+  StepCache<PhiMap> forgetting_;                         // by τ
   Vector sum_, physical_;
 };
 
