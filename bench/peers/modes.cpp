@@ -98,8 +98,8 @@ Symbols symbols(const Equation& e) {
   return result;
 }
 
-std::complex<double> scalar_symbol(const Equation& e, const Symbols& symbols, std::size_t k) {
-  const double lambda = symbols.lambda[k];
+std::complex<long double> scalar_symbol(const Equation& e, const Symbols& symbols, std::size_t k) {
+  const long double lambda = symbols.lambda[k];
   if (e.kind == Equation::Kind::allen_cahn) return 1 - e.stiffness * lambda;
   if (e.kind == Equation::Kind::cahn_hilliard) return lambda - e.stiffness * lambda * lambda;
   return {-e.gamma, symbols.derivative[k] * e.stiffness * lambda};
@@ -115,7 +115,7 @@ void LinearSolve::operator()(double c, const double* right, double* solution) {
   transform_.to_modes(right, u_.data());
   if (!e.is_second_order()) {
     for (std::size_t k = 0; k < u_.size(); k += 2) {
-      const std::complex<double> linear = scalar_symbol(e, symbols_, k);
+      const std::complex<double> linear(scalar_symbol(e, symbols_, k));
       const double a = 1 - c * linear.real();
       const double b = -c * linear.imag();
       const double inverse = scale / (a * a + b * b);

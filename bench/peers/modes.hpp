@@ -38,7 +38,7 @@ struct Symbols {
 };
 Symbols symbols(const Equation& equation);
 // The linear part of an equation of first order in time on slot k.
-std::complex<double> scalar_symbol(const Equation& equation, const Symbols& symbols, std::size_t k);
+std::complex<long double> scalar_symbol(const Equation& equation, const Symbols& symbols, std::size_t k);
 
 // (I − cA)⁻¹, for implicit methods: a 2×2 block or a complex number per mode.
 class LinearSolve {

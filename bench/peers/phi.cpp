@@ -14,10 +14,7 @@ std::vector<Matrix2> wave_blocks(const Equation& e, const Symbols& symbols) {
 
 std::vector<Complex> scalar_blocks(const Equation& e, const Symbols& symbols) {
   std::vector<Complex> blocks;
-  for (std::size_t k = 0; k < symbols.lambda.size(); k += 2) {
-    const std::complex<double> linear = scalar_symbol(e, symbols, k);
-    blocks.emplace_back(linear.real(), linear.imag());
-  }
+  for (std::size_t k = 0; k < symbols.lambda.size(); k += 2) blocks.push_back(scalar_symbol(e, symbols, k));
   return blocks;
 }
 

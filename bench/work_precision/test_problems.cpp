@@ -2,6 +2,7 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/problem/alpha_fpu.hpp>
+#include <seiche/problem/common/wave.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/problem/klein_gordon.hpp>
@@ -17,11 +18,8 @@ std::vector<double> plain(const Vector& v) { return {v.begin(), v.end()}; }
 // u = exp(−|x − centre|²/width²), v = 0
 void set_bump(Problem& p, double width) {
   p.initial.setZero();
-  for (Index j = 0; j < p.grid.unknowns(); ++j) {
-    double r2 = 0;
-    for (Index a = 0; a < p.grid.dimension(); ++a) r2 += square(p.grid.coordinate(j, a) - p.grid.axis(a).length / 2);
-    p.initial[j] = std::exp(-r2 / square(width));
-  }
+  for (Index j = 0; j < p.grid.unknowns(); ++j)
+    p.initial[j] = std::exp(-squared_distance_from_centre(p.grid, j) / square(width));
 }
 
 struct WaveData {

@@ -22,7 +22,8 @@ Method = Literal[
 Backend = Literal["auto", "dense", "modal", "sparse", "reference", "petsc"]
 ProblemName = Literal[
     "klein_gordon", "alpha_fpu", "gkdv", "sine_gordon", "oscillator", "nls", "beta_fpu", "chain", "wave", "truss", "network",
-    "sparse", "burgers", "rigid_body", "allen_cahn", "cahn_hilliard", "swift_hohenberg", "phase_field_crystal", "custom",
+    "sparse", "burgers", "rigid_body", "allen_cahn", "cahn_hilliard", "swift_hohenberg", "phase_field_crystal",
+    "custom",
 ]
 Boundary = Literal["periodic", "dirichlet", "neumann"]
 Discretisation = Literal["fd2", "fd4", "spectral"]

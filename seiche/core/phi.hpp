@@ -29,6 +29,11 @@ struct PhiRows {
   bool of_state = true;  // without: no term φ₀(θhL)z
 };
 
+// hφ₁(hL) of one force: what it adds to z if it is constant over the step.
+inline PhiRows rows_of_constant_force(PhiRows::Forces kind) {
+  return {.rows = {{1.0, {1.0}}}, .forces = 1, .order = 1, .kind = kind, .of_state = false};
+}
+
 // A few such sums for one h.
 class PhiMap {
  public:

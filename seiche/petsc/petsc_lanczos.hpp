@@ -10,7 +10,7 @@
 namespace seiche {
 
 // M⁻¹ by the linear solver that the equation names, whose only matrix M is; its definiteness may take factors of M once
-// (is_nonnegative). Throws Error where S is not skew or M not definite.
+// (is_nonnegative). S is skew; throws Error where M is not definite.
 class PetscSkewSystem final : public SkewSystem {
  public:
   PetscSkewSystem(const PetscEquation& equation, const Product& of_S, const Product& of_M, const Space& of_states);

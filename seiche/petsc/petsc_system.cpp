@@ -42,6 +42,7 @@ class PetscLinear final : public LinearPart {
     make_symmetric_part(equation.S, symmetric_S_itself_);
     if (!is_zero(symmetric_S_itself_)) symmetric_S_.emplace(symmetric_S_itself_);
     resolvents_.emplace(SM_, equation.solver, support.size);
+    if (options_.exponential == ExponentialKind::lanczos && symmetric_S_) throw lanczos_needs_skew_S();
     if (options_.exponential == ExponentialKind::lanczos)
       skew_ = std::make_shared<PetscSkewSystem>(equation, S_, M_, space_);
     iterates_ = resolvents_->iterates();

@@ -12,10 +12,7 @@ std::complex<double> initial_value(const Nls& options, const Grid& grid, Index p
   const double x = grid.coordinate(point, 0) - grid.axis(0).length / 2;
   if (options.initial == Nls::Initial::soliton)
     return nls_soliton(options.kappa, options.amplitude, options.velocity, x, 0);
-  double distance_squared = 0;
-  for (Index a = 0; a < grid.dimension(); ++a)
-    distance_squared += square(grid.coordinate(point, a) - grid.axis(a).length / 2);
-  return std::polar(options.amplitude * std::exp(-distance_squared / 2), options.velocity * x);
+  return std::polar(options.amplitude * std::exp(-squared_distance_from_centre(grid, point) / 2), options.velocity * x);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -107,33 +106,6 @@ TEST(Relaxed, IsNamedByTheCertificateOfGradientFlows) {
   EXPECT_THAT(theorem(flow, AuxiliaryMode::automatic), HasSubstr("r² moves towards V + C"));
   EXPECT_THAT(theorem(flow, AuxiliaryMode::transport), Not(HasSubstr("r² moves")));
   EXPECT_THAT(theorem(klein_gordon_case(), AuxiliaryMode::automatic), Not(HasSubstr("r² moves")));
-}
-
-// Where it is too far off, the guard takes the gradient at the start of the step instead (method/closure/
-// midpoint_predictor).
-TEST(RememberedPredictor, IsNoWorseThanTheGradientOnGradientFlowsAtAnyStep) {
-  const Problem flow =
-      cahn_hilliard({.grid = {.points = {24, 24}, .length = {24.0}, .discretisation = Discretisation::spectral},
-                     .kappa = 2,
-                     .mobility = 5,
-                     .barrier = 5,
-                     .low = 0.3,
-                     .high = 0.7,
-                     .mean = 0.5,
-                     .amplitude = 0.05});
-  const auto end = [&](const std::string& method, std::optional<Predictor> predictor, double h) {
-    MethodOptions options;
-    if (predictor) options.predictor = *predictor;
-    Simulation simulation(flow, {.method = method, .method_options = options});
-    for (int n = 0; n < static_cast<int>(std::lround(32 / h)); ++n) EXPECT_TRUE(simulation.step(h).solved());
-    return Vector(simulation.physical());
-  };
-  const Vector exact = end("egc6", {}, 1.0 / 32);
-  for (const char* method : {"seisav", "seilm"})
-    for (const double h : {1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0, 2.0, 4.0}) {
-      const auto error = [&](Predictor p) { return (end(method, p, h) - exact).lpNorm<Eigen::Infinity>(); };
-      EXPECT_LE(error(Predictor::remembered), 1.2 * error(Predictor::gradient)) << method << " " << h;
-    }
 }
 
 }  // namespace TEST_FILE

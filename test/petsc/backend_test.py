@@ -194,8 +194,9 @@ for method in ("seisav", "seilm"):
     for dimension in (0, 4):
         folder = f"lanczos_early_{method}{dimension}"
         solver = 'backend.solver="-ksp_type cg -pc_type jacobi -ksp_rtol 1e-4"'
-        chosen = [*lanczos, *small["wave"], f"method.name={method}", f"backend.lanczos_dimension={dimension}", "output.ledger=on"]
-        run("wave", folder, "backend.name=petsc", solver, *chosen, "output.energy_every=1", processes=2)
+        chosen = [*lanczos, *small["wave"], f"method.name={method}", f"backend.lanczos_dimension={dimension}"]
+        ledger = ["output.ledger=on", "output.energy_every=1"]
+        run("wave", folder, "backend.name=petsc", solver, *chosen, *ledger, processes=2)
         rows = np.genfromtxt(f"{folder}/energy.csv", delimiter=",", names=True)
         missed = np.abs(rows["substep"] + rows["scalar"]).max() / rows["H"][0]
         summary = json.loads(pathlib.Path(folder, "summary.json").read_text())

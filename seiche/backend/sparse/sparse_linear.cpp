@@ -29,14 +29,13 @@ class SparseSkewSystem final : public SkewSystem {
  public:
   SparseSkewSystem(const Operators& operators, const Product& of_S, const Product& of_M, const Space& of_states)
       : SkewSystem(of_S, of_M, of_states) {
-    const auto& [S_matrix, M_matrix, absolute_M, support] = operators;
-    if (SparseMatrix(S_matrix + SparseMatrix(S_matrix.transpose())).norm() != 0) throw lanczos_needs_skew_S();
+    if (SparseMatrix(operators.S + SparseMatrix(operators.S.transpose())).norm() != 0) throw lanczos_needs_skew_S();
     constexpr double least = 1e-12;
-    const double size = M_matrix.norm();
-    const SparseMatrix lowered = M_matrix - SparseMatrix(least * size * identity_matrix(M_matrix.rows()));
+    const double size = operators.M.norm();
+    const SparseMatrix lowered = operators.M - SparseMatrix(least * size * identity_matrix(operators.M.rows()));
     if (const auto x = negative_direction(lowered))
       throw lanczos_needs_definite_M(fmt::format("zᵀMz = {:.3g} for a z of norm 1", x->value + least * size));
-    const SparseMatrix a = with_diagonal(M_matrix);
+    const SparseMatrix a = with_diagonal(operators.M);
     M_factors_ = std::make_unique<SparseLdlt<double>>(std::make_shared<LdltPattern>(a), a.valuePtr());
   }
   void divide_by_M(Vector& f) const override { M_factors_->solve(f); }

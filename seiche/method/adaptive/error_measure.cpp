@@ -34,15 +34,11 @@ void ErrorMeasure::start(const Vector& before, const Vector& after, double h) {
 double ErrorMeasure::operator()(const Vector& e) {
   const Space& space = *system_.space;
   if (is_gradient_flow_) {
-    // What Krylov spaces would take over so long a time, e itself bounds; they look as far as the step.
-    // By powers of two, so that few maps are made.
+    // By powers of two, so that few maps are made. A Krylov space would take long over so long a time.
     const double steps = phi_->has_tables() ? std::exp2(std::round(-0.75 * std::log2(moved_))) : 1;
     const double time = h_ * steps;
-    const PhiMap& map = forgetting_.at(time, [&] {
-      const PhiRows rows{
-          .rows = {{1.0, {1.0}}}, .forces = 1, .order = 1, .kind = PhiRows::Forces::states, .of_state = false};
-      return phi_->map(rows, time);
-    });
+    const PhiMap& map =
+        forgetting_.at(time, [&] { return phi_->map(rows_of_constant_force(PhiRows::Forces::states), time); });
     map.apply(e, {&e, 1}, {&sum_, 1});
     const double size = space.norm(e);
     if (space.norm(sum_) > time * size) sum_ = time * e;  // an L that lets errors grow forgets none

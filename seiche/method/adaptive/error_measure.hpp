@@ -20,6 +20,7 @@ class ErrorMeasure {
  public:
   ErrorMeasure(const System& system, const PhiEvaluator* phi);  // which outlive it; phi: null if no gradient flow
 
+  bool is_of_gradient_flow() const { return is_gradient_flow_; }
   // The step whose errors are measured next.
   void start(const Vector& before, const Vector& after, double h);
   double operator()(const Vector& e);    // infinite where e is not finite

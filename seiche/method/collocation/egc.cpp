@@ -34,7 +34,6 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
         dissipation_(system, *phi_, output_, output_, {rule_, GaussRule(stages + 2), NestedRules(stages)}),
         projected_(system, *phi_, *this, law),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
-        is_gradient_flow_(is_gradient_flow(system)),
         measure_(system, phi_.get()),
         cache_(cached_step_sizes(system.space->size_of_all())),
         forces_(static_cast<std::size_t>(stages)),
@@ -175,12 +174,9 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   // A force, as PhiRows has it, as Sf; in a gradient flow as φ₁(hL)Sf, by which it changes z in a step, over h.
   void as_rate(Vector& f) {
-    if (!is_gradient_flow_) return apply_S(f);
+    if (!measure_.is_of_gradient_flow()) return apply_S(f);
     std::unique_ptr<PhiMap>& of_constant = tables(last_.h, steps_are_alike_).of_constant;
-    if (!of_constant) {
-      const PhiRows rows{.rows = {{1.0, {1.0}}}, .forces = 1, .order = 1, .kind = output_.kind, .of_state = false};
-      of_constant = phi_->map(rows, last_.h);
-    }
+    if (!of_constant) of_constant = phi_->map(rows_of_constant_force(output_.kind), last_.h);
     of_constant->apply(rate_, {&f, 1}, {&rate_, 1});
     f = rate_ / last_.h;
   }
@@ -327,7 +323,6 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   StepDissipation dissipation_;
   Projected projected_;
   ContinuousExtension extension_;
-  bool is_gradient_flow_;
   ErrorMeasure measure_;
   StepCache<Tables> cache_;
   StepCache<Eigen::MatrixXd> extrapolations_{16};  // by the ratio of two step sizes

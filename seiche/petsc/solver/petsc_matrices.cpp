@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seiche {
 namespace {
@@ -143,9 +144,12 @@ Vector balancing_scales(Mat a) {
   return exponents.unaryExpr([](double x) { return std::exp2(std::round(x)); });
 }
 
-bool is_nonnegative(Mat a) {
-  double least = 0;  // over all rows, of the diagonal less the sizes of the rest
-  double least_diagonal = 0;
+bool is_nonnegative(Mat a, double margin) {
+  PetscReal size = 0;
+  require(MatNorm(a, NORM_INFINITY, &size));
+  const double wanted = margin * size;
+  double least = std::numeric_limits<double>::infinity();  // over all rows, of the diagonal less the sizes of the rest
+  double least_diagonal = least;
   visit_rows(a, [&](Index row, std::span<const PetscInt> columns, std::span<const double> values) {
     double bound = 0;
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -154,15 +158,13 @@ bool is_nonnegative(Mat a) {
     }
     least = std::min(least, bound);
   });
-  if (joint(a, least, MPI_MIN) >= 0) return true;
-  if (joint(a, least_diagonal, MPI_MIN) < 0) return false;
+  if (joint(a, least, MPI_MIN) >= wanted) return true;
+  if (joint(a, least_diagonal, MPI_MIN) < wanted) return false;
   // Sylvester's law: LDLᵀ has as many negative pivots as a has negative eigenvalues. Zero ones are moved off zero.
   OwnedMat shifted, factors;
-  PetscReal size = 0;
-  require(MatNorm(a, NORM_INFINITY, &size));
   require(MatDuplicate(a, MAT_COPY_VALUES, shifted.make()));
   require(MatSetOption(shifted, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));  // of rows without a diagonal entry
-  require(MatShift(shifted, 1e-12 * size));
+  require(MatShift(shifted, 1e-12 * size - wanted));
   require(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
   require(MatGetFactor(shifted, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factors.make()));
   require(MatMumpsSetIcntl(factors, 13, 1));  // no part of the factors is taken whose pivots are not counted …

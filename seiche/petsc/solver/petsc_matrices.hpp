@@ -52,9 +52,9 @@ void visit_rows(Mat a,
                 FunctionRef<void(Index row, std::span<const PetscInt> columns, std::span<const double> values)> visit);
 double spectral_radius_bound(Mat a);  // as that of sparse matrices
 Vector balancing_scales(Mat a);       // of rows that are here; powers of two
-// Whether xᵀax ≥ 0 for every x but for round-off, of a symmetric a: by the dominance of its diagonal, or by the inertia
-// of its factors.
-bool is_nonnegative(Mat a);
+// Whether xᵀax ≥ margin ‖a‖ |x|² for every x but for round-off, 1e-12 ‖a‖, of a symmetric a: by the dominance of its
+// diagonal, or by the inertia of its factors.
+bool is_nonnegative(Mat a, double margin = 0);
 SparseMatrix sparse_matrix(Mat a);  // of one process
 
 inline std::span<const double> span_of(const Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }

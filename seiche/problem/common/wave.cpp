@@ -33,4 +33,10 @@ Vector sample(const Grid& grid, const std::function<double(double)>& f) {
   return values;
 }
 
+double squared_distance_from_centre(const Grid& grid, Index point) {
+  double squared = 0;
+  for (Index a = 0; a < grid.dimension(); ++a) squared += square(grid.coordinate(point, a) - grid.axis(a).length / 2);
+  return squared;
+}
+
 }  // namespace seiche

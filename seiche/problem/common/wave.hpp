@@ -17,5 +17,6 @@ LinearDamping rate_damping(const DampingRate& gamma, const Grid& grid, std::vect
 
 // Values of f(x_j) on the grid.
 Vector sample(const Grid& grid, const std::function<double(double x)>& f);  // of the first axis
+double squared_distance_from_centre(const Grid& grid, Index point);         // |x − L/2|²
 
 }  // namespace seiche

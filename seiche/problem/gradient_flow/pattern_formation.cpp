@@ -1,38 +1,26 @@
-#include <seiche/core/base/error.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/common/problem_rows.hpp>
-#include <seiche/problem/common/wave.hpp>
-#include <seiche/problem/gradient_flow/initial_fields.hpp>
+#include <seiche/problem/gradient_flow/one_field.hpp>
 #include <seiche/problem/gradient_flow/pattern_formation.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace seiche {
 namespace {
 
-Problem pattern_formation(const char* name, const PatternFormation& options, bool is_conserved) {
-  if (!(options.mobility > 0)) throw Error("mobility = {} must be > 0", options.mobility);
-  Problem p;
-  p.name = name;
-  p.grid = make_grid(options.grid);
-  p.fields = {"u"};
-  const Stencil laplacian = Stencil::laplacian(p.grid, options.grid.discretisation);
-  const Stencil root = Stencil::identity(square(options.q)) + laplacian;
-  p.S = BlockStencil(1);
-  p.S(0, 0) = is_conserved ? options.mobility * laplacian : Stencil::identity(-options.mobility);
-  p.M = BlockStencil(1);
+Problem pattern_formation(const char* name, const PatternFormation& options, bool conserves_mean) {
+  Problem p = flow_of_one_field(name, options.grid, {options.mobility, conserves_mean});
+  const Stencil root = Stencil::identity(square(options.q)) + Stencil::laplacian(p.grid, options.grid.discretisation);
   p.M(0, 0) = Stencil::product(root, root);
-  p.damping = rate_damping(nullptr, p.grid, {false});
   p.potential = on_grid(nodal_polynomial({0, 0, -options.r / 2, -options.g / 3, 0.25}), p.grid, options.grid);
-  if (options.initial == PatternFormation::Initial::waves) {
-    p.initial = low_waves(p.grid, options.mean, options.amplitude);
-  } else {
-    const double radius = std::numbers::pi / std::max(std::abs(options.q), 1e-3);
-    p.initial.resize(p.grid.unknowns());
-    for (Index i = 0; i < p.initial.size(); ++i)
-      p.initial[i] = options.mean + options.amplitude * std::exp(-square(distance_from_centre(p.grid, i) / radius) / 2);
-  }
+  const double radius = std::numbers::pi / std::max(std::abs(options.q), 1e-3);
+  const auto seed = [&](double distance) {
+    return options.mean + options.amplitude * std::exp(-square(distance / radius) / 2);
+  };
+  p.initial = options.initial == PatternFormation::Initial::seed ? around_centre(p.grid, seed)
+                                                                 : low_waves(p.grid, options.mean, options.amplitude);
   return p;
 }
 

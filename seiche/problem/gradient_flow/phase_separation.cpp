@@ -1,8 +1,7 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/common/problem_rows.hpp>
-#include <seiche/problem/common/wave.hpp>
-#include <seiche/problem/gradient_flow/initial_fields.hpp>
+#include <seiche/problem/gradient_flow/one_field.hpp>
 #include <seiche/problem/gradient_flow/phase_separation.hpp>
 
 #include <cmath>
@@ -17,40 +16,30 @@ std::vector<double> double_well(const PhaseSeparation& options) {
 }
 
 // u = (a + b)/2 + (b − a)/2 tanh((R − r)/w), which a flat interface has at rest: w = √(2κ/ρ)/|b − a|.
-double drop(const PhaseSeparation& options, const Grid& grid, Index point) {
+Vector drop(const PhaseSeparation& options, const Grid& grid) {
   const double span = options.high - options.low;
   const double width = std::sqrt(2 * options.kappa / options.barrier) / std::abs(span);
-  const double inside = grid.axis(0).length / 4 - distance_from_centre(grid, point);
-  return (options.low + options.high) / 2 + span / 2 * std::tanh(inside / width);
+  return around_centre(grid, [&](double distance) {
+    const double inside = grid.axis(0).length / 4 - distance;
+    return (options.low + options.high) / 2 + span / 2 * std::tanh(inside / width);
+  });
 }
 
-Problem phase_separation(const char* name, const PhaseSeparation& options, bool is_conserved) {
-  for (const auto& [what, value] : {std::pair("kappa", options.kappa), std::pair("mobility", options.mobility),
-                                    std::pair("barrier", options.barrier)})
+Problem phase_separation(const char* name, const PhaseSeparation& options, bool conserves_mean) {
+  for (const auto& [what, value] : {std::pair("kappa", options.kappa), std::pair("barrier", options.barrier)})
     if (!(value > 0)) throw Error("{} = {} must be > 0", what, value);
   if (!(options.stabilisation >= 0)) throw Error("stabilisation = {} must be ≥ 0", options.stabilisation);
   if (options.low == options.high) throw Error("low = {} and high = {} must differ", options.low, options.high);
-  Problem p;
-  p.name = name;
-  p.grid = make_grid(options.grid);
-  p.fields = {"u"};
-  const Stencil laplacian = Stencil::laplacian(p.grid, options.grid.discretisation);
-  p.S = BlockStencil(1);
-  p.S(0, 0) = is_conserved ? options.mobility * laplacian : Stencil::identity(-options.mobility);
-  p.M = BlockStencil(1);
-  p.M(0, 0) = Stencil::identity(options.stabilisation) + -options.kappa * laplacian;
-  p.damping = rate_damping(nullptr, p.grid, {false});
+  Problem p = flow_of_one_field(name, options.grid, {options.mobility, conserves_mean});
+  p.M(0, 0) = Stencil::identity(options.stabilisation) +
+              -options.kappa * Stencil::laplacian(p.grid, options.grid.discretisation);
   p.potential = on_grid(nodal_polynomial(double_well(options)), p.grid, options.grid);
   constexpr double far = 10;  // beside their distance: V is a difference of terms as much larger
   if (std::abs(options.low + options.high) > far * std::abs(options.high - options.low))
     p.notes.push_back(
         fmt::format("low = {} and high = {} lie far from 0, and V loses digits: shift u", options.low, options.high));
-  if (options.initial == PhaseSeparation::Initial::waves) {
-    p.initial = low_waves(p.grid, options.mean, options.amplitude);
-  } else {
-    p.initial.resize(p.grid.unknowns());
-    for (Index i = 0; i < p.initial.size(); ++i) p.initial[i] = drop(options, p.grid, i);
-  }
+  p.initial = options.initial == PhaseSeparation::Initial::drop ? drop(options, p.grid)
+                                                                : low_waves(p.grid, options.mean, options.amplitude);
   return p;
 }
 
@@ -58,7 +47,6 @@ ProblemEntry with_rows(ProblemEntry about, Problem (*make)(const PhaseSeparation
   using P = PhaseSeparation;
   about.fields = {"u"};
   about.meanings = {"order parameter"};
-  about.default_method = "seisav";
   return ProblemRows<P>(std::move(about), make)
       .grid(&P::grid)
       .row(&P::kappa,

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <seiche/loop/integrate.hpp>
 #include <seiche/method/closure/midpoint_predictor.hpp>
+#include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/simulation/simulation.hpp>
 
@@ -213,6 +214,30 @@ TEST(Predictor, IsOfOrderTwoWhereStepsChangeTheirSize) {
     errors.push_back((simulation.physical() - exact.physical()).cwiseAbs().maxCoeff());
   }
   EXPECT_NEAR(fitted_order(h, errors), 2, 0.1) << table(h, errors);
+}
+
+// Where it is too far off, the guard takes the gradient at the start of the step instead (MidpointPredictor).
+TEST(Predictor, RememberedIsNoWorseThanTheGradientOnGradientFlowsAtAnyStep) {
+  const Problem flow =
+      cahn_hilliard({.grid = {.points = {24, 24}, .length = {24.0}, .discretisation = Discretisation::spectral},
+                     .kappa = 2,
+                     .mobility = 5,
+                     .barrier = 5,
+                     .low = 0.3,
+                     .high = 0.7,
+                     .mean = 0.5,
+                     .amplitude = 0.05});
+  const auto end = [&](const SimulationOptions& options, double h) {
+    Simulation simulation(flow, options);
+    for (int n = 0; n < static_cast<int>(std::lround(32 / h)); ++n) EXPECT_TRUE(simulation.step(h).solved());
+    return Vector(simulation.physical());
+  };
+  const Vector exact = end({.method = "egc6"}, 1.0 / 32);
+  for (const char* method : {"seisav", "seilm"})
+    for (const double h : {1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0, 2.0, 4.0}) {
+      const auto error = [&](Predictor p) { return (end(by(method, p), h) - exact).lpNorm<Eigen::Infinity>(); };
+      EXPECT_LE(error(Predictor::remembered), 1.2 * error(Predictor::gradient)) << method << " " << h;
+    }
 }
 
 }  // namespace TEST_FILE
