@@ -93,6 +93,7 @@ ExitCode check(const CheckArguments& arguments) {
   const Simulation simulation(problem, simulation_options(spec));  // refuses what `run` refuses
   const Certificate certificate = certify(problem, {.method = spec.method,
                                                     .method_options = spec.method_options,
+                                                    .noise = spec.noise,
                                                     .t_start = spec.t_start,
                                                     .t_end = spec.t_end,
                                                     .at_start = &simulation});

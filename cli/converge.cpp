@@ -84,6 +84,7 @@ ExitCode converge_case(const ConvergeArguments& arguments) {
     find_method(name);
   }
   RunSpec spec = load_case(arguments.case_argument, methods);
+  refuse_noise(spec, "converge");
   const Problem problem = make_problem(spec);
   if (spec.t_start != 0)
     throw Error("{} has time.start = {}, and converge compares runs from t = 0: leave it out", spec.source,

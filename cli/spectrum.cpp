@@ -26,6 +26,7 @@ struct SpectrumArguments {
 
 ExitCode spectrum_of_case(const SpectrumArguments& arguments) {
   const RunSpec spec = load_case(arguments.case_argument);
+  refuse_noise(spec, "spectrum");
   if (arguments.directory_given && arguments.directory.empty()) throw Error("--out must not be empty");
   if (spec.h == 0)
     throw Error(

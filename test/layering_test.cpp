@@ -29,7 +29,8 @@ const std::map<std::string, Folders> may_include = {
     {"core", {}},
     {"formula", {"core"}},
     {"law", {"core"}},
-    {"backend", {"core"}},
+    {"noise", {"core"}},
+    {"backend", {"core", "noise"}},
     {"potential", {"core", "formula"}},
     {"damping", {"core", "formula"}},
     {"method", {"core"}},
@@ -37,8 +38,9 @@ const std::map<std::string, Folders> may_include = {
     {"output", {"core"}},
     {"record", {"core", "output"}},
     {"problem", {"core", "potential", "damping"}},
-    {"simulation", {"core", "law", "method", "backend", "loop"}},
-    {"config", {"core", "formula", "law", "potential", "damping", "method", "backend", "problem", "simulation"}},
+    {"simulation", {"core", "noise", "law", "method", "backend", "loop"}},
+    {"config",
+     {"core", "noise", "formula", "law", "potential", "damping", "method", "backend", "problem", "simulation"}},
     {"ensemble", {"core", "method", "problem", "loop", "simulation", "config"}},
     {"study",
      {"core", "law", "potential", "damping", "method", "backend", "problem", "output", "record", "loop", "simulation",
@@ -65,8 +67,9 @@ struct ThirdParty {
   Folders folders;
 };
 const std::vector<ThirdParty> third_party = {
-    {"Eigen/", {"core", "law", "backend", "method", "ensemble", "petsc"}},
+    {"Eigen/", {"core", "noise", "law", "backend", "method", "ensemble", "petsc"}},
     {"unsupported/Eigen/", {}},
+    {"Random123/", {"noise"}},
     {"fftw3.h", {"backend"}},
     {"sleef.h", {"core"}},
     {"toml++/", {"config"}},

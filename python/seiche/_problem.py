@@ -26,6 +26,8 @@ _KEY_ARGUMENTS = {
     "backend.pade_degree": "pade_degree",
     "backend.lanczos_dimension": "lanczos_dimension",
     "backend.solver": "solver",
+    "noise.temperature": "temperature",
+    "noise.seed": "seed",
     "time.start": "t_start",
     "time.end": "t_end",
     "output.energy_every": "energy_every",

@@ -169,6 +169,7 @@ HeldSolution solve(const HeldProblem& problem, const RunSpec& spec, double t_sta
                        .method_options = spec.method_options,
                        .backend = spec.backend,
                        .backend_options = simulation.backend_options,
+                       .noise = spec.noise,
                        .h = spec.h,
                        .tolerance = spec.tolerance,
                        .h_max = spec.h_max,

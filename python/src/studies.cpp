@@ -15,6 +15,7 @@ std::string check(const HeldProblem& held, const RunSpec& spec) {
     const Simulation simulation(*held.problem, simulation_options(spec));  // refuses what `solve` refuses
     return certificate_json(certify(*held.problem, {.method = std::string(simulation.method().name),
                                                     .method_options = simulation.method_options(),
+                                                    .noise = spec.noise,
                                                     .t_start = spec.t_start,
                                                     .t_end = spec.t_end,
                                                     .at_start = &simulation,
@@ -23,6 +24,7 @@ std::string check(const HeldProblem& held, const RunSpec& spec) {
 }
 
 std::string spectrum_of(const HeldProblem& held, const RunSpec& spec) {
+  refuse_noise(spec, "spectrum");
   if (spec.h == 0) throw Error("a tolerance without h, and spectrum looks at one step: give h, such as \"1/64\"");
   return interruptible([&](const std::atomic<bool>* stop) {
     return spectrum_json(spectrum(*held.problem, simulation_options(spec), spec.h, stop));
@@ -31,6 +33,7 @@ std::string spectrum_of(const HeldProblem& held, const RunSpec& spec) {
 
 std::string converge_of(const HeldProblem& held, const std::vector<std::string>& methods,
                         const std::vector<double>& step_sizes, const RunSpec& spec, bool timed) {
+  refuse_noise(spec, "converge");
   if (spec.t_start != 0)
     throw Error("the case has time.start = {}, and converge compares runs from t = 0: leave it out", spec.t_start);
   return interruptible([&](const std::atomic<bool>* stop) {

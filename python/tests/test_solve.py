@@ -138,6 +138,25 @@ def test_the_ledger_adds_up(wave):
     assert np.allclose(sum(r.ledger.values()), r.energy - r.energy[0], atol=1e-12)
 
 
+def test_noise_is_counted_by_seed_and_refused_where_it_cannot_be(wave):
+    def end(**options):
+        return seiche.solve(wave, (0, 1), method="seisav", h="1/64", temperature=0.1, **options).y[:, -1]
+
+    assert np.array_equal(end(), end(seed=1))
+    assert not np.array_equal(end(), end(seed=2))
+    result = seiche.solve(wave, (0, 1), method="seisav", h="1/64", temperature=0.1, ledger=True)
+    assert result.law == "not promised"
+    assert result.ledger["heat"][-1] > 0
+    with pytest.raises(ValueError, match="temperature = -1 must be ≥ 0"):
+        seiche.solve(wave, (0, 1), h="1/64", temperature=-1)
+    with pytest.raises(ValueError, match="noise needs steps of one size"):
+        seiche.solve(wave, (0, 1), tolerance=1e-3, temperature=0.1)
+    with pytest.raises(ValueError, match="known at the ends of steps alone"):
+        seiche.solve(wave, (0, 1), h="1/64", temperature=0.1, dense_output=True)
+    with pytest.raises(ValueError, match="converge looks at solutions without noise"):
+        seiche.converge(wave, ["seisav"], [1 / 8, 1 / 16], temperature=0.1)
+
+
 def test_a_computation_that_fails_is_a_status():
     focusing = seiche.problem("klein_gordon", points=20, alpha=-1.0, gamma=0.0)
     r = seiche.solve(focusing, 20.0, method="egc6", tolerance=1e-6)

@@ -29,9 +29,10 @@ struct MidpointMemory {
 };
 
 struct State {
-  Vector z;            // in the coordinates of Space
-  double t = 0.0;      // t₀ + n h for fixed steps
-  std::int64_t n = 0;  // steps taken
+  Vector z;                  // in the coordinates of Space
+  double t = 0.0;            // t₀ + n h for fixed steps
+  std::int64_t n = 0;        // steps taken
+  std::uint64_t stream = 0;  // of the random numbers, where there is noise: the member of an ensemble
   // Scalar auxiliary variable (sav family): r² = V + C along the exact solution, E₀ the energy scale of its guard.
   double r_squared = 0.0;
   double shift = 0.0;  // C
@@ -50,7 +51,7 @@ struct State {
   void archive(Archive& a) {
     const Index size = z.size();
     const std::size_t nodes = history.size(), remembered = midpoints.gradients.size();
-    a(z, t, n, r_squared, shift, energy_scale, energy, energy_terms, history, history_h, midpoints);
+    a(z, t, n, stream, r_squared, shift, energy_scale, energy, energy_terms, history, history_h, midpoints);
     if (!a.reads()) return;
     a.require(z.size() == size && history.size() == nodes && midpoints.gradients.size() == remembered);
     for (const std::vector<Vector>* vectors : {&history, &midpoints.gradients})

@@ -15,6 +15,7 @@ std::span<const LedgerPart> ledger_parts() {
       LedgerPart{"auxiliary", &L::auxiliary},
       LedgerPart{"projection", &L::projection},
       LedgerPart{"damping_right", &L::damping_right},
+      LedgerPart{"heat", &L::heat},
   };
   return parts;
 }

@@ -27,6 +27,7 @@ struct StepLedger {
   double auxiliary = 0.0;      // change of H − modified energy in the substep: V drifts from r² − C
   double projection = 0.0;     // onto the energy of the law
   double damping_right = 0.0;  // the second damping half-flow
+  double heat = 0.0;           // of noise, beside the damping that it balances
 
   double sum() const;
   StepLedger& operator+=(const StepLedger& other);
@@ -73,6 +74,7 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
   virtual void begin(State& state) = 0;                 // fills what the method keeps beside z and t
+  virtual void restart(State& state) { begin(state); }  // the same for a z that something else has changed
   virtual StepReport step(State& state, double h) = 0;  // from t to t + h
   virtual EnergyReading energy(const State& state) const = 0;
   virtual bool has_modified_energy() const = 0;
@@ -98,8 +100,7 @@ class AdaptiveStepper : public Stepper {
   virtual double quadrature_error(const State& /*state*/) { return 0; }
   virtual void undo(State& state) = 0;                                    // takes that attempt back, once
   virtual void interpolate(const State& state, double t, Vector& z) = 0;  // the solution at a time inside it
-  virtual void forget(State& state) = 0;   // what it remembers of the steps before; all else stays
-  virtual void restart(State& state) = 0;  // as `begin`, for a z that something else has changed
+  virtual void forget(State& state) = 0;  // what it remembers of the steps before; all else stays
   // Of a checkpoint, between two attempts: what it knows of the state beside the state, so that a run that goes on does
   // the same work. Reading may evaluate that again.
   virtual void archive_memory(Archive& /*archive*/, const State& /*state*/) {}

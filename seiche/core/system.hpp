@@ -6,6 +6,7 @@
 #include <seiche/core/grid/ranks.hpp>
 #include <seiche/core/kicks.hpp>
 #include <seiche/core/linear_part.hpp>
+#include <seiche/core/numerics/linear_map.hpp>
 #include <seiche/core/phi.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/core/problem.hpp>
@@ -42,8 +43,11 @@ struct System {
   std::function<std::unique_ptr<Kicks>()> make_kicks;                // of z = (q, p), D = γ on p; or null
   std::function<std::unique_ptr<PhiEvaluator>()> make_phi;           // of L = SM − D₀; closures have no use for it
   std::function<std::unique_ptr<PhiEvaluator>()> make_undamped_phi;  // of L = SM
-  Vector initial;                                                    // z₀
-  Index fields = 1;                                                  // of equal size, one after the other in State::z
+  // B of the noise that balances what dissipates for the length h (seiche/noise/fluctuation.hpp). Throws Error where
+  // none does. Null: not by this backend.
+  std::function<std::unique_ptr<LinearMap>(double h)> make_noise;
+  Vector initial;    // z₀
+  Index fields = 1;  // of equal size, one after the other in State::z
 
   double energy(const Vector& z) const { return linear->quadratic_energy(z) + potential->value(z); }
   EnergyTerms energy_terms(const Vector& z) const;

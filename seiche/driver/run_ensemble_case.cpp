@@ -107,11 +107,12 @@ EnsembleCaseResult run(RunSpec spec, GoingOn* from, const RunCaseOptions& option
   require_thread_count(options.threads);
   const Members members = make_members(spec);
   const Problem& problem = *members.list.front().problem;
-  const bool has_modified = find_method(spec.method).kept_energy == "H_modified";
+  const bool has_modified = has_modified_energy(simulation_options(spec));
   const std::unique_ptr<Simulation> simulation = first_start(members, spec);
   // Of the first member; each member's own promise is counted in "laws".
   const Certificate certificate = certify(problem, {.method = spec.method,
                                                     .method_options = spec.method_options,
+                                                    .noise = spec.noise,
                                                     .t_start = spec.t_start,
                                                     .t_end = spec.t_end,
                                                     .sample_solution = false});

@@ -98,6 +98,7 @@ class Run {
       const std::size_t size = std::min(members_.size() - begin, static_cast<std::size_t>(panel_members));
       blocks_[static_cast<std::size_t>(b)] = make_block(members_.subspan(begin, size), options_.simulation);
       blocks_[static_cast<std::size_t>(b)]->set_time(options_.t_start);
+      blocks_[static_cast<std::size_t>(b)]->set_streams(begin);
       for (std::size_t m = begin; m < begin + size; ++m) open_book(static_cast<Index>(m));
     });
     if (!any_runs()) throw Error(status(0).message);
@@ -108,8 +109,7 @@ class Run {
     if (simulation == nullptr) return;
     LawPromise law{false, "no law was asked for"};
     if (options_.promise) law = options_.promise(*simulation);
-    books_[static_cast<std::size_t>(member)] =
-        EnergyBook(law, find_method(options_.simulation.method).kept_energy == "H_modified");
+    books_[static_cast<std::size_t>(member)] = EnergyBook(law, has_modified_energy(options_.simulation));
   }
 
   bool any_runs() {

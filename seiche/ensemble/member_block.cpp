@@ -43,6 +43,10 @@ void MemberBlock::set_time(double t) {
   for (MemberStatus& status : statuses_) status.t = t;
 }
 
+void MemberBlock::set_streams(std::uint64_t first) {
+  for (State& s : states_) s.stream = first++;
+}
+
 void MemberBlock::step(std::int64_t n, double t, double h, double t_after) {
   h_ = h;
   step_all(n, t, h);

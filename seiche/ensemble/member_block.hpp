@@ -46,7 +46,8 @@ class MemberBlock {
   // As it is integrated; null for a member whose problem never started.
   const Simulation* simulation(Index member) const { return simulations_[static_cast<std::size_t>(member)]; }
 
-  void set_time(double t);  // at which all start, if not at 0
+  void set_time(double t);                // at which all start, if not at 0
+  void set_streams(std::uint64_t first);  // of random numbers, one for each member
 
   // Step number n of all that run, from t to t + h, which the time grid calls t_after. A member that fails stays where
   // it was, and the others go on.

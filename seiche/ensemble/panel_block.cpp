@@ -36,7 +36,8 @@ const BackendEntry* modal_backend(const Problem& problem) {
 
 std::unique_ptr<MemberBlock> make_block(std::span<const EnsembleMember> members, const SimulationOptions& options) {
   const Problem& problem = *members.front().problem;
-  if (!may_take_members(problem, find_method(options.method))) return std::make_unique<MemberBlock>(members, options);
+  if (options.noise.is_on() || !may_take_members(problem, find_method(options.method)))
+    return std::make_unique<MemberBlock>(members, options);
   SimulationOptions chosen = options;
   if (options.backend == "auto")
     if (const BackendEntry* modal = modal_backend(problem)) chosen.backend = modal->name;

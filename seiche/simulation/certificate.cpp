@@ -232,6 +232,10 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   certificate.law = bent ? LawPromise{false, "S(z) is not skew"} : law;
   if (const std::string given_up = options.method_options.objection(method); !bent && !given_up.empty())
     certificate.law.withdraw(given_up);
+  if (options.noise.is_on()) {
+    list.push_back({"no noise", Grade::violated, objection_of_noise(options.noise), {}, "every step"});
+    certificate.law = {.promised = false, .reason = objection_of_noise(options.noise)};
+  }
   if (options.at_start != nullptr && options.at_start->system().linear->solver_share() && !method.projects()) {
     const std::string of_solver = objection_of_solver(options.at_start->system(), method);
     list.push_back(hypothesis_of_solver(of_solver));

@@ -20,6 +20,7 @@ struct Certificate {
 struct CertificateOptions {
   std::string method = "seisav";
   MethodOptions method_options = {};
+  Noise noise = {};
   double t_start = 0.0, t_end = 0.0;
   bool sample_solution = true;  // follow a solution of its own, where structure decides nothing
   // One with this method, at its start: what is known of C is read off it instead of one made for that.

@@ -34,6 +34,7 @@ PreparedRun::PreparedRun(const Problem& problem, const RunPlan& plan)
     notes_.push_back(std::move(note));
   certificate_ = certify(problem, {.method = std::string(simulation_->method().name),
                                    .method_options = simulation_->method_options(),
+                                   .noise = plan.simulation.noise,
                                    .t_start = plan.t_start,
                                    .t_end = plan.t_end,
                                    .sample_solution = false,

@@ -2,6 +2,7 @@
 #include <seiche/core/base/memory_limit.hpp>
 #include <seiche/core/simd/thread_count.hpp>
 #include <seiche/law/law.hpp>
+#include <seiche/noise/noisy_stepper.hpp>
 #include <seiche/simulation/auto_method.hpp>
 #include <seiche/simulation/run_memory.hpp>
 #include <seiche/simulation/simulation.hpp>
@@ -9,8 +10,9 @@
 namespace seiche {
 namespace {
 
-Problem as_integrated(const MethodEntry& method, const Problem& problem) {
-  if (!method.kind.merges_damping) return problem;
+// With noise it is not the method that damps.
+Problem as_integrated(const MethodEntry& method, const Problem& problem, const Noise& noise) {
+  if (!method.kind.merges_damping || noise.is_on()) return problem;
   try {
     return with_damping_merged(problem);
   } catch (const Error& error) {
@@ -19,6 +21,33 @@ Problem as_integrated(const MethodEntry& method, const Problem& problem) {
 }
 
 bool is_automatic(const SimulationOptions& options) { return options.method == "auto"; }
+
+// Noise is of weak order two, so that no higher order pays.
+constexpr std::string_view cheapest = "seisav";
+
+const MethodEntry* given_method(const SimulationOptions& options) {
+  if (!is_automatic(options)) return &find_method(options.method);
+  return options.noise.is_on() ? &find_method(cheapest) : nullptr;
+}
+
+void require_noise_to_fit(const SimulationOptions& options, const MethodEntry& method, const Problem& problem,
+                          const BackendEntry& backend) {
+  if (options.variable_steps)
+    throw Error(
+        "noise needs steps of one size: how long a step is must not depend on the numbers drawn; write method.h, and no tolerance");
+  if (backend.name == "petsc") throw Error("the backend petsc has no noise; modal, dense and sparse have it");
+  if (!problem.has_damping() && method.propagator == PropagatorKind::cayley)
+    throw Error(
+        "noise on a gradient flow is of a size made for e^{{hSM}}, and {} takes another propagator; use seisav, or another exponential method",
+        method.name);
+}
+
+// Midpoints remembered from other noise would be wrong by more than the step.
+MethodOptions options_with_noise(const MethodEntry& method, MethodOptions options) {
+  if (method.kind.takes_predictor) options.predictor = Predictor::gradient;
+  if (options.auxiliary == AuxiliaryMode::automatic) options.auxiliary = AuxiliaryMode::transport;
+  return options;
+}
 
 // Lanczos iteration would ask of M what kicks have no use for.
 bool kicks_suit(const SimulationOptions& options) {
@@ -71,9 +100,10 @@ void require_gradient(const Problem& problem) {
 }  // namespace
 
 Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
-    : method_(is_automatic(options) ? nullptr : &find_method(options.method)),
-      problem_(method_ != nullptr ? as_integrated(*method_, problem) : problem),
-      method_options_(options.method_options) {
+    : method_(given_method(options)),
+      problem_(method_ != nullptr ? as_integrated(*method_, problem, options.noise) : problem),
+      method_options_(options.method_options),
+      noise_(options.noise) {
   require_thread_count(options.backend_options.threads);
   require_gradient(problem_);
   backend_ = &choose_backend(options, problem_, method_options_);
@@ -81,6 +111,7 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
     throw Error("solver = \"{}\" is for the backend petsc, and this is {}", options.backend_options.sparse.solver,
                 backend_->name);
   if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps, *backend_);
+  if (noise_.is_on()) require_noise_to_fit(options, *method_, problem_, *backend_);
   system_ = backend_->system(problem_, options.backend_options);
   if (method_ == nullptr) {
     MethodChoice choice = choose_method(problem_, system_,
@@ -105,7 +136,12 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
         "a tolerance cannot be met with the friction {}, which jumps at v = 0: while a velocity stays there, the error of a "
         "step is of the size of the step; write method.h",
         problem_.friction->text());
-  if (options.variable_steps) {
+  if (noise_.is_on()) {
+    if (is_automatic(options)) reason_ = fmt::format("noise is of weak order two, and {} is the cheapest", cheapest);
+    method_options_ = options_with_noise(*method_, method_options_);
+    auto bath = std::make_unique<Bath>(system_, problem_, noise_);
+    stepper_ = with_noise(std::move(bath), make_stepper(*method_, system_, method_options_));
+  } else if (options.variable_steps) {
     auto stepper = make_adaptive_stepper(*method_, system_, method_options_);
     adaptive_ = stepper.get();
     stepper_ = std::move(stepper);
@@ -130,9 +166,20 @@ LawPromise promise_energy_law(const Simulation& simulation, double t_end) {
   const std::string objection = simulation.method_options().objection(simulation.method());
   LawPromise promise = promise_energy_law(simulation.problem(), t_end);
   if (!objection.empty()) promise.withdraw(objection);
+  if (simulation.noise().is_on()) return {.promised = false, .reason = objection_of_noise(simulation.noise())};
   const std::string of_solver = objection_of_solver(simulation.system(), simulation.method());
   if (!of_solver.empty()) promise.withdraw(of_solver);
   return promise;
+}
+
+bool has_modified_energy(const SimulationOptions& options) {
+  return find_method(options.method).kept_energy == "H_modified" && !options.noise.is_on();
+}
+
+std::string objection_of_noise(const Noise& noise) {
+  return noise.is_on()
+             ? fmt::format("noise of the temperature {:.6g} feeds energy as well as it takes", noise.temperature)
+             : "";
 }
 
 std::string objection_of_solver(const System& system, const MethodEntry& method) {

@@ -4,6 +4,7 @@
 #include <seiche/backend/backends.hpp>
 #include <seiche/core/run_report.hpp>
 #include <seiche/method/methods.hpp>
+#include <seiche/noise/noise.hpp>
 
 #include <memory>
 #include <string>
@@ -18,6 +19,7 @@ struct SimulationOptions {
   bool variable_steps = false;  // a stepper that tells its errors, for integrate_adaptive
   double tolerance = 0.0;       // for method "auto": of values at the end; 0: not known
   double duration = 0.0;        // likewise
+  Noise noise = {};             // for steps of one size
 };
 
 // Throws Error where the method does not apply to the problem, with the reason, and where the gradient of an own
@@ -43,6 +45,7 @@ class Simulation {
   AdaptiveStepper& adaptive_stepper();  // throws Error unless made with variable_steps
   const MethodEntry& method() const { return *method_; }
   const MethodOptions& method_options() const { return method_options_; }
+  const Noise& noise() const { return noise_; }
   const std::string& reason() const { return reason_; }  // why "auto" took this method; else ""
   const BackendEntry& backend() const { return *backend_; }
 
@@ -52,6 +55,7 @@ class Simulation {
   const BackendEntry* backend_;
   System system_;
   MethodOptions method_options_;
+  Noise noise_;
   std::string reason_;
   std::unique_ptr<Stepper> stepper_;
   AdaptiveStepper* adaptive_ = nullptr;  // the same, where it is one
@@ -60,6 +64,12 @@ class Simulation {
 
 // Whether the energy law of its method is promised up to t_end, and why (not). Options of the method may give it up.
 LawPromise promise_energy_law(const Simulation& simulation, double t_end);
+
+// True if a run has a modified energy: its method, which is named, carries one, and no noise moves it.
+bool has_modified_energy(const SimulationOptions& options);
+
+// Why no law is promised beside noise, or "".
+std::string objection_of_noise(const Noise& noise);
 
 // Why a method does not keep its law with the linear solver of this system, which stops at a tolerance; "" where what
 // that misses is restored, and where there is no such solver.

@@ -34,6 +34,8 @@ void validate(const Problem& problem, const SolveOptions& o) {
   if (o.ledger && o.tolerance && !o.events.empty())
     throw Error(
         "an event inside a step of variable size leaves the ledger with a step too many: give h instead of a tolerance");
+  if (o.noise.is_on() && (!o.events.empty() || o.dense_output || o.t_eval))
+    throw Error("with noise a solution is known at the ends of steps alone: leave out events, t_eval and dense_output");
   if (!o.t_eval) return;
   if (!std::is_sorted(o.t_eval->begin(), o.t_eval->end())) throw Error("the times of t_eval must ascend");
   for (const double t : *o.t_eval)
@@ -58,7 +60,8 @@ RunPlan plan(const SolveOptions& o) {
   return {.simulation = {.method = o.method,
                          .backend = o.backend,
                          .method_options = o.method_options,
-                         .backend_options = o.backend_options},
+                         .backend_options = o.backend_options,
+                         .noise = o.noise},
           .h = o.h,
           .tolerance = o.tolerance,
           .h_max = o.h_max,

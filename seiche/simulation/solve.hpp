@@ -39,6 +39,7 @@ struct SolveOptions {
   MethodOptions method_options = {};
   std::string backend = "auto";
   BackendOptions backend_options = {};
+  Noise noise = {};                   // with h, and neither tolerance, events nor dense_output
   double h = 0.0;                     // the step size; beside a tolerance the first one, or 0
   std::optional<double> tolerance{};  // steps of variable size: the error that they add per unit of time, max norm
   double h_max = 0.0;                 // and none longer than this; 0: no bound

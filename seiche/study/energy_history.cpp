@@ -101,7 +101,7 @@ EnergyHistory read_energy_history(const std::filesystem::path& file, std::uintma
 }
 
 std::string cause_label(const EnergyHistory& history, const std::string& column) {
-  static const std::array<std::pair<std::string, std::string>, 8> labels = {
+  static const std::array<std::pair<std::string, std::string>, 9> labels = {
       {{"work", "work of forces"},
        {"damping_left", "damping, half step before the Hamiltonian step"},
        {"substep", "dissipation of S"},
@@ -109,6 +109,7 @@ std::string cause_label(const EnergyHistory& history, const std::string& column)
        {"auxiliary", "auxiliary variable"},
        {"projection", "projection"},
        {"damping_right", "damping, half step after the Hamiltonian step"},
+       {"heat", "noise"},
        {"round_off", "round-off"}}};
   const auto second = std::find_if(history.causes.begin(), history.causes.end(),
                                    [](const Curve& cause) { return cause.name == "damping_right"; });

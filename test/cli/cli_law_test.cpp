@@ -250,7 +250,7 @@ TEST_F(Cli, AnAuditConfirmsARunFromItsFilesAndSeesWhatWasChanged) {
   write_case();
   ASSERT_EQ(seiche("run case.toml --out out --set output.ledger=on").exit, 0);
   EXPECT_EQ(lines("out/energy.csv").front(),
-            "t,H,H_modified,work,damping_left,substep,scalar,auxiliary,projection,damping_right,round_off");
+            "t,H,H_modified,work,damping_left,substep,scalar,auxiliary,projection,damping_right,heat,round_off");
   const Result good = seiche("audit out --json");
   EXPECT_EQ(good.exit, 0) << good.out;
   const json audit = json::parse(good.out);

@@ -65,6 +65,12 @@ std::vector<OneCase> cases() {
           {"friction_by_tolerance",
            wave(plane + "friction = { kind = \"quadratic\", coefficient = 0.5 }",
                 "name = \"egc4\"\ntolerance = 1e-5\n[time]\nend = 1.0", "snapshot_interval = 0.25")},
+          {"noise", wave(plane + "gamma = \"0.3*(1 + cos(2*x)*sin(y)/2)\"", seisav + "\n[noise]\ntemperature = 0.2",
+                         few + "\nledger = \"on\"")},
+          {"conserved_noise", text_of_case("name = \"cahn_hilliard\"\npoints = [24, 20]\nlength = [1.0, 1.0]",
+                                           "name = \"seisav\"\nh = 1e-4\n[noise]\ntemperature = 1e-3\nseed = 3\n"
+                                           "[time]\nend = 1e-3",
+                                           few)},
           {"dealiased", wave(plane_damped + "\ndiscretisation = \"spectral\"\ndealias = \"two_thirds\"", seisav, few)},
           // Rows of several chunks, which end where slabs do not.
           {"large_3d", text_of_case("name = \"klein_gordon\"\npoints = [10, 288, 240]\nlength = [6.0, 5.0, 4.0]\n"

@@ -160,7 +160,11 @@ const std::vector<ACase>& some_cases() {
        "[problem]\nname = \"custom\"\nfields = [\"q\", \"p\"]\nH = \"p^2/2 + q^4/4\"\nD = { p = \"0.1*cos(t)^2\" }\n"
        "initial = { q = \"1\", p = \"0\" }\n[method]\nname = \"seisav\"\nh = 0.01\n[time]\nend = 25\n"
        "[output]\nsnapshot_every = 1\n",
-       2400}};
+       2400},
+      {"noise",
+       "[problem]\nname = \"klein_gordon\"\npoints = 16\ngamma = 0.3\n[method]\nname = \"egc4\"\nh = \"1/32\"\n"
+       "[noise]\ntemperature = 0.1\nseed = 5\n[time]\nend = 3\n[output]\nsnapshot_every = 1\nledger = \"on\"\n",
+       90}};
   return cases;
 }
 

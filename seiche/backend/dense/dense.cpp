@@ -8,6 +8,7 @@
 #include <seiche/backend/grid/grid_space.hpp>
 #include <seiche/backend/phi/force_map.hpp>
 #include <seiche/core/base/error.hpp>
+#include <seiche/noise/fluctuation.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -220,6 +221,10 @@ System dense_system(const Problem& problem, const BackendOptions&) {
       problem.matrices ? Matrix(constant_damping_matrix(problem)) : constant_damping(problem).matrix(problem.grid);
   system.make_phi = [S, M, D0, support] { return dense_phi(S, M, D0, support); };
   system.make_undamped_phi = [S, M, support] { return dense_phi(S, M, Matrix::Zero(S.rows(), S.cols()), support); };
+
+  system.make_noise = [S, M, D0](double h) {
+    return std::make_unique<DenseMap>(fluctuation_root(dissipation(S, M, D0, !D0.isZero(0)), h));
+  };
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;

@@ -10,6 +10,7 @@
 #include <seiche/backend/phi/force_map.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/truncated_potential.hpp>
+#include <seiche/noise/fluctuation.hpp>
 
 #include <optional>
 
@@ -104,6 +105,15 @@ System modal_system(const Problem& given, const BackendOptions& options) {
   system.make_undamped_phi = [undamped = operators, &space = *system.space]() mutable {
     undamped.D0 = BlockStencil(undamped.S.fields());
     return modal_phi(undamped, space);
+  };
+
+  system.make_noise = [operators](double h) {
+    const Modes modes(operators.grid);
+    const bool damped = !operators.D0.is_zero();
+    return std::make_unique<ModeMap>(modes, operators.S.fields(), [&](Index k) {
+      const auto of = [&](const BlockStencil& a) -> Block { return a.symbol(modes[k]); };
+      return fluctuation_root(dissipation(of(operators.S), of(operators.M), of(operators.D0), damped), h);
+    });
   };
 
   std::unique_ptr<LinearMap> constant;

@@ -7,6 +7,7 @@
 #include <seiche/backend/sparse/sparse.hpp>
 #include <seiche/backend/sparse/sparse_damping.hpp>
 #include <seiche/backend/sparse/sparse_linear.hpp>
+#include <seiche/backend/sparse/sparse_noise.hpp>
 #include <seiche/backend/sparse/sparse_phi.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/momenta.hpp>
@@ -75,6 +76,8 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
   system.make_undamped_phi = [shared, support, &space] {
     return sparse_phi(shared, SparseMatrix(shared->S.rows(), shared->S.cols()), support, space);
   };
+
+  system.make_noise = [shared, D0](double h) { return sparse_noise(shared->S, shared->M, *D0, h); };
 
   std::unique_ptr<LinearMap> constant;
   GridDamping::MakeFlow make_flow;

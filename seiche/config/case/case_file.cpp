@@ -31,6 +31,7 @@ class Sections {
     if (r_.problem != nullptr) read_problem_section(r_);
     read_method();
     read_section("backend");
+    read_noise();
     read_output();
     read_section("checkpoint");
     if (r_.problem != nullptr) read_ensemble();
@@ -90,6 +91,17 @@ class Sections {
                     r_.problem->default_h, spec_.h));
   }
 
+  void read_noise() {
+    read_section("noise");
+    const CaseSection* section = r_.table.section("noise");
+    if (section == nullptr || !section->is_table) return;
+    const auto refuse = [&](const std::string& what) { r_.complain(section->order, section->place, Error(what)); };
+    if (!r_.gives("noise", "temperature") && !section->entries.empty())
+      refuse("[noise] needs a temperature, in the units of H: write temperature = 0.01");
+    if (spec_.noise.is_on() && r_.asks_for_tolerance())
+      refuse("noise needs steps of one size: write method.h, and no tolerance");
+  }
+
   // A step size typed wrong must not fill the disk.
   void refuse_endless_files() {
     if (r_.asks_for_tolerance()) return;  // who knows
@@ -132,7 +144,7 @@ class Sections {
     const std::vector<std::string> keys = case_keys(section->name, r_.problem);
     const bool all_known = std::all_of(section->entries.begin(), section->entries.end(),
                                        [&](const CaseEntry& entry) { return is_one_of(entry, keys); });
-    const std::string complaint = ensemble_complaint(ensemble);
+    const std::string complaint = ensemble_complaint(ensemble, spec_.noise.is_on());
     if (all_known && r_.complaints.size() == complaints && !complaint.empty())
       r_.complain(section->order, section->place, Error(complaint));
   }

@@ -100,13 +100,13 @@ void read_ensemble_key(EnsembleSpec& ensemble, const std::string& name, const Ca
   }
 }
 
-std::string ensemble_complaint(const EnsembleSpec& ensemble) {
+std::string ensemble_complaint(const EnsembleSpec& ensemble, bool noisy) {
   const auto files = static_cast<std::int64_t>(ensemble.files.size());
   if (ensemble.count() == 0) return "[ensemble] has no members; write members = 64, or initial = { files = […] }";
   if (files > 0 && ensemble.members > 0 && ensemble.members != files)
     return fmt::format("ensemble.members = {} but ensemble.initial has {} files; leave members out, or make them agree",
                        ensemble.members, files);
-  if (ensemble.count() > 1 && files == 0 && ensemble.parameters.empty() && ensemble.perturb_initial == 0)
+  if (!noisy && ensemble.count() > 1 && files == 0 && ensemble.parameters.empty() && ensemble.perturb_initial == 0)
     return fmt::format(
         "[ensemble] has {} members and nothing in which they differ; write perturb_initial = 1e-3, a parameter of the problem as "
         "{{ from = 0.1, to = 0.2 }}, or initial = {{ files = […] }}",

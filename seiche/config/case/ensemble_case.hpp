@@ -40,8 +40,8 @@ bool may_vary(const Parameter& parameter);
 void read_ensemble_key(EnsembleSpec& ensemble, const std::string& name, const CaseValue& value,
                        const ProblemEntry& problem, const std::filesystem::path& folder);
 
-// One sentence where the keys do not fit together, else "".
-std::string ensemble_complaint(const EnsembleSpec& ensemble);
+// One sentence where the keys do not fit together, else "". `noisy`: members differ by their noise.
+std::string ensemble_complaint(const EnsembleSpec& ensemble, bool noisy);
 
 std::string write_ensemble(const EnsembleSpec& ensemble);  // the section as a case file has it
 

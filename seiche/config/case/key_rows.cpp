@@ -309,6 +309,31 @@ void add_checkpoint(KeyRows& rows) {
     };
 }
 
+// Likewise.
+void add_noise(KeyRows& rows) {
+  const std::size_t first = rows.all.size();
+  rows.begin("noise");
+  rows.number(
+      "temperature",
+      "T of noise that balances the damping, or S = Sᵀ ⪯ 0: states ~ exp(−H/T), H a sum over points; 0: none", from_0,
+      unless_given("0.01"), "kt kbt temp boltzmann theta noise noisetemperature",
+      [](CaseReading& r, const KeyRow& row, const std::string& key, const CaseValue& value) {
+        r.spec.noise.temperature = read_number_within(row, key, value);
+      },
+      [](const RunSpec& spec) { return Maybe(spec.noise.temperature); });
+  KeyRow& seed =
+      rows.add(Kind::whole, "seed", "of all random numbers: the same for any number of threads and processes", from_0,
+               unless_given("1"), "rngseed randomseed rng");
+  seed.read = [](CaseReading& r, const KeyRow& row, const std::string& key, const CaseValue& value) {
+    r.spec.noise.seed = static_cast<std::uint64_t>(read_whole_within(row, key, value));
+  };
+  seed.write = [](const RunSpec& spec) { return fmt::format("{}", spec.noise.seed); };
+  for (std::size_t i = first; i < rows.all.size(); ++i)
+    rows.all[i].write = [write = rows.all[i].write](const RunSpec& spec) {
+      return spec.noise == Noise{} ? "" : write(spec);
+    };
+}
+
 void add_ensemble(KeyRows& rows) {
   rows.begin("ensemble");
   rows.add(Kind::whole, "members", "how many; as many as there are files, if not given", from_1, unless_given("64"));
@@ -322,7 +347,8 @@ void add_ensemble(KeyRows& rows) {
 const std::vector<KeyRow>& key_rows() {
   static const std::vector<KeyRow> all = [] {
     KeyRows rows;
-    for (const auto add : {add_method, add_backend, add_time, add_output, add_checkpoint, add_ensemble}) add(rows);
+    for (const auto add : {add_method, add_backend, add_time, add_output, add_checkpoint, add_noise, add_ensemble})
+      add(rows);
     return std::move(rows.all);
   }();
   return all;
@@ -336,7 +362,7 @@ const KeyRow& key_row(const std::string& section, const std::string& name) {
 
 const std::vector<std::string>& case_sections() {
   static const std::vector<std::string> names = {"problem", "method",     "backend", "time",
-                                                 "output",  "checkpoint", "ensemble"};
+                                                 "output",  "checkpoint", "noise",   "ensemble"};
   return names;
 }
 

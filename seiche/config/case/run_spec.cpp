@@ -143,7 +143,18 @@ SimulationOptions simulation_options(const RunSpec& spec) {
           .backend_options = {.measure_plans = spec.measure_plans, .sparse = spec.sparse},
           .variable_steps = spec.tolerance.has_value(),
           .tolerance = spec.tolerance.value_or(0.0),
-          .duration = spec.duration()};
+          .duration = spec.duration(),
+          .noise = spec.noise};
+}
+
+std::string objection_of(const RunSpec& spec) {
+  const std::string of_noise = objection_of_noise(spec.noise);
+  return of_noise.empty() ? spec.method_options.objection(find_method(spec.method)) : of_noise;
+}
+
+void refuse_noise(const RunSpec& spec, std::string_view what) {
+  if (spec.noise.is_on())
+    throw Error("{} looks at solutions without noise, and the case has [noise]: give --set noise.temperature=0", what);
 }
 
 std::vector<std::filesystem::path> input_files(const RunSpec& spec) {

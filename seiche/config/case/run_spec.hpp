@@ -64,6 +64,8 @@ struct RunSpec {
   bool measure_plans = false;
   SparseOptions sparse;
 
+  Noise noise;
+
   double t_start = 0.0, t_end = 0.0;
   std::string output_directory;
   std::int64_t energy_every = 1;     // steps
@@ -94,6 +96,12 @@ FormulaConstants formula_constants(const RunSpec& spec);
 Problem make_problem(const RunSpec& spec, const Rank& here = {});
 
 SimulationOptions simulation_options(const RunSpec& spec);
+
+// Why no energy law is promised with the options of the method or beside noise, or "".
+std::string objection_of(const RunSpec& spec);
+
+// Throws Error where there is noise, which `what` could not tell from errors.
+void refuse_noise(const RunSpec& spec, std::string_view what);
 
 // Those that the case names: initial states and matrices, each once.
 std::vector<std::filesystem::path> input_files(const RunSpec& spec);

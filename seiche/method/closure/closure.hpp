@@ -15,6 +15,7 @@ class Closure {
   virtual ~Closure() = default;
 
   virtual void begin(State& s) { predictor_.begin(s); }
+  virtual void restart(State& s) { begin(s); }  // as Stepper::restart
   // A damping half-flow, z ← Ψ(t, t+h)z, with what the closure carries beside z.
   virtual void damp(State& s, double t, double h) { system_.damping->flow(t, h, s.z); }
   // The external force over h, z += ∫f, likewise. Only where the system has one.

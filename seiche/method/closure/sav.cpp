@@ -20,6 +20,7 @@ class SavClosure final : public Closure {
         physical_(Vector::Zero(system.space->physical_size())) {}
 
   void begin(State& s) override;
+  void restart(State& s) override;
   void damp(State& s, double t, double h) override;
   void impulse(State& s, double t, double h) override;
   StepReport advance(State& s, Propagators& propagators, double t, double h) override {
@@ -69,6 +70,13 @@ void SavClosure::begin(State& s) {
     throw Error("C = {} is too small: V(z₀) + C = {:.6g} must be > 0; C = {:.6g} would do, or C = \"auto\"", s.shift,
                 s.r_squared, 2 * s.energy_scale);
   }
+  if (relaxes()) s.energy = modified_energy(s);
+}
+
+// C stays: it is for the size of energies, and not for one state.
+void SavClosure::restart(State& s) {
+  Closure::begin(s);
+  s.r_squared = potential().value(s.z) + s.shift;
   if (relaxes()) s.energy = modified_energy(s);
 }
 

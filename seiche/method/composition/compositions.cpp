@@ -19,6 +19,7 @@ class Composed : public Stepper {
       throw Error("the energy of the initial state is not a finite number (H = {})", number_text(H));
     closure_->begin(s);
   }
+  void restart(State& s) override { closure_->restart(s); }
 
   StepReport step(State& s, double h) override {
     StepReport report = compose(s, h);

@@ -273,13 +273,13 @@ class Auditor {
 
   // The energy that the law is about, with the tolerance of a run: 50ε of its terms for every step between two rows.
   void law() {
-    const bool modified = find_method(spec_.method).kept_energy == "H_modified";
+    const bool modified = has_modified_energy(simulation_options(spec_));
     const std::string verdict = text("/energy/law");
     const std::string claim = fmt::format("the law of {} {}", modified ? "the modified energy" : "H", verdict);
     if (modified && !energy_.has("H_modified"))
       return book_.add(claim, Verdict::contradicted,
                        fmt::format("energy.csv has no column H_modified, and {} keeps that law", spec_.method));
-    const std::string objection = spec_.method_options.objection(find_method(spec_.method));
+    const std::string objection = objection_of(spec_);
     const LawPromise promise =
         objection.empty() ? promise_energy_law(problem_, spec_.t_end) : LawPromise{false, objection};
     promised_ = promise.promised;

@@ -256,7 +256,7 @@ class EnsembleAuditor {
     const bool modified = table_.has("max_modified_increase");
     const std::string claim = fmt::format("the verdict on the law of {} of every member fits its largest increase",
                                           modified ? "the modified energy" : "H");
-    const std::string objection = spec_.method_options.objection(find_method(spec_.method));
+    const std::string objection = objection_of(spec_);
     std::vector<std::string> differences;
     std::size_t judged = 0;
     double largest = -std::numeric_limits<double>::infinity();
