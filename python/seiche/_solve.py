@@ -158,7 +158,7 @@ def solve(
         most, and at the end.
     **options
         C, auxiliary, scalar_solver, predictor, law, linear (of methods); plan, exponential, pade_degree,
-        lanczos_dimension, solver (of backends), with the values of case files.
+        lanczos_dimension, solver (of backends); temperature, seed (of noise), with the values of case files.
 
     Returns
     -------

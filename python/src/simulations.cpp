@@ -39,7 +39,7 @@ class HeldSimulation {
 
   void set_state(const Array& y, double t) {
     State& state = simulation_->state();
-    State fresh{.z = state.z, .t = t, .stream = state.stream + 1};  // noise is another one than before
+    State fresh{.z = state.z, .t = t, .stream = state.stream + (std::uint64_t{1} << 32U)};  // other noise
     simulation_->system().space->from_physical(vector_from(y), fresh.z);
     state = std::move(fresh);
     simulation_->stepper().begin(state);

@@ -3,6 +3,7 @@
 #include <seiche/noise/bath.hpp>
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace seiche {
@@ -27,7 +28,8 @@ Bath::Bath(System& system, const Problem& problem, const Noise& noise)
     : noise_(noise),
       space_(*system.space),
       make_map_(system.make_noise),
-      by_map_(problem.has_constant_damping() || !problem.has_damping()),
+      is_damped_(problem.has_damping()),
+      by_map_(problem.has_constant_damping() || !is_damped_),
       rates_change_(!has_constant_rates(problem.damping)),
       maps_(cached_step_sizes(system.space->size_of_all())),
       numbers_(system.space->physical_size()),
@@ -35,7 +37,7 @@ Bath::Bath(System& system, const Problem& problem, const Noise& noise)
   if (!(noise.temperature >= 0) || !std::isfinite(noise.temperature))
     throw Error("the temperature {} of noise must be ≥ 0", noise.temperature);
   require_balance(system, problem);
-  if (!by_map_) set_variances(problem);
+  by_map_ ? require_map() : set_variances(problem);
   damping_ = std::exchange(system.damping, std::make_unique<NoDamping>());
   system.make_phi = system.make_undamped_phi;
 }
@@ -46,7 +48,7 @@ void Bath::require_balance(const System& system, const Problem& problem) const {
                 problem.friction->text());
   if (problem.structure)
     throw Error("noise needs one matrix S, and in {} it is {}", problem.name, problem.structure->text());
-  if (!problem.has_damping()) {
+  if (!is_damped_) {
     if (!is_gradient_flow(system))
       throw Error(
           "noise needs what dissipates, or it would heat {} without end: a damping of momenta, or S = Sᵀ ⪯ 0; write gamma "
@@ -64,6 +66,18 @@ void Bath::require_balance(const System& system, const Problem& problem) const {
   }
   if (by_map_ && !make_map_)
     throw Error("noise that couples points, as that of {}, is for the backends modal, dense and sparse", problem.name);
+}
+
+// What a map of the length 0 refuses, on every process.
+void Bath::require_map() const {
+  std::string complaint;
+  try {
+    make_map_(0);
+  } catch (const Error& error) {
+    complaint = error.what();
+  }
+  if (space_.any(!complaint.empty()))
+    throw Error("{}", complaint.empty() ? "no noise balances what dissipates on another process" : complaint);
 }
 
 // Where γ acts, ∂H/∂p = Mp with a number M of each unknown.
@@ -91,7 +105,7 @@ void Bath::set_variances(const Problem& problem) {
     for_entries(problem.matrices->M, [&](Index i, Index j, double value) {
       if (i != j && value != 0 && variances_[i] != 0) refuse(i / n);
     });
-  if (!(variances_.array() >= 0).all() || !variances_.allFinite())
+  if (!space_.all((variances_.array() >= 0).all() && variances_.allFinite()))
     throw Error("noise needs M > 0 where the damping acts, and that of {} is not", problem.name);
 }
 
@@ -107,12 +121,12 @@ void Bath::draw(const RandomRow& row) {
 const Vector& Bath::deviations(double t, double h) {
   if (deviations_h_ == h && !rates_change_) return deviations_;
   deviations_ = Vector::Ones(numbers_.size());
-  decay_.setZero(kick_.size());
-  space_.from_physical(deviations_, decay_);
-  damping_->flow(t, h, decay_);
-  space_.to_physical(decay_, deviations_);
+  mapped_.setZero(kick_.size());
+  space_.from_physical(deviations_, mapped_);
+  damping_->flow(t, h, mapped_);
+  space_.to_physical(mapped_, deviations_);
   deviations_ = (variances_.array() * (1 - deviations_.array().square())).matrix();
-  if (!(deviations_.array() >= -1e-12 * variances_.array()).all())
+  if (!space_.all((deviations_.array() >= -1e-12 * variances_.array()).all()))
     throw Error("the rate of damping is negative between t = {:.6g} and {:.6g}, where no noise balances it", t, t + h);
   deviations_ = deviations_.cwiseMax(0.0).cwiseSqrt();
   deviations_h_ = h;
@@ -129,9 +143,10 @@ void Bath::kick(double t, double h, RandomRow place, Vector& z) {
     z += kick_;
     return;
   }
-  decay_.resize(kick_.size());
-  maps_.at(h, [&] { return make_map_(h); }).apply(kick_, decay_);
-  z += std::sqrt(noise_.temperature) * decay_;
+  mapped_.resize(kick_.size());
+  const double length = is_damped_ ? h : 2 * h;  // the kicks of a gradient flow are of a size for the whole step
+  maps_.at(length, [&] { return make_map_(length); }).apply(kick_, mapped_);
+  z += std::sqrt(noise_.temperature) * mapped_;
 }
 
 }  // namespace seiche

@@ -23,11 +23,13 @@ class Bath {
 
   // z ← Ψ(t, t+h)z
   void damp(double t, double h, Vector& z) const { damping_->flow(t, h, z); }
-  // The noise of the same length, z ← z + √T Bξ, with the numbers ξ of `place`, whose seed is that of the bath.
+  // The noise of half a step, from t to t + h, z ← z + √T Bξ with the numbers ξ of `place`, whose seed is that of the
+  // bath.
   void kick(double t, double h, RandomRow place, Vector& z);
 
  private:
   void require_balance(const System& system, const Problem& problem) const;
+  void require_map() const;
   void set_variances(const Problem& problem);
   void draw(const RandomRow& row);
   const Vector& deviations(double t, double h);
@@ -36,13 +38,14 @@ class Bath {
   const Space& space_;
   std::function<std::unique_ptr<LinearMap>(double h)> make_map_;
   std::unique_ptr<Damping> damping_;
+  bool is_damped_;     // else a gradient flow
   bool by_map_;        // else by the rates of every point
   bool rates_change_;  // in time
   StepCache<LinearMap> maps_;
   double deviations_h_ = 0;
   Vector variances_;   // T/M of every damped unknown, 0 of the others; physical
   Vector deviations_;  // √(T/M (1 − e^{−2γh}))
-  Vector numbers_, kick_, decay_;
+  Vector numbers_, kick_, mapped_;
 };
 
 }  // namespace seiche

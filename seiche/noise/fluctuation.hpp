@@ -12,7 +12,7 @@ namespace seiche {
 // With L = SM − D₀ and the dissipation R = −S or R = D₀M⁻¹, the B of a kick z ← z + √T Bξ with independent standard
 // normal ξ:
 //   flow:  BBᵀ = ∫₀ʰ 2e^{−sRM} R e^{−sMR} ds,  so that e^{−hD₀}z + √T Bξ keeps exp(−zᵀMz/2T);
-//   kick:  BBᵀ = hR tanh(hMR)/(hMR),           so that kick, e^{hSM}, kick does.
+//   kick:  BBᵀ = hR tanh(hMR)/(hMR),           so that kick, e^{hSM} with the same h, kick does.
 enum class Fluctuation { flow, kick };
 
 // (BBᵀ)/(hR) as a function of x = hMR.
@@ -32,6 +32,8 @@ inline constexpr const char* noise_needs_symmetric_S = "noise without a damping 
 inline constexpr const char* noise_needs_diagonal_M =
     "noise needs Dz = R∇H, and M is not diagonal where the damping acts";
 inline constexpr const char* noise_needs_symmetric_R = "noise needs Dz = R∇H with R = Rᵀ, and DM⁻¹ is not symmetric";
+
+inline constexpr const char* noise_needs_definite_R = "noise needs a dissipation R ⪰ 0, and R has a negative direction";
 
 // Of one block of S, M and D₀, or of whole matrices; `damped`: D₀ acts somewhere, if not in this block. Throws Error
 // where Dz is not R∇H with R = Rᵀ ⪰ 0, or S neither skew beside a damping nor symmetric and ⪯ 0 without.
@@ -61,7 +63,7 @@ DissipationOperator<Matrix> dissipation(const Matrix& S, const Matrix& M, const 
   return d;
 }
 
-// B = (BBᵀ)^{1/2}.
+// B = (BBᵀ)^{1/2}; with h = 0 nothing is computed but whether R ⪰ 0.
 template <class Matrix>
 Matrix fluctuation_root(const DissipationOperator<Matrix>& d, double h) {
   constexpr double round_off = 1e-12;
@@ -69,15 +71,20 @@ Matrix fluctuation_root(const DissipationOperator<Matrix>& d, double h) {
   const Eigen::VectorXd& rates = of_R.eigenvalues();
   if (rates.size() > 0 && rates[0] < -round_off * rates.cwiseAbs().maxCoeff())
     throw Error("noise needs a dissipation R ⪰ 0, and R has the eigenvalue {:.3g}", rates[0]);
-  const Matrix G = of_R.eigenvectors() * rates.cwiseMax(0.0).cwiseSqrt().asDiagonal();  // GGᵀ = R
+  if (h == 0) return Matrix::Zero(d.R.rows(), d.R.cols());
+  // What is round-off beside the largest is 0: what has a kernel keeps it.
+  const auto roots = [](const Eigen::VectorXd& values) -> Eigen::VectorXd {
+    const double least = 1e-13 * values.cwiseAbs().maxCoeff();
+    return values.unaryExpr([least](double x) { return x > least ? std::sqrt(x) : 0.0; });
+  };
+  const Matrix G = of_R.eigenvectors() * roots(rates).asDiagonal();  // GGᵀ = R
   // f(hRM) R = G f(hGᵀMG) Gᵀ, whose middle is symmetric also where M is not ≥ 0.
   const Eigen::SelfAdjointEigenSolver<Matrix> middle(G.adjoint() * d.M * G);
   const Eigen::VectorXd f =
       middle.eigenvalues().unaryExpr([&](double x) { return h * fluctuation_function(d.kind, h * x); });
   const Matrix half = G * middle.eigenvectors() * f.cwiseSqrt().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix> covariance(half * half.adjoint());
-  return covariance.eigenvectors() * covariance.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-         covariance.eigenvectors().adjoint();
+  return covariance.eigenvectors() * roots(covariance.eigenvalues()).asDiagonal() * covariance.eigenvectors().adjoint();
 }
 
 }  // namespace seiche

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 
 namespace seiche {
@@ -16,7 +15,7 @@ constexpr Index counters = 128;  // at a time
 constexpr Index in_block = in_one * counters;
 
 // In [0, 1).
-double uniform(std::uint64_t bits) { return std::ldexp(static_cast<double>(bits >> 11U), -53); }
+double uniform(std::uint64_t bits) { return static_cast<double>(bits >> 11U) * 0x1p-53; }
 
 // The block of numbers that begins with this counter.
 void fill_block(const RandomRow& row, Index counter, std::span<double, in_block> out) {

@@ -22,7 +22,7 @@
 namespace seiche {
 namespace {
 
-constexpr std::string_view format = "Seiche checkpoint 9\n", of_any_version = "Seiche checkpoint ";
+constexpr std::string_view format = "Seiche checkpoint 10\n", of_any_version = "Seiche checkpoint ";
 constexpr std::uint64_t piece = std::uint64_t{1} << 20U;
 
 struct Tail {

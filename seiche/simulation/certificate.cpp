@@ -1,5 +1,6 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/generic_state.hpp>
+#include <seiche/law/ecld.hpp>
 #include <seiche/law/law.hpp>
 #include <seiche/law/operator_hypotheses.hpp>
 #include <seiche/loop/adaptive.hpp>
@@ -191,6 +192,10 @@ std::string theorem(const Problem& problem, const MethodEntry& method, bool rela
 Certificate certify(const Problem& problem, const CertificateOptions& options) {
   const MethodEntry& method = find_method(options.method);
   require_finite_rates(problem, options.t_start, options.t_end);
+  if (options.noise.is_on())
+    for (const std::string& complaint : {complaint_about_rate(problem.damping.rate.get(), options.t_end),
+                                         complaint_about_rate(problem.damping.field_rate.get(), options.t_end)})
+      if (!complaint.empty()) throw Error("no noise balances a negative damping: {}", complaint);
   const auto go_on = [&] {
     if (options.stop != nullptr && options.stop->load(std::memory_order_relaxed)) throw Error("interrupted");
   };

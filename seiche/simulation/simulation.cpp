@@ -35,6 +35,10 @@ void require_noise_to_fit(const SimulationOptions& options, const MethodEntry& m
   if (options.variable_steps)
     throw Error(
         "noise needs steps of one size: how long a step is must not depend on the numbers drawn; write method.h, and no tolerance");
+  if (!problem.has_damping() && options.backend_options.sparse.pade_degree > 0)
+    throw Error(
+        "noise on a gradient flow is of a size made for e^{{hSM}}, and pade_degree = {} leaves less of it: write 0",
+        options.backend_options.sparse.pade_degree);
   if (backend.name == "petsc") throw Error("the backend petsc has no noise; modal, dense and sparse have it");
   if (!problem.has_damping() && method.propagator == PropagatorKind::cayley)
     throw Error(
@@ -42,10 +46,12 @@ void require_noise_to_fit(const SimulationOptions& options, const MethodEntry& m
         method.name);
 }
 
-// Midpoints remembered from other noise would be wrong by more than the step.
+// Midpoints remembered from other noise would be wrong by more than the step; r starts anew in each.
 MethodOptions options_with_noise(const MethodEntry& method, MethodOptions options) {
   if (method.kind.takes_predictor) options.predictor = Predictor::gradient;
-  if (options.auxiliary == AuxiliaryMode::automatic) options.auxiliary = AuxiliaryMode::transport;
+  if (options.auxiliary != AuxiliaryMode::automatic && options.auxiliary != AuxiliaryMode::transport)
+    throw Error("auxiliary has no meaning beside noise, which lets r² start from V + C in every step: leave it out");
+  options.auxiliary = AuxiliaryMode::transport;
   return options;
 }
 

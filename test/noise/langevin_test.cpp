@@ -1,12 +1,15 @@
 // What runs with noise must obey: Gibbs' measure, correlations, weak order, the balance of heat.
 #include <test/support/error_of.hpp>
 
+#include <seiche/core/grid/stencil.hpp>
 #include <seiche/damping/rates.hpp>
 #include <seiche/ensemble/ensemble.hpp>
 #include <seiche/method/methods.hpp>
+#include <seiche/potential/polynomials.hpp>
 #include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/problem/oscillator.hpp>
+#include <seiche/simulation/certificate.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <gmock/gmock.h>
@@ -24,7 +27,7 @@ namespace TEST_FILE {
 
 using testing::HasSubstr;
 
-// A mean with the standard error of it, from values that may be correlated along the rows.
+// A mean with its standard error, from independent values.
 struct Mean {
   double value = 0, error = 0;
   explicit Mean(const std::vector<double>& of_independent) {
@@ -53,7 +56,7 @@ double gibbs_mean(const std::function<double(double)>& V, const std::function<do
 }
 
 // 4096 oscillators that do not touch are as many samples at every time.
-TEST(Langevin, ManyOscillatorsInADoubleWellHaveGibbsMeasureAndEquipartition) {
+TEST(LangevinSlow, ManyOscillatorsInADoubleWellHaveGibbsMeasureAndEquipartition) {
   constexpr double T = 0.3;
   const auto V = [](double q) { return -q * q / 2 + square(square(q)) / 4; };
   for (const std::string method : {"seavf", "seisav", "egc4", "crkn4"}) {
@@ -86,7 +89,7 @@ TEST(Langevin, ManyOscillatorsInADoubleWellHaveGibbsMeasureAndEquipartition) {
 }
 
 // ⟨q(t)q(0)⟩ = T/ω² e^{−γt/2}(cos Ωt + γ/2Ω sin Ωt), Ω² = ω² − γ²/4; ⟨p(t)p(0)⟩ = T e^{−γt/2}(cos Ωt − γ/2Ω sin Ωt).
-TEST(Langevin, AnOscillatorForgetsWhereItWasAsTheFormulaSays) {
+TEST(LangevinSlow, AnOscillatorForgetsWhereItWasAsTheFormulaSays) {
   constexpr double T = 0.5, gamma = 0.8, omega = 1.5, h = 0.05;
   constexpr Index n = 1 << 16;
   Simulation s(oscillator({.points = n, .omega_squared = square(omega), .alpha = 0, .gamma = constant_rate(gamma)}),
@@ -125,7 +128,7 @@ std::array<double, 3> moments_on_a_hill(double gamma, double T, double end) {
 }
 
 // Errors of means far from equilibrium, with other numbers for each step size. All of the force is in V.
-TEST(Langevin, IsOfWeakOrderTwo) {
+TEST(LangevinSlow, IsOfWeakOrderTwo) {
   constexpr double gamma = 0.5, T = 0.5, end = 2;
   constexpr Index n = 1 << 19;
   const std::array<double, 3> exact = moments_on_a_hill(gamma, T, end);
@@ -164,6 +167,36 @@ TEST(Langevin, TheLedgerBalancesHeatAndDamping) {
   const Mean mean(heat);
   EXPECT_NEAR(all.heat, -(all.damping_left + all.damping_right), 2 * sigmas * 100 * n * mean.error);
   EXPECT_NEAR(mean.value, T * (1 - std::exp(-gamma * h)), sigmas * mean.error);  // two half-flows, T/2 (1 − E²) each
+}
+
+// Gradient flows that do not couple points: u̇ = −H′(u) + noise. All modes are slow, and H is in V, in M, or in both.
+TEST(LangevinSlow, GradientFlowsHaveGibbsMeasureWhereNothingIsFast) {
+  constexpr double T = 0.3;
+  struct Well {
+    double in_M, in_V, quartic;
+  };
+  for (const auto& [in_M, in_V, quartic] : {Well{1, 0, 0}, Well{0, 1, 0}, Well{0.5, 0.5, 0}, Well{1, 0, 1}}) {
+    Problem p = allen_cahn({.grid = {.points = {1 << 14}, .length = {1.0}}});
+    p.M(0, 0) = Stencil::identity(in_M);
+    p.potential = nodal_polynomial({0, 0, in_V / 2, 0, quartic / 4});
+    p.initial.setZero();
+    const auto H = [&](double u) { return (in_M + in_V) / 2 * u * u + quartic / 4 * square(u * u); };
+    const double exact = gibbs_mean(
+        H, [](double u) { return u * u; }, T);
+    for (const std::string method : {"seavf", "egc4", "seimp"}) {
+      for (const double h : {0.05, 0.2}) {
+        Simulation s(p, noisy(method, T));
+        std::vector<double> means;
+        for (int i = 0; i < std::lround(18 / h); ++i) {
+          ASSERT_TRUE(s.step(h).solved());
+          if (i * h >= 6 && i % std::lround(2 / h) == 0) means.push_back(s.physical().squaredNorm() / (1 << 14));
+        }
+        const double bias = in_V + quartic == 0 ? 0 : h * h * T;  // of order two
+        EXPECT_NEAR(Mean(means).value, exact, sigmas * exact * std::sqrt(2.0 / (1 << 14)) + bias)
+            << method << ' ' << h << ' ' << in_M << in_V << quartic;
+      }
+    }
+  }
 }
 
 // Cook's equation: where V = 0 every mode has the variance T/M, and the mean does not move.
@@ -267,6 +300,16 @@ TEST(Langevin, IsRefusedWhereItCannotBe) {
   options.variable_steps = true;
   EXPECT_THAT(error_of([&] { Simulation(wave, options); }), HasSubstr("steps of one size"));
   EXPECT_THAT(error_of([&] { Simulation(allen_cahn({}), noisy("savf", 0.1)); }), HasSubstr("another propagator"));
+  options = noisy("seisav", 0.1);
+  options.backend = "sparse";
+  options.backend_options.sparse.pade_degree = 4;
+  EXPECT_THAT(error_of([&] { Simulation(allen_cahn({.grid = {.points = {8}}}), options); }), HasSubstr("write 0"));
+  options = noisy("seisav", 0.1);
+  options.method_options.auxiliary = AuxiliaryMode::frozen;
+  EXPECT_THAT(error_of([&] { Simulation(wave, options); }), HasSubstr("no meaning beside noise"));
+  const Problem feeding = klein_gordon({.grid = {.points = {16}}, .gamma = constant_rate(-0.5)});
+  EXPECT_THAT(error_of([&] { certify(feeding, {.noise = {.temperature = 0.1}, .t_end = 1}); }),
+              HasSubstr("no noise balances a negative damping"));
   EXPECT_EQ(Simulation(wave, noisy("auto", 0.1)).method().name, "seisav");
   const Simulation s(wave, noisy("seisav", 0.1));
   EXPECT_FALSE(promise_energy_law(s, 1).promised);

@@ -33,13 +33,16 @@ DissipationOperator<SparseMatrix> dissipation(const SparseMatrix& S, const Spars
 
 // G with GGᵀ = R ⪰ 0. Where R has a kernel a pivot is round-off, of either sign; that direction gets no noise.
 SparseMatrix factor(const SparseMatrix& R) {
-  constexpr double round_off = 1e-12;
+  constexpr double round_off = 1e-10;
   const Vector diagonal = R.diagonal();
-  const Vector shifts = diagonal.unaryExpr([](double r) { return r == 0 ? 1.0 : 1e-3 * round_off * r; });
+  for_entries(R, [&](Index i, Index, double value) {
+    if (value != 0 && !(diagonal[i] > 0)) throw Error(noise_needs_definite_R);
+  });
+  const Vector shifts = diagonal.unaryExpr([](double r) { return r == 0 ? 1.0 : 1e-5 * round_off * r; });
   const Eigen::SimplicialLDLT<SparseMatrix> ldlt(R + SparseMatrix(shifts.asDiagonal()));  // no pivot is 0
   const Vector pivots = ldlt.vectorD(), of_pivots = ldlt.permutationP() * diagonal;
   if (ldlt.info() != Eigen::Success || (pivots.array() < -round_off * of_pivots.array()).any())
-    throw Error("noise needs a dissipation R ⪰ 0, and R has a negative direction");
+    throw Error(noise_needs_definite_R);
   const Vector roots = (pivots.array() > round_off * of_pivots.array() && of_pivots.array() > 0)
                            .select(pivots.cwiseMax(0.0).cwiseSqrt(), 0.0);
   const SparseMatrix L = ldlt.matrixL();
@@ -48,23 +51,24 @@ SparseMatrix factor(const SparseMatrix& R) {
 
 class SparseNoise final : public LinearMap {
  public:
-  SparseNoise(const DissipationOperator<SparseMatrix>& d, double h)
-      : kind_(d.kind), h_(h), G_(factor(d.R)), K_(h * SparseMatrix(G_.transpose() * d.M * G_)) {}
+  SparseNoise(const DissipationOperator<SparseMatrix>& d, double h) : kind_(d.kind), h_(h), G_(factor(d.R)), M_(d.M) {}
 
   void apply(const Vector& in, Vector& out) const override { out.noalias() = G_ * root_of_K(in); }
 
  private:
-  // √h f(K)^{1/2} x: Lanczos with every vector made orthogonal to all before, until two results agree.
+  // √h f(K)^{1/2} x, K = hGᵀMG: Lanczos with every vector made orthogonal to all before, until two results agree.
   Vector root_of_K(const Vector& x) const {
     constexpr double enough = 1e-10;
     const double length = x.norm();
     if (length == 0) return x;
     const Index most = x.size();
     Matrix V(x.size(), std::min<Index>(most, 32));
-    Vector alpha(most), beta(most), before, y;
+    Vector alpha(most), beta(most), before, y, G_times, M_times;
     V.col(0) = x / length;
     for (Index m = 1;; ++m) {
-      Vector w = K_ * V.col(m - 1);
+      G_times = G_ * V.col(m - 1);
+      M_times.noalias() = M_ * G_times;
+      Vector w = h_ * (G_.transpose() * M_times);  // the product of the three may be full
       alpha[m - 1] = V.col(m - 1).dot(w);
       for (int twice = 0; twice < 2; ++twice) w -= V.leftCols(m) * (V.leftCols(m).transpose() * w);
       beta[m - 1] = w.norm();
@@ -93,7 +97,7 @@ class SparseNoise final : public LinearMap {
 
   Fluctuation kind_;
   double h_;
-  SparseMatrix G_, K_;
+  SparseMatrix G_, M_;
 };
 
 }  // namespace

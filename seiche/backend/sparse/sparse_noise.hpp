@@ -5,7 +5,6 @@
 #include <seiche/core/numerics/linear_map.hpp>
 #include <seiche/noise/fluctuation.hpp>
 
-#include <functional>
 #include <memory>
 
 namespace seiche {

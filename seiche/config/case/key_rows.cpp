@@ -309,7 +309,7 @@ void add_checkpoint(KeyRows& rows) {
     };
 }
 
-// Likewise.
+// Its keys are written together, or not at all.
 void add_noise(KeyRows& rows) {
   const std::size_t first = rows.all.size();
   rows.begin("noise");
@@ -321,12 +321,12 @@ void add_noise(KeyRows& rows) {
         r.spec.noise.temperature = read_number_within(row, key, value);
       },
       [](const RunSpec& spec) { return Maybe(spec.noise.temperature); });
-  KeyRow& seed =
-      rows.add(Kind::whole, "seed", "of all random numbers: the same for any number of threads and processes", from_0,
-               unless_given("1"), "rngseed randomseed rng");
+  KeyRow& seed = rows.add(Kind::whole, "seed", "of the noise: the same for any number of threads and processes", from_0,
+                          unless_given("1"), "rngseed randomseed rng");
   seed.read = [](CaseReading& r, const KeyRow& row, const std::string& key, const CaseValue& value) {
     r.spec.noise.seed = static_cast<std::uint64_t>(read_whole_within(row, key, value));
   };
+  seed.maximum = 9007199254740991;  // 2⁵³ − 1: numbers of a case are doubles
   seed.write = [](const RunSpec& spec) { return fmt::format("{}", spec.noise.seed); };
   for (std::size_t i = first; i < rows.all.size(); ++i)
     rows.all[i].write = [write = rows.all[i].write](const RunSpec& spec) {
@@ -337,7 +337,7 @@ void add_noise(KeyRows& rows) {
 void add_ensemble(KeyRows& rows) {
   rows.begin("ensemble");
   rows.add(Kind::whole, "members", "how many; as many as there are files, if not given", from_1, unless_given("64"));
-  rows.add(Kind::whole, "seed", "of all random numbers", from_0, unless_given("1"));
+  rows.add(Kind::whole, "seed", "of random parameters and initial states", from_0, unless_given("1"));
   rows.add(Kind::number, "perturb_initial", "standard deviation of what is added to every initial value", from_0,
            unless_given("1e-3"));
 }
