@@ -42,7 +42,8 @@ Json value_of(const Parameter& p) {
     case ParameterKind::choice: return {{"enum", p.choices}};
     case ParameterKind::matrix: return {{"type", "string"}};
     case ParameterKind::integer: return number("integer", p);
-    case ParameterKind::rate: return formula;
+    case ParameterKind::rate:
+    case ParameterKind::function: return formula;
     case ParameterKind::real: break;
   }
   return number("number", p);

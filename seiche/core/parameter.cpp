@@ -26,6 +26,11 @@ DampingRate ParameterValues::damping_rate(const std::string& name) const {
   return get<RatePointer>(name);
 }
 
+StateFunctionPointer ParameterValues::function(const std::string& name) const {
+  const auto* given = std::get_if<StateFunctionPointer>(&at(name));
+  return given != nullptr ? *given : nullptr;
+}
+
 std::vector<double> ParameterValues::numbers(const Parameter& p) const {
   if (p.kind == ParameterKind::real) return p.per_axis ? reals(p.name) : std::vector{real(p.name)};
   if (!p.per_axis) return {static_cast<double>(integer(p.name))};

@@ -4,6 +4,7 @@
 
 #include <seiche/core/base/sparse_matrix.hpp>
 #include <seiche/core/damping_rate.hpp>
+#include <seiche/core/structure.hpp>
 
 #include <limits>
 #include <map>
@@ -13,8 +14,9 @@
 
 namespace seiche {
 
-// rate: a number, or a formula in t and place; matrix: the name of its file, or "" for none
-enum class ParameterKind { real, integer, rate, choice, matrix };
+// rate: a number, or a formula in t and place; function: a number, or a formula in the first field; matrix: the name of
+// its file, or "" for none
+enum class ParameterKind { real, integer, rate, function, choice, matrix };
 
 struct Parameter {
   std::string name;
@@ -29,8 +31,8 @@ struct Parameter {
 };
 
 using MatrixPointer = std::shared_ptr<const SparseMatrix>;
-using ParameterValue = std::variant<double, long, RatePointer, SpaceRatePointer, std::string, MatrixPointer,
-                                    std::vector<double>, std::vector<long>, std::vector<std::string>>;
+using ParameterValue = std::variant<double, long, RatePointer, SpaceRatePointer, StateFunctionPointer, std::string,
+                                    MatrixPointer, std::vector<double>, std::vector<long>, std::vector<std::string>>;
 
 // Checked values, one for every Parameter of a problem. get<T> throws Error on a name the problem did not declare.
 class ParameterValues {
@@ -44,8 +46,9 @@ class ParameterValues {
   }
   double real(const std::string& name) const { return get<double>(name); }
   long integer(const std::string& name) const { return get<long>(name); }
-  const RatePointer& rate(const std::string& name) const;   // of t alone; throws Error on one that varies in space
-  DampingRate damping_rate(const std::string& name) const;  // either
+  const RatePointer& rate(const std::string& name) const;        // of t alone; throws Error on one that varies in space
+  DampingRate damping_rate(const std::string& name) const;       // either
+  StateFunctionPointer function(const std::string& name) const;  // null where a number is given
   const MatrixPointer& matrix(const std::string& name) const { return get<MatrixPointer>(name); }  // null: none
   const std::string& choice(const std::string& name) const { return get<std::string>(name); }
   // Of parameters that are per_axis: what the user wrote, one entry or one for each axis.

@@ -36,7 +36,7 @@ struct Problem {
   FrictionPointer friction = nullptr;         // R, on the momenta of the problem; null: none
   std::vector<FieldRatePointer> forces = {};  // f(x, t) of every field, null for none; empty: none at all
   StructurePointer structure = nullptr;       // S(z) − S; null: the structure matrix is S
-  Stencil derivative = {};                    // ∂, where `structure` asks for it
+  std::vector<Stencil> derivatives = {};      // ∂ along each axis, where `structure` asks for them
   // Where coefficients change from point to point: S, M and the constant part of D as matrices. S, M and
   // damping.constant above are then zero blocks, and `grid` only counts and places the points.
   std::shared_ptr<const SparseOperators> matrices;

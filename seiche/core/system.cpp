@@ -26,6 +26,11 @@ System::Dissipation System::dissipation(double t, const Vector& z, const Vector&
   linear->apply_S(gradient_H, scratch);
   result.rate -= space->dot(gradient_H, scratch);
   double sizes = space->dot(gradient_H.cwiseAbs(), scratch.cwiseAbs());
+  if (structure && structure->dissipates()) {
+    structure->apply(z, gradient_H, scratch);
+    result.rate -= space->dot(gradient_H, scratch);
+    sizes += space->dot(gradient_H.cwiseAbs(), scratch.cwiseAbs());
+  }
   if (force) {
     scratch.setZero();
     force->add(t, 1, scratch);

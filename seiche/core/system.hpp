@@ -52,7 +52,7 @@ struct System {
   double energy(const Vector& z) const { return linear->quadratic_energy(z) + potential->value(z); }
   EnergyTerms energy_terms(const Vector& z) const;
   void gradient(const Vector& z, Vector& out) const;  // ∇H
-  // −dH/dt = ∇Hᵀ(Dz + R) − ∇HᵀS∇H − ∇Hᵀf, from ∇V(z), which may be left zero where neither damping nor sym(S) nor f
+  // −dH/dt = ∇Hᵀ(Dz + R) − ∇HᵀS(z)∇H − ∇Hᵀf, from ∇V(z), which may be left zero where neither damping nor sym(S) nor f
   // sees it.
   struct Dissipation {
     double rate = 0.0;

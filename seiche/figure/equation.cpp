@@ -77,7 +77,8 @@ std::string parameter_rows(const RunSpec& spec) {
   for (const Parameter& parameter : problem_entry(spec).parameters) {
     const auto text = spec.parameter_texts.find(parameter.name);
     if (text == spec.parameter_texts.end() || text->second.empty()) continue;
-    const bool is_formula = (parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::rate) &&
+    using enum ParameterKind;
+    const bool is_formula = (parameter.kind == real || parameter.kind == rate || parameter.kind == function) &&
                             !is_toml_number(text->second) && text->second.front() != '[';
     rows += fmt::format("<tr><th scope=\"row\"><code>{}</code></th><td>{}</td><td>{}</td></tr>\n",
                         html_escaped(parameter.name),

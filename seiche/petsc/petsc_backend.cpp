@@ -124,10 +124,10 @@ System make_system(const Problem& problem, const BackendOptions& options) {
   }
   const Problem here = ranks.here().count > 1 ? with_rates_here(problem, divided.part()) : problem;
   system.damping = std::make_unique<GridDamping>(here, identity, std::move(map), std::move(make_flow));
-  add_beyond_linear(system, here, identity, [&] {
+  add_beyond_linear(system, here, identity, [&](const Stencil& along_axis) {
     OwnedMat derivative;
     DividedPoints(1, problem.grid.unknowns(), ranks.here())
-        .make(problem.derivative.sparse_matrix(problem.grid), communicator, derivative);
+        .make(along_axis.sparse_matrix(problem.grid), communicator, derivative);
     return petsc_map(derivative);
   });
   for (auto* make : {&system.make_phi, &system.make_undamped_phi})  // which look at the matrices when they are called

@@ -21,8 +21,8 @@ class Transport final : public PointwiseStructure {
     product.resize(u.size());
     of_product.resize(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) product[i] = u[i] * w[i];
-    derivative(product, of_product);
-    derivative(w, out);
+    derivative(product, 0, of_product);
+    derivative(w, 0, out);
     for (std::size_t i = 0; i < u.size(); ++i) out[i] = -alpha_ / 3 * (u[i] * out[i] + of_product[i]);
   }
   bool keeps_means() const override { return true; }
@@ -55,7 +55,7 @@ Problem burgers(const Burgers& options) {
   p.damping = rate_damping(options.gamma, p.grid, {true});
   p.damping.constant(0, 0) = -options.nu * Stencil::laplacian(p.grid, options.discretisation);
   p.structure = std::make_shared<Transport>(options.alpha);
-  p.derivative = Stencil::derivative(p.grid, 0, options.discretisation);
+  p.derivatives = {Stencil::derivative(p.grid, 0, options.discretisation)};
   p.initial = sample(p.grid, [&](double x) {
     return options.soliton ? solitary_wave(options, x) : std::sin(2 * std::numbers::pi * x / options.length);
   });

@@ -69,8 +69,27 @@ Hypothesis hypothesis_of_forces(const Problem& problem) {
   throw Error("{} has no external force", problem.name);
 }
 
+// wᵀS(z)w ≤ 0 for the initial z and random w.
+Hypothesis hypothesis_of_mobility(const Problem& problem, const System& system) {
+  const Vector& z = system.initial;
+  Vector w(z), out(z), linear(z);
+  std::mt19937_64 random(1);
+  constexpr int samples = 16;
+  double largest = -std::numeric_limits<double>::infinity();  // of its terms
+  for (int i = 0; i < samples; ++i) {
+    w = random_state(*system.space, random);
+    system.structure->apply(z, w, out);
+    system.linear->apply_S(w, linear);
+    out += linear;
+    largest = std::max(largest, system.space->dot(w, out) / std::max(system.space->absolute_dot(w, out), 1e-300));
+  }
+  return {"sym S(z) ⪯ 0", largest <= 1e3 * epsilon ? Grade::sampled : Grade::violated,
+          fmt::format("{}, with 0 where the coefficient is negative", problem.structure->text()), -largest};
+}
+
 // wᵀS(z)w = 0 for random z and w, as far as round-off lets one see.
 Hypothesis hypothesis_of_structure(const Problem& problem, const System& system) {
+  if (problem.structure->dissipates()) return hypothesis_of_mobility(problem, system);
   const std::string name = "S(z) skew";
   Vector z(system.space->size()), w(z), out(z);
   std::mt19937_64 random(1);

@@ -72,18 +72,25 @@ RunReport PreparedRun::integrate(Stepper& stepper, AdaptiveStepper* adaptive, co
     return end_of_potential(problem, simulation_->system(), problem.initial, simulation_->state(),
                             plan_.tolerance ? 0 : plan_.h);
   };
-  return integrate_either(simulation_->system(), stepper, adaptive, simulation_->state(),
-                          {.tolerance = plan_.tolerance.value_or(0.0),
-                           .t_end = plan_.t_end,
-                           .first_h = plan_.h,
-                           .largest_h = plan_.h_max,
-                           .law = promise(),
-                           .objection = objection,
-                           .explanation = explanation,
-                           .stop = &stop,
-                           .events = events,
-                           .resumption = resumption},
-                          observers);
+  RunReport report = integrate_either(simulation_->system(), stepper, adaptive, simulation_->state(),
+                                      {.tolerance = plan_.tolerance.value_or(0.0),
+                                       .t_end = plan_.t_end,
+                                       .first_h = plan_.h,
+                                       .largest_h = plan_.h_max,
+                                       .law = promise(),
+                                       .objection = objection,
+                                       .explanation = explanation,
+                                       .stop = &stop,
+                                       .events = events,
+                                       .resumption = resumption},
+                                      observers);
+  if (const PointwiseStructure* structure = simulation_->problem().structure.get()) {
+    const Vector values = simulation_->physical();
+    const std::string found = structure->complaint_about({values.data(), static_cast<std::size_t>(values.size())});
+    if (const std::string all = ranks != nullptr ? ranks->any(found) : found; !all.empty())
+      report.say(fmt::format("at the end {}, and 0 stands for it", all));
+  }
+  return report;
 }
 
 Certificate PreparedRun::certificate_after(const RunReport& report) const {

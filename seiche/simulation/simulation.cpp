@@ -118,6 +118,11 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
                 backend_->name);
   if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps, *backend_);
   if (noise_.is_on()) require_noise_to_fit(options, *method_, problem_, *backend_);
+  if (problem_.structure && problem_.initial.size() == problem_.size())
+    if (const std::string complaint = problem_.structure->complaint_about(
+            {problem_.initial.data(), static_cast<std::size_t>(problem_.initial.size())});
+        !complaint.empty())
+      throw Error("in the initial state {}", complaint);
   system_ = backend_->system(problem_, options.backend_options);
   if (method_ == nullptr) {
     MethodChoice choice = choose_method(problem_, system_,

@@ -58,7 +58,7 @@ PhysicalEquation::PhysicalEquation(const Problem& problem)
     if (!found) throw Error("the friction {} acts on velocities, and {} has none", friction_->text(), problem.name);
     inverse_mass_ = found->inverse_mass;
   }
-  if (!problem.derivative.is_zero()) derivative_ = rows(problem.derivative, problem.grid);
+  for (const Stencil& along_axis : problem.derivatives) derivatives_.push_back(rows(along_axis, problem.grid));
   if (problem.matrices) {
     S_ = rows(problem.matrices->S);
     M_ = rows(problem.matrices->M);
@@ -115,8 +115,9 @@ void PhysicalEquation::add_beyond_linear(double t, std::span<const double> z, st
     for (std::size_t j = 0; j < points_; ++j) out[f * points_ + j] += beyond_[j];
   }
   if (structure_) {
-    const auto derivative = [&](std::span<const double> u, std::span<double> du) {
-      for_products(derivative_, u, [&](std::size_t i, double value) { du[i] = value; });
+    const auto derivative = [&](std::span<const double> u, Index axis, std::span<double> du) {
+      for_products(derivatives_[static_cast<std::size_t>(axis)], u,
+                   [&](std::size_t i, double value) { du[i] = value; });
     };
     structure_->apply(z, gradient_, derivative, beyond_);
     for (std::size_t i = 0; i < z.size(); ++i) out[i] += beyond_[i];

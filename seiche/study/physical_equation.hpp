@@ -33,7 +33,8 @@ class PhysicalEquation {
 
   void add_beyond_linear(double t, std::span<const double> z, std::span<double> out) const;
 
-  Rows S_, M_, D_, derivative_;
+  Rows S_, M_, D_;
+  std::vector<Rows> derivatives_;
   std::shared_ptr<const PointwisePotential> potential_;
   std::size_t points_, support_begin_, support_size_;
   RatePointer rate_;

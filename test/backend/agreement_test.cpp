@@ -25,7 +25,7 @@ Vector state_after(const Problem& problem, std::string_view method, std::string_
 TEST(Agreement, EveryProblemRunsOnTheBackendsThatItShould) {
   const std::vector<std::string> couples_all_points = {
       "KG_2d_even_spectral", "KG_3d_mixed_spectral", "gKdV_spectral", "gKdV_dealiased",
-      "KG_2d_dealiased",     "NLS_focusing",         "Burgers"};
+      "KG_2d_dealiased",     "NLS_focusing",         "Burgers",       "Cahn_Hilliard_mobility_spectral"};
   for (const auto& [name, problem] : all_cases()) {
     std::vector<std::string> expected = {"dense"};
     if (!problem.matrices) expected.emplace_back("modal");

@@ -26,7 +26,8 @@ std::vector<Setting> settings() {
   for (const auto& [name, problem] : gradient_flow_cases()) others.insert(name);
   for (auto& [name, problem] : all_cases()) {
     if (problem.friction || problem.has_forces()) continue;  // the S and M of another case
-    list.push_back({name, problem, !others.contains(name)});
+    const bool dissipates = problem.structure && problem.structure->dissipates();
+    list.push_back({name, problem, !others.contains(name) && !dissipates});
   }
   list.push_back({"KG_whole", with_damping_merged(klein_gordon_case()), false});
   list.push_back({"FPU_whole", with_damping_merged(fpu_conservative_case()), false});

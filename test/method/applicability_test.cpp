@@ -63,7 +63,9 @@ const std::vector<Refusals> refusals = {
       "coupled_damping",
       "coupled_varying_damping"}},
     // S(z).
-    {{"chin", "nystrom", "strang", "strang_exact", "whole"}, {"Burgers", "KdV_quadratic_fd4", "rigid_body"}},
+    {{"chin", "nystrom", "strang", "strang_exact", "whole"},
+     {"Burgers", "KdV_quadratic_fd4", "rigid_body", "Cahn_Hilliard_mobility_fd2", "Cahn_Hilliard_mobility_spectral",
+      "Allen_Cahn_mobility"}},
 };
 
 Names refusing(const std::string& problem) {

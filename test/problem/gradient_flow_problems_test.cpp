@@ -1,7 +1,9 @@
 // What is known of phases that part and of patterns.
+#include <seiche/method/methods.hpp>
 #include <seiche/problem/gradient_flow/pattern_formation.hpp>
 #include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/simulation/simulation.hpp>
+#include <test/support/cases.hpp>
 #include <test/support/error_of.hpp>
 
 #include <gmock/gmock.h>
@@ -79,6 +81,31 @@ TEST(PhaseSeparation, StabilisationChangesNeitherTheEnergyNorTheSolution) {
   EXPECT_NEAR(Simulation(plain).energy().H, Simulation(stabilised).energy().H, 1e-12 * Simulation(plain).energy().H);
   const Vector a = after(plain, "egc6", 0.01, 100), b = after(stabilised, "egc6", 0.01, 100);
   EXPECT_LT((a - b).lpNorm<Eigen::Infinity>(), 1e-9);
+}
+
+// The energy that each method keeps a law for, and H beside it where that is another: on a rough state, far from rest.
+TEST(GradientFlowProblems, KeepTheLawFromStepsOfAMillionthToSuchOfThreeHundred) {
+  for (const NamedProblem& c : gradient_flow_cases()) {
+    Problem problem = c.problem;
+    for (Index j = 0; j < problem.size(); ++j) problem.initial[j] += 0.4 * std::sin(2.3 * static_cast<double>(j + 1));
+    for (const MethodEntry& method : methods()) {
+      if (!applies(method.name, problem)) continue;
+      for (const double h : {1e-6, 1e-4, 1e-2, 1.0, 30.0, 300.0}) {
+        Simulation s(problem, {.method = std::string(method.name)});
+        EnergyReading before = s.energy();
+        for (int i = 0; i < 5; ++i) {
+          if (!s.step(h).solved()) {  // a nonlinear equation without a solution: the state is as it was
+            EXPECT_TRUE(h >= 30 && (method.kind.closure == "avf" || method.kind.closure == "lm"))
+                << c.name << ' ' << method.name << ' ' << h;
+            break;
+          }
+          const EnergyReading now = s.energy();
+          EXPECT_LE(now.modified, before.modified + now.modified_round_off) << c.name << ' ' << method.name << ' ' << h;
+          before = now;
+        }
+      }
+    }
+  }
 }
 
 TEST(GradientFlowProblems, RefuseWhatIsNoFlow) {

@@ -1,6 +1,7 @@
 #include <test/support/cases.hpp>
 
 #include <seiche/config/custom/custom_problem.hpp>
+#include <seiche/config/data/rate_formulas.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/damping/formula_frictions.hpp>
 #include <seiche/damping/frictions.hpp>
@@ -214,6 +215,18 @@ std::vector<NamedProblem> beyond_linear_cases() {
        burgers(
            {.length = 12, .points = 24, .discretisation = Discretisation::fd4, .alpha = 2.0, .epsilon = 0.5, .nu = 0})},
       {"rigid_body", rigid_body({.gamma = constant_rate(0.1)})},
+      {"Cahn_Hilliard_mobility_fd2",
+       cahn_hilliard({.grid = {.points = {5, 4}, .length = {4.0}, .boundary = {Boundary::neumann, Boundary::periodic}},
+                      .kappa = 0.5,
+                      .mobility_of_u = compile_state_function("0.1 + 0.05*u", "u"),
+                      .mean = 0.2})},
+      {"Cahn_Hilliard_mobility_spectral",
+       cahn_hilliard({.grid = {.points = {12}, .length = {6.0}, .discretisation = Discretisation::spectral},
+                      .kappa = 0.5,
+                      .mobility_of_u = compile_state_function("0.005*(1 - u^2/4)", "u")})},
+      {"Allen_Cahn_mobility",
+       allen_cahn(
+           {.grid = {.points = {12}}, .kappa = 0.01, .mobility_of_u = compile_state_function("0.25 + 0.1*u^2", "u")})},
   };
 }
 

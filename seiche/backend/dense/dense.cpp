@@ -235,7 +235,7 @@ System dense_system(const Problem& problem, const BackendOptions&) {
   }
   system.damping = std::make_unique<GridDamping>(problem, n, std::move(constant), std::move(make_flow));
   add_beyond_linear(system, problem, identity,
-                    [&] { return std::make_unique<DenseMap>(problem.derivative.matrix(problem.grid)); });
+                    [&](const Stencil& d) { return std::make_unique<DenseMap>(d.matrix(problem.grid)); });
   system.initial = problem.initial;
   return system;
 }

@@ -233,52 +233,51 @@ void GridForce::impulse(double t, double h, Vector& z) const {
 
 class GridStructure final : public Structure {
  public:
-  // `derivative`: of the coordinates of one field; null where problem.derivative is zero.
+  using Derivatives = std::vector<std::unique_ptr<LinearMap>>;  // of the coordinates of one field
   GridStructure(const Problem& problem, std::shared_ptr<const FieldTransform> transform, const Space& space,
-                std::unique_ptr<LinearMap> derivative);
+                Derivatives derivatives);
   void apply(const Vector& z, const Vector& w, Vector& out) const override;
   bool without_means(const Vector& z, Vector& d) const override;
+  bool dissipates() const override { return structure_->dissipates(); }
 
  private:
-  void differentiate(std::span<const double> u, std::span<double> out) const;
+  void differentiate(std::span<const double> u, Index axis, std::span<double> out) const;
 
   Index fields_;
   StructurePointer structure_;
   std::shared_ptr<const FieldTransform> transform_;
   const Space& space_;
-  std::unique_ptr<LinearMap> derivative_;
+  Derivatives derivatives_;
   mutable Vector z_, w_, out_;               // at the points, all fields
   mutable Vector slots_, derivative_slots_;  // of one field
 };
 
 GridStructure::GridStructure(const Problem& problem, std::shared_ptr<const FieldTransform> transform,
-                             const Space& space, std::unique_ptr<LinearMap> derivative)
+                             const Space& space, Derivatives derivatives)
     : fields_(problem.field_count()),
       structure_(problem.structure),
       transform_(std::move(transform)),
       space_(space),
-      derivative_(std::move(derivative)),
+      derivatives_(std::move(derivatives)),
       slots_(transform_->slots()),
       derivative_slots_(transform_->slots()) {
   for (Vector* v : {&z_, &w_, &out_}) v->setZero(space.physical_size());
 }
 
-void GridStructure::differentiate(std::span<const double> u, std::span<double> out) const {
-  if (!derivative_) {
-    std::fill(out.begin(), out.end(), 0.0);
-    return;
-  }
+void GridStructure::differentiate(std::span<const double> u, Index axis, std::span<double> out) const {
   transform_->forward(u, all(slots_));
-  derivative_->apply(slots_, derivative_slots_);
+  derivatives_[static_cast<std::size_t>(axis)]->apply(slots_, derivative_slots_);
   transform_->inverse(all(derivative_slots_), out);
 }
 
 void GridStructure::apply(const Vector& z, const Vector& w, Vector& out) const {
   space_.to_physical(z, z_);
   space_.to_physical(w, w_);
-  if (z_.size() > 0 || derivative_)  // a derivative is a work of all processes
-    structure_->apply(
-        all(z_), all(w_), [this](std::span<const double> u, std::span<double> du) { differentiate(u, du); }, all(out_));
+  const auto derivative = [this](std::span<const double> u, Index axis, std::span<double> du) {
+    differentiate(u, axis, du);
+  };
+  if (z_.size() > 0 || !derivatives_.empty())  // a derivative is a work of all processes
+    structure_->apply(all(z_), all(w_), derivative, all(out_));
   space_.from_physical(out_, out);
 }
 
@@ -300,13 +299,14 @@ bool GridStructure::without_means(const Vector& z, Vector& d) const {
 }  // namespace
 
 void add_beyond_linear(System& system, const Problem& problem, const std::shared_ptr<const FieldTransform>& transform,
-                       FunctionRef<std::unique_ptr<LinearMap>()> make_derivative) {
+                       FunctionRef<std::unique_ptr<LinearMap>(const Stencil&)> make_derivative) {
   if (problem.friction)
     system.damping = std::make_unique<FrictionDamping>(problem, transform, std::move(system.damping));
   if (problem.has_forces()) system.force = std::make_unique<GridForce>(problem, transform);
   if (!problem.structure) return;
-  auto derivative = problem.derivative.is_zero() ? nullptr : make_derivative();
-  system.structure = std::make_unique<GridStructure>(problem, transform, *system.space, std::move(derivative));
+  GridStructure::Derivatives derivatives;
+  for (const Stencil& along_axis : problem.derivatives) derivatives.push_back(make_derivative(along_axis));
+  system.structure = std::make_unique<GridStructure>(problem, transform, *system.space, std::move(derivatives));
 }
 
 }  // namespace seiche

@@ -11,9 +11,9 @@
 
 namespace seiche {
 
-// Completes a system that has its linear damping. make_derivative(): problem.derivative on the coordinates of one
-// field, asked for where it is not zero. Throws Error where the problem has friction but no velocities.
+// Completes a system that has its linear damping. make_derivative(∂): one of problem.derivatives on the coordinates of
+// one field. Throws Error where the problem has friction but no velocities.
 void add_beyond_linear(System& system, const Problem& problem, const std::shared_ptr<const FieldTransform>& transform,
-                       FunctionRef<std::unique_ptr<LinearMap>()> make_derivative);
+                       FunctionRef<std::unique_ptr<LinearMap>(const Stencil&)> make_derivative);
 
 }  // namespace seiche

@@ -36,6 +36,8 @@ void require_divisible(const Problem& problem) {
   const auto* truncated = dynamic_cast<const TruncatedPotential*>(problem.potential.get());
   const PointwisePotential* V = truncated != nullptr ? truncated->whole().get() : problem.potential.get();
   refuse(V != nullptr && !V->is_pointwise(), "a potential that does not add up over points");
+  refuse(problem.structure && problem.structure->dissipates() && problem.derivatives.empty(),
+         "a mobility by differences between neighbours");
 }
 
 // The mean of γ(x, 0), added up unit by unit.
@@ -127,10 +129,10 @@ System modal_system(const Problem& given, const BackendOptions& options) {
     };
   }
   system.damping = std::make_unique<GridDamping>(problem, transform, std::move(constant), std::move(make_flow));
-  add_beyond_linear(system, problem, transform, [&] {
+  add_beyond_linear(system, problem, transform, [&](const Stencil& derivative) {
     const Modes modes(problem.grid);
     return std::make_unique<ModeMap>(modes, 1, [&](Index k) -> Block {
-      return Block::Constant(1, 1, problem.derivative.symbol(modes[k]));
+      return Block::Constant(1, 1, derivative.symbol(modes[k]));
     });
   });
   system.initial.resize(system.space->size());

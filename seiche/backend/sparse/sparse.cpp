@@ -86,7 +86,7 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
     make_flow = sparse_damping_flow(matrices.D);
   }
   system.damping = std::make_unique<GridDamping>(problem, n, std::move(constant), std::move(make_flow));
-  add_beyond_linear(system, problem, identity, [&] { return sparse_map(matrix_of(problem, problem.derivative)); });
+  add_beyond_linear(system, problem, identity, [&](const Stencil& d) { return sparse_map(matrix_of(problem, d)); });
   system.initial = problem.initial;
   return system;
 }

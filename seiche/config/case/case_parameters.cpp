@@ -52,6 +52,25 @@ ParameterValue read_rate(const Parameter& parameter, const CaseValue& value, con
   return constant_rate(gamma);
 }
 
+// A number, or a formula in the first field.
+ParameterValue read_function(const Parameter& parameter, const CaseValue& value, const RunSpec& spec) {
+  const std::string key = "problem." + parameter.name;
+  const std::string& field = problem_entry(spec).fields.front();
+  if (value.kind != CaseValue::Kind::number && value.kind != CaseValue::Kind::text)
+    throw Error("{} = {} must be a number, or a formula in {}", key, value.shown(), field);
+  const FormulaConstants constants = formula_constants(spec);
+  if (const FormulaPointer constant = compiled_or_null(value.text, {}, constants)) {
+    const double number = (*constant)(0);
+    require(out_of_bounds(parameter, number));
+    return number;
+  }
+  try {
+    return compile_state_function(value.text, field, constants);
+  } catch (const Error& error) {
+    throw Error("{}: {}", key, error.what());
+  }
+}
+
 std::filesystem::path find_file(std::string_view what, const std::string& name, const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   for (const fs::path& candidate : {folder / name, fs::path(name)}) {  // folder / absolute is the absolute one
@@ -181,8 +200,10 @@ void set_parameter(RunSpec& spec, const Parameter& parameter, const CaseValue& v
     spec.parameter_texts[parameter.name] = file;  // absolute: the case file is copied to where the results are
     return;
   }
-  if (parameter.kind == ParameterKind::rate) {
-    spec.parameters.set(parameter.name, read_rate(parameter, value, spec));
+  if (parameter.kind == ParameterKind::rate || parameter.kind == ParameterKind::function) {
+    const bool is_rate = parameter.kind == ParameterKind::rate;
+    spec.parameters.set(parameter.name,
+                        is_rate ? read_rate(parameter, value, spec) : read_function(parameter, value, spec));
     spec.parameter_texts[parameter.name] = is_toml_number(value.text) ? toml_real(read_number(key, value)) : value.text;
     return;
   }

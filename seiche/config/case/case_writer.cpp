@@ -30,6 +30,7 @@ std::string bounds(const Parameter& p) {
   std::vector<std::string> parts;
   if (p.kind == ParameterKind::integer) parts.emplace_back("whole");
   if (p.kind == ParameterKind::rate) parts.emplace_back("a number, or a formula in t (and x, y, z) in quotes");
+  if (p.kind == ParameterKind::function) parts.emplace_back("a number, or a formula in quotes");
   if (std::isfinite(p.minimum)) parts.push_back(fmt::format("{} {}", p.minimum_excluded ? ">" : "≥", p.minimum));
   if (std::isfinite(p.maximum)) parts.push_back(fmt::format("≤ {}", p.maximum));
   if (p.kind == ParameterKind::choice) parts.push_back(fmt::format("\"{}\"", fmt::join(p.choices, "\" | \"")));

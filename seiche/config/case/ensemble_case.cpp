@@ -74,7 +74,8 @@ std::vector<std::filesystem::path> read_files(const std::string& key, const Case
 }  // namespace
 
 bool may_vary(const Parameter& p) {
-  return (p.kind == ParameterKind::real || p.kind == ParameterKind::rate) && !p.per_axis;
+  using enum ParameterKind;
+  return (p.kind == real || p.kind == rate || p.kind == function) && !p.per_axis;
 }
 
 void read_ensemble_key(EnsembleSpec& ensemble, const std::string& name, const CaseValue& value,

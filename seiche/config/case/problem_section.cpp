@@ -22,9 +22,9 @@ class ProblemSection {
 
   void read() {
     const bool can_be_read = compare_matrices();
-    for (const bool rates : {false, true})  // which may name the others
+    for (const bool formulas : {false, true})  // which may name the others
       for (const Parameter& parameter : r_.problem->parameters)
-        if ((parameter.kind == ParameterKind::rate) == rates &&
+        if ((parameter.kind == ParameterKind::rate || parameter.kind == ParameterKind::function) == formulas &&
             (parameter.kind != ParameterKind::matrix || can_be_read))
           read(parameter);
     note_short_lists();

@@ -3,6 +3,19 @@
 #include <seiche/damping/rates.hpp>
 
 namespace seiche {
+namespace {
+
+class FormulaOfState final : public StateFunction {
+ public:
+  explicit FormulaOfState(FormulaPointer formula) : formula_(std::move(formula)) {}
+  double operator()(double u) const override { return (*formula_)(u); }
+  std::string text() const override { return formula_->text(); }
+
+ private:
+  FormulaPointer formula_;
+};
+
+}  // namespace
 
 FormulaPointer compiled_or_null(const std::string& text, const std::vector<std::string>& variables,
                                 const FormulaConstants& constants) {
@@ -33,6 +46,11 @@ SpaceRatePointer compile_space_rate(const std::string& key, const std::string& t
 DampingRate compile_damping_rate(const std::string& key, const std::string& text, const FormulaConstants& constants) {
   if (FormulaPointer formula = compiled_or_null(text, {"t"}, constants)) return formula_rate(std::move(formula));
   return compile_space_rate(key, text, constants);
+}
+
+StateFunctionPointer compile_state_function(const std::string& text, const std::string& field,
+                                            const FormulaConstants& constants, const NameAdvice& advice) {
+  return std::make_shared<FormulaOfState>(compile_formula(text, {field}, constants, advice));
 }
 
 }  // namespace seiche

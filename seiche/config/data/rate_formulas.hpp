@@ -1,7 +1,9 @@
-// Rates of damping that are written as formulas, of time alone or of time and place.
+// Coefficients that are written as formulas: rates of damping, of time alone or of time and place, and functions of a
+// field.
 #pragma once
 
 #include <seiche/core/damping_rate.hpp>
+#include <seiche/core/structure.hpp>
 #include <seiche/core/text/name_advice.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
@@ -21,5 +23,9 @@ SpaceRatePointer compile_space_rate(const std::string& key, const std::string& t
 // The same, and where it names t alone a rate for all points.
 DampingRate compile_damping_rate(const std::string& key, const std::string& text,
                                  const FormulaConstants& constants = {});
+
+// Of a field, by its name.
+StateFunctionPointer compile_state_function(const std::string& text, const std::string& field,
+                                            const FormulaConstants& constants = {}, const NameAdvice& advice = {});
 
 }  // namespace seiche

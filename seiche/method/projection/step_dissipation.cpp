@@ -14,7 +14,8 @@ PhiRows StepOutput::at(const Eigen::VectorXd& thetas, PhiRows::Outputs outputs) 
 }
 
 StepDissipation::Kind StepDissipation::kind_of(const System& system, const PhiEvaluator& phi) {
-  if (!system.damping->is_constant() || system.force) return Kind::general;
+  const bool changes_with_z = system.structure && system.structure->dissipates();
+  if (!system.damping->is_constant() || system.force || changes_with_z) return Kind::general;
   const PhiEvaluator::Dissipation d = phi.dissipation();
   if (d.is_zero) return Kind::none;
   return d.is_quadratic && d.is_nonnegative ? Kind::quadratic : Kind::general;

@@ -3,7 +3,9 @@
 #include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/gradient_flow/one_field.hpp>
 #include <seiche/problem/gradient_flow/phase_separation.hpp>
+#include <seiche/problem/gradient_flow/varying_mobility.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace seiche {
@@ -30,7 +32,11 @@ Problem phase_separation(const char* name, const PhaseSeparation& options, bool 
     if (!(value > 0)) throw Error("{} = {} must be > 0", what, value);
   if (!(options.stabilisation >= 0)) throw Error("stabilisation = {} must be ≥ 0", options.stabilisation);
   if (options.low == options.high) throw Error("low = {} and high = {} must differ", options.low, options.high);
-  Problem p = flow_of_one_field(name, options.grid, {options.mobility, conserves_mean});
+  const StateFunctionPointer& M = options.mobility_of_u;
+  const double m = M ? middle_mobility(*M, std::min(options.low, options.high), std::max(options.low, options.high))
+                     : options.mobility;
+  Problem p = flow_of_one_field(name, options.grid, {m, conserves_mean});
+  if (M) add_varying_mobility(p, M, m, conserves_mean, options.grid);
   p.M(0, 0) = Stencil::identity(options.stabilisation) +
               -options.kappa * Stencil::laplacian(p.grid, options.grid.discretisation);
   p.potential = on_grid(nodal_polynomial(double_well(options)), p.grid, options.grid);
@@ -51,7 +57,16 @@ ProblemEntry with_rows(ProblemEntry about, Problem (*make)(const PhaseSeparation
       .grid(&P::grid)
       .row(&P::kappa,
            {.name = "kappa", .meaning = "κ, gradient energy ½κ|∇u|²", .minimum = 0, .minimum_excluded = true})
-      .row(&P::mobility, {.name = "mobility", .meaning = "m, mobility", .minimum = 0, .minimum_excluded = true})
+      .row({.name = "mobility",
+            .kind = ParameterKind::function,
+            .default_value = "1.0",
+            .meaning = "m, mobility; or M(u), a formula in u, for egc2 … egc8, seimp and etdrk4",
+            .minimum = 0,
+            .minimum_excluded = true},
+           [](P& p, const ParameterValues& v) {
+             p.mobility_of_u = v.function("mobility");
+             if (!p.mobility_of_u) p.mobility = v.real("mobility");
+           })
       .row(&P::barrier, {.name = "barrier",
                          .meaning = "ρ, of the double well ρ(u − a)²(u − b)²",
                          .minimum = 0,

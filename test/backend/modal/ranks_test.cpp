@@ -54,8 +54,8 @@ class Turning final : public PointwiseStructure {
     const std::size_t n = z.size() / 2;
     std::vector<double> product(n), of_product(n), of_w(n);
     for (std::size_t j = 0; j < n; ++j) product[j] = z[j] * w[j];
-    derivative(product, of_product);
-    derivative(w.first(n), of_w);
+    derivative(product, 0, of_product);
+    derivative(w.first(n), 0, of_w);
     for (std::size_t j = 0; j < n; ++j) {
       out[j] = 0.1 * (z[j] * of_w[j] + of_product[j]) + 0.3 * z[j] * w[n + j];
       out[n + j] = -0.3 * z[j] * w[j];
@@ -73,7 +73,7 @@ std::vector<NamedProblem> driven_cases() {
   pushed.forces[1] =
       formula_space_rate(compile_formula("0.3*cos(2*t)*sin(x)*y", {"t", "x", "y"}), 2, false)->on(pushed.grid);
   turned.structure = std::make_shared<Turning>();
-  turned.derivative = Stencil::derivative(turned.grid, 0, Discretisation::fd2);
+  turned.derivatives = {Stencil::derivative(turned.grid, 0, Discretisation::fd2)};
   return {{"KG_2d_dragged", dragged}, {"KG_2d_pushed", pushed}, {"KG_2d_turned", turned}};
 }
 
