@@ -10,7 +10,6 @@
 #include <seiche/problem/problems.hpp>
 
 #include <algorithm>
-#include <ranges>
 
 namespace seiche {
 namespace {
@@ -63,10 +62,11 @@ bool begins_with_key(std::string_view complaint, std::string_view key) {
 // Where the value of the key stands that a complaint begins with, after --set or in the file; else the file.
 std::string blamed(const RunSpec& spec, std::string_view complaint) {
   constexpr std::size_t longest = 80;
-  for (const std::string& text : std::ranges::reverse_view(spec.overrides)) {
-    const std::string key = text.substr(0, text.find_last_not_of(" \t", text.find('=') - 1) + 1);
+  // NOLINTNEXTLINE(modernize-loop-convert): Clang 14 does not compile the ranges of GCC 12
+  for (auto text = spec.overrides.rbegin(); text != spec.overrides.rend(); ++text) {
+    const std::string key = text->substr(0, text->find_last_not_of(" \t", text->find('=') - 1) + 1);
     const std::size_t inside = key.find('.', key.find('.') + 1);  // a table, which is complained about as a whole
-    if (begins_with_key(complaint, key.substr(0, inside))) return "--set " + shortened(text, longest);
+    if (begins_with_key(complaint, key.substr(0, inside))) return "--set " + shortened(*text, longest);
   }
   for (const auto& [key, place] : spec.places)
     if (begins_with_key(complaint, key)) return place;
