@@ -251,9 +251,9 @@ Certificate certify(const Problem& problem, const CertificateOptions& options) {
   if (problem.structure) list.push_back(hypothesis_of_structure(problem, at_start().system()));
   if (method.kind.takes_C) list.push_back(hypothesis_of_margin(at_start()));
   const bool bent = std::any_of(list.begin(), list.end(), [](const Hypothesis& h) {
-    return h.name == "S(z) skew" && h.grade == Grade::violated;
+    return (h.name == "S(z) skew" || h.name == "sym S(z) ⪯ 0") && h.grade == Grade::violated;
   });
-  certificate.law = bent ? LawPromise{false, "S(z) is not skew"} : law;
+  certificate.law = bent ? LawPromise{false, "S(z) feeds energy"} : law;
   if (const std::string given_up = options.method_options.objection(method); !bent && !given_up.empty())
     certificate.law.withdraw(given_up);
   if (options.noise.is_on()) {

@@ -80,6 +80,8 @@ class FluxMobility final : public VaryingMobility {
   FluxMobility(StateFunctionPointer M, double m, Grid grid)
       : VaryingMobility(std::move(M), m, true), grid_(std::move(grid)) {}
 
+  bool keeps_means() const override { return !is_held(); }
+
   void apply(std::span<const double> u, std::span<const double> w, Derivative, std::span<double> out) const override {
     thread_local std::vector<double> factor;  // no step allocates
     factor.resize(u.size());
