@@ -18,8 +18,7 @@ namespace {
 class Estimated final : public AdaptiveStepper {
  public:
   Estimated(const System& system, std::unique_ptr<Stepper> stepper)
-      : system_(system),
-        stepper_(std::move(stepper)),
+      : stepper_(std::move(stepper)),
         phi_(system.make_phi()),
         force_(system),
         measure_(system, phi_.get()),
@@ -99,7 +98,6 @@ class Estimated final : public AdaptiveStepper {
     return {phi_->map(middle, h_), phi_->map(end, h_)};
   }
 
-  const System& system_;
   std::unique_ptr<Stepper> stepper_;
   std::unique_ptr<PhiEvaluator> phi_;
   NonlinearForce force_;
