@@ -175,12 +175,12 @@ TEST(LangevinSlow, GradientFlowsHaveGibbsMeasureWhereNothingIsFast) {
   struct Well {
     double in_M, in_V, quartic;
   };
-  for (const auto& [in_M, in_V, quartic] : {Well{1, 0, 0}, Well{0, 1, 0}, Well{0.5, 0.5, 0}, Well{1, 0, 1}}) {
+  for (const Well& well : {Well{1, 0, 0}, Well{0, 1, 0}, Well{0.5, 0.5, 0}, Well{1, 0, 1}}) {
     Problem p = allen_cahn({.grid = {.points = {1 << 14}, .length = {1.0}}});
-    p.M(0, 0) = Stencil::identity(in_M);
-    p.potential = nodal_polynomial({0, 0, in_V / 2, 0, quartic / 4});
+    p.M(0, 0) = Stencil::identity(well.in_M);
+    p.potential = nodal_polynomial({0, 0, well.in_V / 2, 0, well.quartic / 4});
     p.initial.setZero();
-    const auto H = [&](double u) { return (in_M + in_V) / 2 * u * u + quartic / 4 * square(u * u); };
+    const auto H = [&](double u) { return (well.in_M + well.in_V) / 2 * u * u + well.quartic / 4 * square(u * u); };
     const double exact = gibbs_mean(
         H, [](double u) { return u * u; }, T);
     for (const std::string method : {"seavf", "egc4", "seimp"}) {
@@ -191,9 +191,9 @@ TEST(LangevinSlow, GradientFlowsHaveGibbsMeasureWhereNothingIsFast) {
           ASSERT_TRUE(s.step(h).solved());
           if (i * h >= 6 && i % std::lround(2 / h) == 0) means.push_back(s.physical().squaredNorm() / (1 << 14));
         }
-        const double bias = in_V + quartic == 0 ? 0 : h * h * T;  // of order two
+        const double bias = well.in_V + well.quartic == 0 ? 0 : h * h * T;  // of order two
         EXPECT_NEAR(Mean(means).value, exact, sigmas * exact * std::sqrt(2.0 / (1 << 14)) + bias)
-            << method << ' ' << h << ' ' << in_M << in_V << quartic;
+            << method << ' ' << h << ' ' << well.in_M << well.in_V << well.quartic;
       }
     }
   }
