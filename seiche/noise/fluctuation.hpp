@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <complex>
 
 namespace seiche {
 
@@ -27,40 +28,32 @@ struct DissipationOperator {
   Matrix R, M;
 };
 
-inline constexpr const char* noise_needs_skew_S = "noise beside a damping needs a skew S, and S + Sᵀ ≠ 0";
-inline constexpr const char* noise_needs_symmetric_S = "noise without a damping needs S = Sᵀ ⪯ 0, and S ≠ Sᵀ";
-inline constexpr const char* noise_needs_diagonal_M =
-    "noise needs Dz = R∇H, and M is not diagonal where the damping acts";
-inline constexpr const char* noise_needs_symmetric_R = "noise needs Dz = R∇H with R = Rᵀ, and DM⁻¹ is not symmetric";
-
-inline constexpr const char* noise_needs_definite_R = "noise needs a dissipation R ⪰ 0, and R has a negative direction";
-
-// Of one block of S, M and D₀, or of whole matrices; `damped`: D₀ acts somewhere, if not in this block. Throws Error
-// where Dz is not R∇H with R = Rᵀ ⪰ 0, or S neither skew beside a damping nor symmetric and ⪯ 0 without.
+// Of one block of S, M and D₀, or of whole matrices, dense or sparse; `damped`: D₀ acts somewhere, if not in this
+// block. Throws Error where Dz is not R∇H with R = Rᵀ, or S neither skew beside a damping nor symmetric without.
 template <class Matrix>
 DissipationOperator<Matrix> dissipation(const Matrix& S, const Matrix& M, const Matrix& D0, bool damped) {
+  using Scalars = Eigen::Matrix<typename Matrix::Scalar, Eigen::Dynamic, 1>;
   constexpr double round_off = 1e-12;
-  const auto differ = [&](const Matrix& a, const Matrix& b) {
-    return (a - b).norm() > round_off * (a.norm() + b.norm());
+  const auto differ = [](const Matrix& a, const Matrix& b) {
+    return Matrix(a - b).norm() > round_off * (a.norm() + b.norm());
   };
-  DissipationOperator<Matrix> d{.kind = damped ? Fluctuation::flow : Fluctuation::kick, .R = -S, .M = M};
-  if (damped) {
-    if (differ(S, -S.adjoint())) throw Error(noise_needs_skew_S);
-    for (Eigen::Index j = 0; j < D0.cols(); ++j) {
-      if (D0.col(j).isZero(0)) {
-        d.R.col(j).setZero();
-        continue;
-      }
-      const double mass = std::real(M(j, j));
-      const double beside = M.col(j).squaredNorm() - mass * mass;
-      if (!(mass > 0) || beside > round_off * mass * mass) throw Error(noise_needs_diagonal_M);
-      d.R.col(j) = D0.col(j) / mass;
-    }
-    if (differ(d.R, d.R.adjoint())) throw Error(noise_needs_symmetric_R);
-  } else if (differ(S, S.adjoint())) {
-    throw Error(noise_needs_symmetric_S);
+  const Matrix adjoint = S.adjoint();
+  if (!damped) {
+    if (differ(S, adjoint)) throw Error("noise without a damping needs S = Sᵀ ⪯ 0, and S ≠ Sᵀ");
+    return {.kind = Fluctuation::kick, .R = -S, .M = M};
   }
-  return d;
+  if (differ(S, -adjoint)) throw Error("noise beside a damping needs a skew S, and S + Sᵀ ≠ 0");
+  Scalars inverse_mass = Scalars::Ones(M.cols());
+  for (Eigen::Index j = 0; j < D0.cols(); ++j) {
+    if (D0.col(j).squaredNorm() == 0) continue;
+    const double mass = std::real(M.coeff(j, j));
+    if (!(mass > 0) || M.col(j).squaredNorm() > (1 + round_off) * mass * mass)
+      throw Error("noise needs Dz = R∇H, and M is not diagonal where the damping acts");
+    inverse_mass[j] = 1 / mass;
+  }
+  const Matrix R = D0 * inverse_mass.asDiagonal();
+  if (differ(R, R.adjoint())) throw Error("noise needs Dz = R∇H with R = Rᵀ, and DM⁻¹ is not symmetric");
+  return {.kind = Fluctuation::flow, .R = R, .M = M};
 }
 
 // B = (BBᵀ)^{1/2}; with h = 0 nothing is computed but whether R ⪰ 0.

@@ -1,8 +1,5 @@
 #include <seiche/noise/noisy_stepper.hpp>
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <utility>
 
 namespace seiche {
@@ -15,19 +12,19 @@ class NoisyStepper final : public Stepper {
 
   void begin(State& s) override {
     inner_->begin(s);
-    saved_ = s;
+    before_ = s.z;
   }
 
   StepReport step(State& s, double h) override {
     const double t = s.t;
     RandomRow place{.stream = s.stream, .step = static_cast<std::uint64_t>(s.n)};
-    saved_ = s;
+    before_ = s.z;  // all else starts anew with the next step
     StepLedger of_bath;
     bathe(s, t, h / 2, place, of_bath.damping_left, of_bath.heat);
     inner_->restart(s);
     StepReport report = inner_->step(s, h);
     if (!report.solved()) {
-      s = saved_;
+      s.z = before_;
       return report;
     }
     place.part = 1;
@@ -61,7 +58,7 @@ class NoisyStepper final : public Stepper {
 
   std::unique_ptr<Bath> bath_;
   std::unique_ptr<Stepper> inner_;
-  State saved_;
+  Vector before_;
   bool keeps_ledger_ = false;
 };
 

@@ -10,39 +10,20 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-bool differ(const SparseMatrix& a, const SparseMatrix& b) { return (a - b).norm() > 1e-12 * (a.norm() + b.norm()); }
-
-DissipationOperator<SparseMatrix> dissipation(const SparseMatrix& S, const SparseMatrix& M, const SparseMatrix& D0) {
-  const SparseMatrix St = S.transpose();
-  if (D0.nonZeros() == 0) {
-    if (differ(S, St)) throw Error(noise_needs_symmetric_S);
-    return {.kind = Fluctuation::kick, .R = -S, .M = M};
-  }
-  if (differ(S, -St)) throw Error(noise_needs_skew_S);
-  Vector inverse_mass = Vector::Ones(M.rows());
-  for_entries(D0, [&](Index, Index j, double value) {
-    if (value == 0) return;
-    const double mass = M.coeff(j, j);
-    if (!(mass > 0) || M.col(j).squaredNorm() > (1 + 1e-12) * mass * mass) throw Error(noise_needs_diagonal_M);
-    inverse_mass[j] = 1 / mass;
-  });
-  const SparseMatrix R = D0 * inverse_mass.asDiagonal();
-  if (differ(R, R.transpose())) throw Error(noise_needs_symmetric_R);
-  return {.kind = Fluctuation::flow, .R = R, .M = M};
-}
+constexpr const char* not_definite = "noise needs a dissipation R ⪰ 0, and R has a negative direction";
 
 // G with GGᵀ = R ⪰ 0. Where R has a kernel a pivot is round-off, of either sign; that direction gets no noise.
 SparseMatrix factor(const SparseMatrix& R) {
   constexpr double round_off = 1e-10;
   const Vector diagonal = R.diagonal();
   for_entries(R, [&](Index i, Index, double value) {
-    if (value != 0 && !(diagonal[i] > 0)) throw Error(noise_needs_definite_R);
+    if (value != 0 && !(diagonal[i] > 0)) throw Error(not_definite);
   });
   const Vector shifts = diagonal.unaryExpr([](double r) { return r == 0 ? 1.0 : 1e-5 * round_off * r; });
   const Eigen::SimplicialLDLT<SparseMatrix> ldlt(R + SparseMatrix(shifts.asDiagonal()));  // no pivot is 0
   const Vector pivots = ldlt.vectorD(), of_pivots = ldlt.permutationP() * diagonal;
   if (ldlt.info() != Eigen::Success || (pivots.array() < -round_off * of_pivots.array()).any())
-    throw Error(noise_needs_definite_R);
+    throw Error(not_definite);
   const Vector roots = (pivots.array() > round_off * of_pivots.array() && of_pivots.array() > 0)
                            .select(pivots.cwiseMax(0.0).cwiseSqrt(), 0.0);
   const SparseMatrix L = ldlt.matrixL();
@@ -104,7 +85,7 @@ class SparseNoise final : public LinearMap {
 
 std::unique_ptr<LinearMap> sparse_noise(const SparseMatrix& S, const SparseMatrix& M, const SparseMatrix& D0,
                                         double h) {
-  return std::make_unique<SparseNoise>(dissipation(S, M, D0), h);
+  return std::make_unique<SparseNoise>(dissipation(S, M, D0, D0.nonZeros() > 0), h);
 }
 
 }  // namespace seiche

@@ -155,6 +155,14 @@ class KeyRows {
     row.write = [member](const RunSpec& spec) { return toml_string(spec.*member); };
   }
 
+  // The rows from `first` on are written all, or none where they say what holds without them.
+  void write_together(std::size_t first, bool (*is_default)(const RunSpec&)) {
+    for (std::size_t i = first; i < all.size(); ++i)
+      all[i].write = [write = all[i].write, is_default](const RunSpec& spec) {
+        return is_default(spec) ? "" : write(spec);
+      };
+  }
+
   std::vector<KeyRow> all;
 
  private:
@@ -287,7 +295,6 @@ void add_output(KeyRows& rows) {
       [](const RunSpec& spec) { return spec.join_below == RunSpec().join_below ? Maybe() : spec.join_below; });
 }
 
-// Its keys are written together, or not at all.
 void add_checkpoint(KeyRows& rows) {
   const std::size_t first = rows.all.size();
   rows.begin("checkpoint");
@@ -303,13 +310,9 @@ void add_checkpoint(KeyRows& rows) {
   rows.whole(
       "keep", "files: 2, the newest and the one before it, or 1", {1, false, 2}, "2", "",
       [](auto& spec) -> auto& { return spec.checkpoint.keep; });
-  for (std::size_t i = first; i < rows.all.size(); ++i)
-    rows.all[i].write = [write = rows.all[i].write](const RunSpec& spec) {
-      return spec.checkpoint == CheckpointSpec{} ? "" : write(spec);
-    };
+  rows.write_together(first, [](const RunSpec& spec) { return spec.checkpoint == CheckpointSpec{}; });
 }
 
-// Its keys are written together, or not at all.
 void add_noise(KeyRows& rows) {
   const std::size_t first = rows.all.size();
   rows.begin("noise");
@@ -328,10 +331,7 @@ void add_noise(KeyRows& rows) {
   };
   seed.maximum = 9007199254740991;  // 2⁵³ − 1: numbers of a case are doubles
   seed.write = [](const RunSpec& spec) { return fmt::format("{}", spec.noise.seed); };
-  for (std::size_t i = first; i < rows.all.size(); ++i)
-    rows.all[i].write = [write = rows.all[i].write](const RunSpec& spec) {
-      return spec.noise == Noise{} ? "" : write(spec);
-    };
+  rows.write_together(first, [](const RunSpec& spec) { return spec.noise == Noise{}; });
 }
 
 void add_ensemble(KeyRows& rows) {

@@ -49,8 +49,8 @@ DampingRate compile_damping_rate(const std::string& key, const std::string& text
 }
 
 StateFunctionPointer compile_state_function(const std::string& text, const std::string& field,
-                                            const FormulaConstants& constants, const NameAdvice& advice) {
-  return std::make_shared<FormulaOfState>(compile_formula(text, {field}, constants, advice));
+                                            const FormulaConstants& constants) {
+  return std::make_shared<FormulaOfState>(compile_formula(text, {field}, constants));
 }
 
 }  // namespace seiche

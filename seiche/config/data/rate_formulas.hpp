@@ -26,6 +26,6 @@ DampingRate compile_damping_rate(const std::string& key, const std::string& text
 
 // Of a field, by its name.
 StateFunctionPointer compile_state_function(const std::string& text, const std::string& field,
-                                            const FormulaConstants& constants = {}, const NameAdvice& advice = {});
+                                            const FormulaConstants& constants = {});
 
 }  // namespace seiche
