@@ -9,6 +9,9 @@ namespace seiche {
 // variable steps also those of the extension. slots: real numbers to a mode.
 double doubles_of_collocation(int order, Index size, bool variable_steps, double slots);
 
+// What it keeps beside that in gradient flows: of a few sweeps the nodes and what the next one changed them by.
+double doubles_of_acceleration(int order);
+
 // The same for one-step methods: their forces or what a splitting works with, and of each step size the blocks of
 // stages, end and forms, or of the linear flows.
 double doubles_of_one_step(int order, Index size, bool variable_steps, double slots);

@@ -1,3 +1,4 @@
+#include <seiche/method/method_memory.hpp>
 #include <seiche/simulation/run_memory.hpp>
 
 namespace seiche {
@@ -8,6 +9,14 @@ double slots_of(const Grid& grid) {
   for (const GridAxis& axis : grid.axes)
     if (axis.boundary != Boundary::periodic) return 1;
   return 2;
+}
+
+// Gradient flows have a block on the diagonal of S that is not skew.
+bool is_accelerated(const MethodEntry& method, const Problem& problem) {
+  if (method.kind.doubles_with_tables != doubles_of_collocation) return false;
+  for (Index i = 0; i < problem.field_count() && !problem.matrices; ++i)
+    if (!problem.S(i, i).is_zero() && problem.S(i, i).is_symmetric()) return true;
+  return false;
 }
 
 double doubles_per_unknown(const MethodEntry& method, Index size, bool variable_steps, double slots) {
@@ -29,7 +38,8 @@ double doubles_of_drives(const MethodEntry& method, const Problem& problem, doub
 
 double run_bytes(const MethodEntry& method, const BackendEntry& backend, const Problem& problem, bool variable_steps) {
   const double doubles = doubles_per_unknown(method, problem.size(), variable_steps, slots_of(problem.grid));
-  const double all = doubles + doubles_of_drives(method, problem, doubles);
+  const double all = doubles + doubles_of_drives(method, problem, doubles) +
+                     (is_accelerated(method, problem) ? doubles_of_acceleration(method.order) : 0);
   return 8 * all * static_cast<double>(problem.size()) +
          (backend.bytes ? backend.bytes(problem, method.has_closure()) : 0);
 }

@@ -1,5 +1,6 @@
 // Tolerances on gradient flows, where fast components forget errors and the solution has its own time.
 #include <seiche/config/custom/custom_problem.hpp>
+#include <seiche/config/data/rate_formulas.hpp>
 #include <seiche/problem/gradient_flow/pattern_formation.hpp>
 #include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/simulation/solve.hpp>
@@ -54,6 +55,23 @@ TEST(GradientFlowToleranceSlow, SaysWhatTheErrorWillBeOverFourDecades) {
       }
     }
   }
+}
+
+// The equations of collocation are solved where forces damp many times over in a step. By an explicit force steps would
+// be 20 and 3 times as many.
+TEST(GradientFlowTolerance, CollocationTakesStepsThatNoExplicitForceCouldTake) {
+  const GridOptions grid{.points = {48, 48}, .length = {1}, .discretisation = Discretisation::fd2};
+  PhaseSeparation options{.grid = grid, .kappa = 1e-3, .amplitude = 0.3};
+  const auto steps = [&](const char* method, double t_end) {
+    const Solution s = solve(cahn_hilliard(options), {.method = method, .tolerance = 1e-3, .t_end = t_end});
+    EXPECT_TRUE(s.success()) << s.report.message;
+    EXPECT_EQ(s.report.law, LawVerdict::holds);
+    return s.report.steps;
+  };
+  options.mobility_of_u = compile_state_function("1 + 0.5*u", "u");
+  EXPECT_LE(steps("egc4", 0.05), 200);
+  options.mobility_of_u = nullptr;
+  EXPECT_LE(3 * steps("egc4", 5), steps("etdrk4", 5));
 }
 
 // A hundred times as long. Phases part within some hundred units of time, then interfaces hardly move, and with the

@@ -6,6 +6,7 @@
 #include <seiche/problem/gradient_flow/phase_separation.hpp>
 #include <seiche/problem/gradient_flow/varying_mobility.hpp>
 #include <seiche/simulation/simulation.hpp>
+#include <seiche/simulation/solve.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -114,6 +115,27 @@ TEST(VaryingMobility, KeepsTheLawAtEveryStepSizeWhateverTheMobility) {
       }
     }
   }
+}
+
+// κ(M(u) − M₀)ΔΔu damps some thousand times over in one step of 10⁻³.
+TEST(VaryingMobility, TakesLongStepsByCollocation) {
+  const Kind square{Discretisation::fd2, {Boundary::neumann}, {32, 32}};
+  PhaseSeparation options = with_mobility("1 + 0.5*u", square);
+  options.kappa = 1e-3;
+  const Problem problem = cahn_hilliard(options);
+  const auto end = [&](const char* method, double h, int halved) {
+    const Solution s = solve(problem, {.method = method, .h = h, .t_end = 0.02});
+    EXPECT_TRUE(s.success()) << s.report.message;
+    EXPECT_EQ(s.report.law, LawVerdict::holds) << s.report.message;
+    EXPECT_EQ(s.report.halved, halved) << method << " " << h << " " << s.report.message;
+    EXPECT_EQ(s.report.replaced.count, 0);
+    return Vector(Eigen::Map<const Vector>(s.z.data() + s.z.size() - s.size, s.size));
+  };
+  const Vector exact = end("egc6", 2e-5, 0);
+  EXPECT_LE((end("egc4", 1e-3, 0) - exact).lpNorm<Eigen::Infinity>(), 1e-3);
+  EXPECT_LE((end("egc2", 1e-3, 0) - exact).lpNorm<Eigen::Infinity>(), 3e-2);
+  // e^{hL}z of the whole step would leave waves of a hundredth of the amplitude.
+  EXPECT_LE((end("egc4", 2e-2, 1) - exact).lpNorm<Eigen::Infinity>(), 0.1) << "in parts";
 }
 
 TEST(VaryingMobility, RefusesWhatItCannotBe) {

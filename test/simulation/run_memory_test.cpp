@@ -27,6 +27,7 @@ constexpr const char* rubbed =
     "name = \"klein_gordon\"\npoints = [300, 300]\nlength = [4.0, 4.0]\nboundary = [\"periodic\", \"dirichlet\"]\n"
     "friction = { kind = \"quadratic\", coefficient = 0.3 }\n";
 constexpr const char* line = "name = \"klein_gordon\"\npoints = 50000\n";
+constexpr const char* alloy = "name = \"cahn_hilliard\"\npoints = [300, 300]\n";
 constexpr const char* membrane =
     "name = \"wave\"\npoints = [150, 150]\nlength = [2.0, 2.0]\nboundary = \"dirichlet\"\nmedium = \"inclusion\"\n";
 
@@ -60,7 +61,8 @@ TEST_F(RunMemorySlow, IsWithinAFactorOfWhatARunTakes) {
   const std::vector<MeasuredRun> runs = {{plane, "seisav", "modal"},     {plane, "egc4", "modal"},
                                          {rubbed, "seisav", "modal"},    {rubbed, "egc4", "modal"},
                                          {line, "seisav", "sparse"},     {line, "egc8", "sparse"},
-                                         {membrane, "seisav", "sparse"}, {membrane, "egc4", "sparse"}};
+                                         {membrane, "seisav", "sparse"}, {membrane, "egc4", "sparse"},
+                                         {alloy, "egc4", "modal"}};
   for (const MeasuredRun& run : runs) {
     const std::string text = case_of(run);
     const Problem problem = make_problem(parse_case(text, "a.toml"));

@@ -21,7 +21,12 @@ def solution(directory):
     with h5py.File(pathlib.Path(directory) / "solution.h5") as file:
         names = file.attrs["fields"]
         fields = (names.decode() if isinstance(names, bytes) else str(names)).split()
-        return types.SimpleNamespace(t=file["t"][:], **{name: file[name][:] for name in fields})
+        return types.SimpleNamespace(t=file["t"][:], energy=table(pathlib.Path(directory) / "energy.csv"),
+                                     **{name: file[name][:] for name in fields})
+
+
+def table(path, dtype=float):
+    return np.genfromtxt(path, delimiter=",", names=True, dtype=dtype, encoding="utf-8")
 
 
 def ground_colour(ax, number):
@@ -127,6 +132,21 @@ def henon_heiles(axes, run):
         ax.label_outer()
 
 
+def coarsening(axes, run):
+    t, H = run.energy["t"], run.energy["H"]
+    energies, steps = axes
+    energies.loglog(t[1:], H[1:], color=ground_colour(energies, 0), label="Seiche")
+    published = table(pathlib.Path(__file__).with_name("published_energies.csv"), dtype=None)
+    for name, label, marker, number in (("moose_1a_mpf", "MOOSE", "o", 1), ("prismspf_1a", "PRISMS-PF", "x", 2)):
+        one = published[(published["simulation"] == name) & (published["t"] > 0)]
+        energies.loglog(one["t"], one["F"], marker, markersize=2.6, mfc="none", label=label,
+                        color=ground_colour(energies, number))
+    energies.set(xlabel="time $t$", ylabel="energy $H$")
+    energies.legend(loc="lower left")
+    steps.loglog(t[1:], np.diff(t), color=ground_colour(steps, 0))
+    steps.set(xlabel="time $t$", ylabel="step $h$")
+
+
 DRAWN = {
     function.__name__: function
     for function in (
@@ -141,6 +161,7 @@ DRAWN = {
         fput_load,
         whitham,
         henon_heiles,
+        coarsening,
     )
 }
 
@@ -148,7 +169,7 @@ DRAWN = {
 def draw(name, run, path):
     for ground in style.GROUNDS.values():
         with style.on(ground):
-            side_by_side = 3 if name == "henon_heiles" else 1
+            side_by_side = {"henon_heiles": 3, "coarsening": 2}.get(name, 1)
             figure, axes = plt.subplots(1, side_by_side, figsize=(4.2, 1.8) if side_by_side > 1 else (4.2, 2.6))
             DRAWN[name](axes, run)
             figure.savefig(path.with_stem(path.stem + ground.suffix))

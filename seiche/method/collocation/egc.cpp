@@ -3,12 +3,10 @@
 #include <seiche/core/numerics/quadrature.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/adaptive/error_measure.hpp>
+#include <seiche/method/collocation/collocation_equations.hpp>
 #include <seiche/method/collocation/collocation_weights.hpp>
 #include <seiche/method/collocation/continuous_extension.hpp>
 #include <seiche/method/collocation/egc.hpp>
-#include <seiche/method/collocation/force_sums.hpp>
-#include <seiche/method/collocation/sweep_control.hpp>
-#include <seiche/method/common/nonlinear_force.hpp>
 #include <seiche/method/projection/projected.hpp>
 #include <seiche/method/projection/step_dissipation.hpp>
 
@@ -24,42 +22,33 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   Collocation(const System& system, int stages, EnergyLaw law)
       : system_(system),
         phi_(system.make_phi()),
-        may_save_sweeps_(stages > 2 && phi_->has_tables()),
-        force_(system),
         rule_(stages),
         output_{.forces = stages,
                 .order = stages,
-                .kind = force_.kind(),
+                .kind = NonlinearForce(system).kind(),
                 .weights = [C = interpolation(rule_.nodes)](double theta) { return collocation_weights(C, theta); }},
         dissipation_(system, *phi_, output_, output_, {rule_, GaussRule(stages + 2), NestedRules(stages)}),
         projected_(system, *phi_, *this, law),
+        equations_(system, rule_, kept(), phi_->has_tables()),
         extension_(*phi_, rule_, output_.kind, system.space->size()),
         measure_(system, phi_.get()),
-        cache_(cached_step_sizes(system.space->size_of_all())),
-        forces_(static_cast<std::size_t>(stages)),
-        of_forces_(force_.kind() == PhiRows::Forces::gradients ? system.potential->support()
-                                                               : Potential::Support{0, system.space->size()}),
-        components_before_(of_forces_.size) {
+        cache_(cached_step_sizes(system.space->size_of_all())) {
     const Index size = system.space->size();
-    if (dissipation_.follows_energies())
-      energies_.resize(forces_.size());
-    else if (dissipation_.kind() == StepDissipation::Kind::general)
-      samples_.assign(forces_.size(), {Vector::Zero(size), Vector::Zero(size)});
-    for (Vector& f : forces_) f.setZero(size);
     missing_.setZero(size);
     missed_.setZero(size);
     physical_.setZero(system.space->physical_size());
     for (Vector* v : {&moment_, &change_, &rate_}) v->setZero(size);
     if (output_.kind == PhiRows::Forces::gradients) {
       moment_ = generic_state(*system.space);
-      apply_S(moment_);
-      moves_itself_ = space().squared_norm(moment_.segment(of_forces_.begin, of_forces_.size)) > 0;
+      equations_.apply_S(moment_);
+      const Potential::Support part = equations_.of_forces();
+      moves_itself_ = space().squared_norm(moment_.segment(part.begin, part.size)) > 0;
     }
   }
 
   void begin(State& s) override {
     projected_.begin(s);
-    s.history.assign(forces_.size(), Vector::Zero(s.z.size()));
+    s.history.assign(forces().size(), Vector::Zero(s.z.size()));
     s.history_h = 0;
   }
 
@@ -77,7 +66,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     if (last_.history_h == 0) return std::nullopt;
     measure_.start(projected_.before(), s.z, last_.h);
     const double quadrature_error = measure_.most() * this->quadrature_error(s);
-    const double of_linear_flow = measure_(extension_.defect(last_, forces_, s.history));
+    const double of_linear_flow = measure_(extension_.defect(last_, forces(), s.history));
     if (!std::isfinite(of_linear_flow)) return of_linear_flow;
     const double of_polynomial = std::max({of_linear_flow, of_nonlinear_part(s, of_linear_flow), quadrature_error});
     const double of_forces = std::max(of_polynomial, unsolved(s, of_polynomial));
@@ -115,7 +104,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   }
 
   void undo(State& s) override {
-    s.history.swap(forces_);
+    s.history.swap(forces());
     s.history_h = last_.history_h;
     projected_.undo(s);
   }
@@ -124,7 +113,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   // step.
   void interpolate(const State& s, double t, Vector& z) override {
     const auto extended = [&](double theta, Vector& out) {
-      extension_.evaluate(last_, theta, projected_.before(), forces_, s.history, out);
+      extension_.evaluate(last_, theta, projected_.before(), forces(), s.history, out);
     };
     if (!missing_is_known_) {
       extended(1.0, missing_);
@@ -153,10 +142,10 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   // where L has little part in the error; 0 where a force does not move what it depends on.
   double of_nonlinear_part(const State& s, double of_linear_flow) {
     if (!moves_itself_) return 0;
-    extension_.moment(last_, forces_, s.history, moment_);
+    extension_.moment(last_, forces(), s.history, moment_);
     as_rate(moment_);
     const double moved = space().norm(moment_);
-    change_ = s.history.back() - forces_.back();
+    change_ = s.history.back() - forces().back();
     as_rate(change_);
     const double steepness = space().norm(change_) / space().norm(s.z - projected_.before());
     constexpr double little = 0.25;
@@ -164,8 +153,8 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     const double t = projected_.last().t + last_.h;
     moment_ += s.z;
     change_ = s.z;
-    force_.evaluate(t, moment_);
-    force_.evaluate(t, change_);
+    equations_.force_at(t, moment_);
+    equations_.force_at(t, change_);
     moment_ -= change_;
     as_rate(moment_);
     constexpr double with_higher_moments = 2;  // of N′², N′³, …, and the quadrature of N itself: as large together
@@ -174,35 +163,26 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   // A force, as PhiRows has it, as Sf; in a gradient flow as φ₁(hL)Sf, by which it changes z in a step, over h.
   void as_rate(Vector& f) {
-    if (!measure_.is_of_gradient_flow()) return apply_S(f);
+    if (!measure_.is_of_gradient_flow()) return equations_.apply_S(f);
     std::unique_ptr<PhiMap>& of_constant = tables(last_.h, steps_are_alike_).of_constant;
     if (!of_constant) of_constant = phi_->map(rows_of_constant_force(output_.kind), last_.h);
     of_constant->apply(rate_, {&f, 1}, {&rate_, 1});
     f = rate_ / last_.h;
   }
 
-  void apply_S(Vector& f) {
-    if (output_.kind == PhiRows::Forces::states) return;
-    const Index behind = of_forces_.begin + of_forces_.size;
-    f.head(of_forces_.begin).setZero();
-    f.tail(f.size() - behind).setZero();
-    system_.linear->apply_S(f, rate_);
-    f.swap(rate_);
+  int stages() const { return static_cast<int>(rule_.nodes.size()); }
+  std::vector<Vector>& forces() { return equations_.forces(); }
+
+  // Of the last step: what more sweeps would change, or something of at most `enough`.
+  double unsolved(const State& s, double enough) {
+    const Vector& left = equations_.unsolved(last_.h, s.history.back());
+    return measure_.most() * space().norm(left) <= enough ? enough : measure_(left);  // that bounds the max norm
   }
 
-  int stages() const { return static_cast<int>(forces_.size()); }
-
-  // Of the last step: what more sweeps would change, which no polynomial of its forces tells. The last change times the
-  // rate at which sweeps converge, calibrated, or something of at most `enough`.
-  double unsolved(const State& s, double enough) {
-    constexpr double calibration = 1.0 / 16;  // the force at the last node changes most
-    change_.setZero();
-    change_.segment(of_forces_.begin, of_forces_.size) =
-        calibration * last_.h * convergence_ *
-        (s.history.back().segment(of_forces_.begin, of_forces_.size) - components_before_);
-    as_rate(change_);
-    if (measure_.most() * space().norm(change_) <= enough) return enough;  // which bounds the max norm
-    return measure_(change_);
+  CollocationEquations::Kept kept() const {
+    using Kept = CollocationEquations::Kept;
+    if (dissipation_.follows_energies()) return Kept::energies;
+    return dissipation_.kind() == StepDissipation::Kind::general ? Kept::samples : Kept::nothing;
   }
 
   struct Tables {
@@ -214,101 +194,52 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   // Steps of one length find all they need after the first of them.
   Tables& tables(double h, bool is_one_of_many) {
     return cache_.at(h, [&] {
-      if (is_one_of_many && may_save_sweeps_) extension_.prepare(h);
+      if (is_one_of_many && equations_.asks_for_errors()) extension_.prepare(h);
       auto made = std::make_unique<Tables>();
-      const bool all = evaluates_states();
-      made->nodes = phi_->map(output_.at(rule_.nodes, all ? PhiRows::Outputs::all : PhiRows::Outputs::support), h);
+      made->nodes = phi_->map(output_.at(rule_.nodes, equations_.outputs()), h);
       made->end = phi_->map(output_.at(Eigen::VectorXd::Ones(1), PhiRows::Outputs::all), h);
       return made;
     });
   }
 
-  // Are all components of Z_i looked at, or those that V depends on?
-  bool evaluates_states() const {
-    return output_.kind == PhiRows::Forces::states || dissipation_.kind() == StepDissipation::Kind::general;
-  }
-
-  // First guess of the forces: those of the last step, extrapolated; or N(zⁿ) throughout. Returns the largest of their
-  // norms.
-  double predict(const State& s, double t, double h) {
-    if (s.history_h == 0) {
-      forces_[0] = s.z;
-      force_.evaluate(t, forces_[0]);
-      for (std::size_t i = 1; i < forces_.size(); ++i) forces_[i] = forces_[0];
-      return space().norm(forces_[0].segment(of_forces_.begin, of_forces_.size));
-    }
-    const double ratio = h / s.history_h;
-    const Eigen::MatrixXd& extrapolation = extrapolations_.at(ratio, [&] {
-      return std::make_unique<Eigen::MatrixXd>(
-          evaluation(rule_.nodes, Eigen::VectorXd::Ones(stages()) + ratio * rule_.nodes));
-    });
-    return combine(space(), extrapolation, s.history, of_forces_.begin, of_forces_.size, forces_);
-  }
-
-  // The collocation equations (E1), F_i = N(Z_i), by sweeps. The force at the last node, which follows from all the
-  // others, stands for what a sweep changes.
-  void sweep(const State& s, double t, double h, const PhiMap& nodes) {
-    SweepControl control(stages(), s.history_h != 0, may_save_sweeps_);
-    double change = 0, change_before = 0;
-    const auto error = [&] { return space().norm(extension_.defect({h, s.history_h}, s.history, forces_)); };
-    do {
-      components_before_ = forces_.back().segment(of_forces_.begin, of_forces_.size);
-      nodes.apply(s.z, forces_, forces_);  // Z_i: (E1)
-      for (Index i = 0; i < stages(); ++i) {
-        const double at = t + rule_.nodes[i] * h;
-        const auto which = static_cast<std::size_t>(i);
-        if (!energies_.empty() && control.may_be_last()) {
-          energies_[which].K = system_.linear->quadratic_energy(forces_[which]);
-          energies_[which].V = force_.evaluate(at, forces_[which]);
-        } else if (!samples_.empty() && control.may_be_last()) {
-          force_.evaluate(at, forces_[which], [&](const Vector& node, const Vector& gradient) {
-            samples_[which].node = node;
-            samples_[which].gradient = gradient;
-          });
-        } else {
-          force_.evaluate(at, forces_[which]);
-        }
-      }
-      change_before = change;
-      change = h * distance(space(), forces_.back(), of_forces_.begin, components_before_);
-    } while (control.wants_another(change, error));
-    convergence_ = change_before > 0 ? std::min(1.0, change / change_before) : 0;  // one sweep tells no rate
-  }
-
   bool compute(const State& s, double t, double h, Vector& z) override {
     const Tables& of_h = tables(h, steps_are_alike_);
-    double pushed = predict(s, t, h);
-    for (const double c : rule_.nodes) pushed = std::max(pushed, force_.external(t + c * h));
+    double pushed = equations_.predict(s, t, h);
+    for (const double c : rule_.nodes) pushed = std::max(pushed, equations_.external(t + c * h));
     const double size = space().norm(s.z) + h * pushed;
-    sweep(s, t, h, *of_h.nodes);
+    const bool solved = equations_.solve(s, t, h, size, *of_h.nodes, [&] {
+      return space().norm(extension_.defect({h, s.history_h}, s.history, forces()));
+    });
     coarse_ = {};
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const auto at = static_cast<Index>(i);
-      dissipation_.add(t + rule_.nodes[at] * h, samples_[i].node, samples_[i].gradient, h * rule_.weights[at], coarse_);
+    Index at = 0;
+    for (const CollocationEquations::Sample& sample : equations_.samples()) {
+      dissipation_.add(t + rule_.nodes[at] * h, sample.node, sample.gradient, h * rule_.weights[at], coarse_);
+      ++at;
     }
-    of_h.end->apply(s.z, forces_, {&z, 1});  // ẑ: (E2)
-    return may_be_solution(space(), z, size);
+    of_h.end->apply(s.z, forces(), {&z, 1});  // ẑ: (E2)
+    return solved && may_be_solution(space(), z, size);
   }
 
   std::string_view failure() const override { return "the collocation equations were not solved"; }
+  bool may_be_solved_in_parts() const override { return equations_.are_accelerated(); }
   StepDissipation::Kind dissipation_kind() const override { return dissipation_.kind(); }
 
   StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double H) override {
     if (dissipation_.follows_energies())
-      return dissipation_.measure(t, h, s.z, forces_, dissipation_.energies(s.z, s.energy), dissipation_.energies(z, H),
-                                  energies_);
-    return dissipation_.measure(t, h, s.z, forces_,
+      return dissipation_.measure(t, h, s.z, forces(), dissipation_.energies(s.z, s.energy),
+                                  dissipation_.energies(z, H), equations_.energies());
+    return dissipation_.measure(t, h, s.z, forces(),
                                 dissipation_.kind() == StepDissipation::Kind::general ? &coarse_ : nullptr);
   }
 
   void prepare_flow(double h) override { dissipation_.prepare_flow(h); }
-  double flow_missed(const State& s, double h) override { return dissipation_.flow_missed(h, s, forces_); }
+  double flow_missed(const State& s, double h) override { return dissipation_.flow_missed(h, s, forces()); }
 
-  // The forces before the step are left in forces_.
+  // The forces before the step are left in forces().
   void accept(State& s, double h, bool resolved) override {
     last_ = {h, s.history_h};
     missing_is_known_ = false;
-    s.history.swap(forces_);
+    s.history.swap(forces());
     s.history_h = resolved ? h : 0;
   }
 
@@ -316,31 +247,20 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   const System& system_;
   std::unique_ptr<PhiEvaluator> phi_;
-  bool may_save_sweeps_;  // by a map that is worth less than a sweep
-  NonlinearForce force_;
   GaussRule rule_;
   StepOutput output_;
   StepDissipation dissipation_;
   Projected projected_;
+  CollocationEquations equations_;
   ContinuousExtension extension_;
   ErrorMeasure measure_;
   StepCache<Tables> cache_;
-  StepCache<Eigen::MatrixXd> extrapolations_{16};  // by the ratio of two step sizes
-  std::vector<Vector> forces_;
-  Potential::Support of_forces_;  // the components that may differ from zero
-  Vector components_before_;      // of the last force, a sweep ago
-  struct Sample {
-    Vector node, gradient;  // Z_i and ∇V(Z_i)
-  };
-  std::vector<Sample> samples_;                      // where dissipation is evaluated node by node
-  StepDissipation::Sum coarse_;                      // of these
-  std::vector<StepDissipation::Energies> energies_;  // of Z_i, where dissipation follows from them
-  double convergence_ = 1;                           // of the last two sweeps
+  StepDissipation::Sum coarse_;  // of these
   bool steps_are_alike_ = true;
   Vector physical_, missed_;
   bool moves_itself_ = true;  // does a force move what it depends on?
   Vector moment_, change_, rate_;
-  ContinuousExtension::Step last_;  // the step taken last; the forces of the one before it are left in forces_
+  ContinuousExtension::Step last_;  // the step taken last; those before it left its forces in forces()
   Vector missing_;                  // what the extension misses at the end of it, once it was asked for
   bool missing_is_known_ = false;
 };

@@ -28,6 +28,9 @@ class BaseStep {
   virtual std::string_view failure() const = 0;  // what has happened then; a literal
   virtual std::string_view remedy() const { return "a smaller h"; }
 
+  // Where a step finds no solution, parts of it do: they are tried before e^{hL}z.
+  virtual bool may_be_solved_in_parts() const { return false; }
+
   // Of the step just computed, where a projection is a part of it: how often that found nothing better than bisection,
   // and whether it moved anything far.
   virtual int fallbacks() const { return 0; }

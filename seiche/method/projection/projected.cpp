@@ -10,6 +10,7 @@ namespace seiche {
 namespace {
 
 constexpr int max_halvings = 8;
+constexpr int max_strict_halvings = 4;  // of parts that take as much work as the whole
 
 }  // namespace
 
@@ -55,19 +56,29 @@ StepReport Projected::step(State& s, double h) {
   StepReport report;
   const double t = s.t;
   const std::int64_t n = s.n;
-  const Taken taken = take(s, t, h, law_ == EnergyLaw::none, report);
+  prepare(h);
+  const bool parts_first = law_ != EnergyLaw::none && base_.may_be_solved_in_parts();
+  Taken taken = take(s, t, h, law_ == EnergyLaw::none || parts_first, report);
   if (taken == Taken::unresolved && law_ == EnergyLaw::none) {
     fail(report, s, h, taken, 0);
     return report;
   }
   if (taken != Taken::whole) {
     saved_ = s;
-    if (!take_halves(s, t, h, 1, report)) {
+    const StepReport attempted = report;
+    const auto take_parts = [&](bool strict) {
+      report.halved = take_halves(s, t, h, 1, strict, report) ? 1 : 0;
+      if (report.halved > 0) return true;
       s = saved_;
+      report = attempted;
+      return false;
+    };
+    const bool taken_in_parts = parts_first && take_parts(true);
+    if (parts_first && !taken_in_parts) taken = take(s, t, h, false, report);
+    if (!taken_in_parts && taken != Taken::whole && !take_parts(false)) {
       fail(report, s, h, taken, max_halvings);
       return report;
     }
-    report.halved = 1;
   }
   s.n = n + 1;
   s.t = t + h;
@@ -117,7 +128,6 @@ void Projected::fail(StepReport& report, const State& s, double h, Taken taken, 
 // One step; s stays as it was where it is not taken. t and n are the caller's.
 Projected::Taken Projected::take(State& s, double t, double h, bool strict, StepReport& report) {
   if (law_ == EnergyLaw::none) return take_without_law(s, t, h, report);
-  if (!strict) prepare(h);
   StepDissipation::Amount amount;
   EnergyTarget target;
   EnergyProjection::Outcome outcome;
@@ -152,6 +162,7 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
 
 // Now: later steps of this length are to allocate nothing.
 void Projected::prepare(double h) {
+  if (law_ == EnergyLaw::none) return;
   if (may_flow_freely_) free_map(h);
   if (law_ == EnergyLaw::interval) base_.prepare_flow(h);
 }
@@ -253,16 +264,20 @@ void Projected::commit(State& s, double t, double h, bool resolved, const StepDi
   s.z.swap(z_);
 }
 
-// The same time in two steps, or more where that does not help either.
-bool Projected::take_halves(State& s, double t, double h, int depth, StepReport& report) {
-  if (depth > max_halvings) return false;
+// The same time in two steps, or more where that does not help either. Strict ones are all solved, and the next step
+// may begin with what the last of them leaves.
+bool Projected::take_halves(State& s, double t, double h, int depth, bool strict, StepReport& report) {
+  if (depth > (strict ? max_strict_halvings : max_halvings)) return false;
   ++report.fallbacks;
+  s.history_h = 0;
   for (const double begin : {t, t + h / 2}) {
-    s.history_h = 0;
-    if (take(s, begin, h / 2, false, report) != Taken::whole && !take_halves(s, begin, h / 2, depth + 1, report))
+    if (!strict) s.history_h = 0;
+    prepare(h / 2);
+    if (take(s, begin, h / 2, strict, report) != Taken::whole &&
+        !take_halves(s, begin, h / 2, depth + 1, strict, report))
       return false;
   }
-  s.history_h = 0;
+  if (!strict) s.history_h = 0;
   return true;
 }
 

@@ -15,7 +15,8 @@ namespace seiche {
 
 // ẑ of a base step, moved to the energy of energy_target. Nothing about ẑ enters the proof of the law, so it holds for
 // every h: where ẑ is no solution, e^{hL}z takes its place, if it leaves nothing but ∇V out; where it would, and where
-// no point near ẑ has an energy that the law allows, the step is taken in halves.
+// no point near ẑ has an energy that the law allows, the step is taken in halves. A base step that may be solved in
+// parts is tried in up to sixteen of them first.
 class Projected {
  public:
   // All outlive it.
@@ -61,7 +62,7 @@ class Projected {
               const EnergyProjection::Outcome& outcome, StepReport& report);
   bool has_grown_beyond_reason(const EnergyProjection::Outcome& outcome, const State& s, double t, double h);
   void note_replaced(StepReport& report, const State& s, std::string_view why) const;
-  bool take_halves(State& s, double t, double h, int depth, StepReport& report);
+  bool take_halves(State& s, double t, double h, int depth, bool strict, StepReport& report);
   void fail(StepReport& report, const State& s, double h, Taken taken, int halvings) const;
 
   const System& system_;
