@@ -15,7 +15,7 @@ AndersonAcceleration::AndersonAcceleration(const Space& space, std::size_t count
 void AndersonAcceleration::restart() {
   known_ = oldest_ = 0;
   iterates_ = 0;
-  size_ = least_size_ = std::numeric_limits<double>::infinity();
+  residual_size_ = least_size_ = std::numeric_limits<double>::infinity();
 }
 
 void AndersonAcceleration::advance(std::span<Vector> x) {
@@ -25,7 +25,7 @@ void AndersonAcceleration::advance(std::span<Vector> x) {
   }
   least_.swap(residual_);  // the residual before, until it is no longer needed
   for (std::size_t i = 0; i < x.size(); ++i) state(residual_, i) = x[i].segment(part_.begin, part_.size) - state(x_, i);
-  size_ = space_.norm(residual_);
+  residual_size_ = space_.norm(residual_);
   if (iterates_ > 2) remember();
 
   least_ = residual_;

@@ -23,8 +23,9 @@ class AndersonAcceleration {
   // x: G of the iterate before; becomes the next iterate.
   void advance(std::span<Vector> x);
 
-  // Of the iterate before that call; infinite at the first.
-  double residual() const { return size_; }
+  double size() const { return space_.norm(x_); }  // |x|
+  // |G(x) − x| of the iterate before that call; infinite at the first.
+  double residual() const { return residual_size_; }
   // |least|
   double least_residual() const { return least_size_; }
   // Its last state, in the unknowns; all else of z stays.
@@ -44,7 +45,7 @@ class AndersonAcceleration {
   std::vector<Pair> pairs_;
   std::size_t known_ = 0, oldest_ = 0;
   int iterates_ = 0;
-  double size_ = 0, least_size_ = 0;
+  double residual_size_ = 0, least_size_ = 0;
   Vector x_, step_, residual_, least_;
 };
 

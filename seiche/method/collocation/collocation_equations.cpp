@@ -65,9 +65,8 @@ void CollocationEquations::evaluate(double t, double h, bool keeps) {
   }
 }
 
-bool CollocationEquations::solve(const State& s, double t, double h, double size, const PhiMap& nodes,
-                                 FunctionRef<double()> error) {
-  return acceleration_ ? sweep_accelerated(s, t, h, size, nodes, error) : sweep(s, t, h, nodes, error);
+bool CollocationEquations::solve(const State& s, double t, double h, const PhiMap& nodes, FunctionRef<double()> error) {
+  return acceleration_ ? sweep_accelerated(s, t, h, nodes, error) : sweep(s, t, h, nodes, error);
 }
 
 // The force at the last node, which follows from all the others, stands for what a sweep changes.
@@ -86,15 +85,16 @@ bool CollocationEquations::sweep(const State& s, double t, double h, const PhiMa
 }
 
 // The unknowns are the Z_i: of F_i what L damps would count for most.
-bool CollocationEquations::sweep_accelerated(const State& s, double t, double h, double size, const PhiMap& nodes,
+bool CollocationEquations::sweep_accelerated(const State& s, double t, double h, const PhiMap& nodes,
                                              FunctionRef<double()> error) {
   constexpr int least = 3, most = 20;  // two of them tell no rate
   constexpr double small = 0.1;        // beside the error of the step, which counts for less: it is not of slow modes
   constexpr double of_first = 1e-3;    // where nothing tells that error
   constexpr double far = 1e-3;         // from a solution, as a share of its size
   const double of_one = 1 / std::sqrt(static_cast<double>(stages()));
+  const double size_before = system_.space->norm(s.z);
   const bool knows_error = asks_for_errors_ && s.history_h != 0;
-  double first = 0, left = 0;
+  double first = 0, left = 0, size = 0;
   acceleration_->restart();
   for (int sweeps = 1; sweeps <= most; ++sweeps) {
     const double before = acceleration_->residual();
@@ -107,6 +107,7 @@ bool CollocationEquations::sweep_accelerated(const State& s, double t, double h,
     if (!std::isfinite(residual)) return false;
     convergence_ = residual < before ? residual / before : 1;
     left = of_one * convergence_ * acceleration_->least_residual();
+    size = std::max(size_before, of_one * acceleration_->size());
     if (left <= epsilon * size) return true;
     if (left <= far * size && left <= (knows_error ? small * error() : of_first * of_one * first)) return true;
   }

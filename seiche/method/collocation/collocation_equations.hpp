@@ -42,9 +42,9 @@ class CollocationEquations {
 
   // The first guess, or without a step before N(zⁿ) throughout. Returns the largest of |F_i|.
   double predict(const State& s, double t, double h);
-  // `nodes`: F_i → Z_i. `error`: about that of the step, by the forces so far. `size`: |zⁿ| and what the first forces
-  // add to it. False where accelerated sweeps leave the Z_i further than a thousandth of that from a solution.
-  bool solve(const State& s, double t, double h, double size, const PhiMap& nodes, FunctionRef<double()> error);
+  // `nodes`: F_i → Z_i. `error`: about that of the step, by the forces so far. False where accelerated sweeps leave the
+  // Z_i further from a solution than a thousandth of their size.
+  bool solve(const State& s, double t, double h, const PhiMap& nodes, FunctionRef<double()> error);
   double force_at(double t, Vector& z) { return force_.evaluate(t, z); }  // z ← N(t, z)
   double external(double t) { return force_.external(t); }
 
@@ -62,8 +62,7 @@ class CollocationEquations {
   int stages() const { return static_cast<int>(forces_.size()); }
   void evaluate(double t, double h, bool keeps);  // Z_i → F_i, in place
   bool sweep(const State& s, double t, double h, const PhiMap& nodes, FunctionRef<double()> error);
-  bool sweep_accelerated(const State& s, double t, double h, double size, const PhiMap& nodes,
-                         FunctionRef<double()> error);
+  bool sweep_accelerated(const State& s, double t, double h, const PhiMap& nodes, FunctionRef<double()> error);
 
   const System& system_;
   GaussRule rule_;

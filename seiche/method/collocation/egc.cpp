@@ -207,7 +207,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
     double pushed = equations_.predict(s, t, h);
     for (const double c : rule_.nodes) pushed = std::max(pushed, equations_.external(t + c * h));
     const double size = space().norm(s.z) + h * pushed;
-    const bool solved = equations_.solve(s, t, h, size, *of_h.nodes, [&] {
+    const bool solved = equations_.solve(s, t, h, *of_h.nodes, [&] {
       return space().norm(extension_.defect({h, s.history_h}, s.history, forces()));
     });
     coarse_ = {};
