@@ -12,7 +12,8 @@ PeerGroup hand_written_peers() {
                   .peers = {{"ETDRK4", own, origin, sweep, any_equation, make_etdrk4},
                             {"Strang exact flow", own, origin, sweep, no_gradient_flow, make_strang},
                             {"semi-implicit BDF2", own, origin, sweep, gradient_flow, make_semi_implicit}}};
-  for (Peer& peer : rkn_peers()) group.peers.push_back(std::move(peer));
+  for (const auto& more : {rkn_peers(), relaxation_peers()})
+    for (const Peer& peer : more) group.peers.push_back(peer);
   return group;
 }
 

@@ -1,4 +1,4 @@
-// Codes written by hand for one equation: fast, and without any promise about the energy.
+// Codes written by hand for one equation: fast, and but for relaxation without any promise about the energy.
 #pragma once
 
 #include <bench/peers/peer.hpp>
@@ -11,6 +11,9 @@ std::unique_ptr<Run> make_semi_implicit(const Equation& equation, double h);  //
 // Runge–Kutta–Nyström splitting: "kicks" takes the whole force by differences as a kick, explicit; "exact flow" the
 // damped linear part exactly.
 std::vector<Peer> rkn_peers();
+
+// Explicit Runge–Kutta steps that lower H by the quadrature of its dissipation.
+std::vector<Peer> relaxation_peers();
 
 PeerGroup hand_written_peers();
 

@@ -4,6 +4,7 @@
 #include <seiche/core/base/error.hpp>
 #include <seiche/output/file/atomic_file.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -20,12 +21,23 @@ void write_tables(const std::vector<ProblemResult>& results, const Manifest& man
   write_file(options.out / "manifest.json", as_json(manifest));
 }
 
+// Throws Error where a name is no peer's.
+void keep_asked(std::vector<Peer>& peers, const std::vector<std::string>& asked) {
+  std::vector<std::string> known;
+  for (const Peer& peer : peers) known.push_back(peer.name);
+  for (const std::string& name : asked)
+    if (std::find(known.begin(), known.end(), name) == known.end()) throw unknown_name("peer", name, known);
+  if (!asked.empty())
+    std::erase_if(peers, [&](const Peer& p) { return std::find(asked.begin(), asked.end(), p.name) == asked.end(); });
+}
+
 int run(const Options& options) {
   make_directory(options.out);
   const std::vector<PeerGroup> groups = options.peers ? peer_groups() : std::vector<PeerGroup>{};
   const Manifest manifest = make_manifest(options, groups);
   std::vector<Peer> peers;
   for (const PeerGroup& group : groups) peers.insert(peers.end(), group.peers.begin(), group.peers.end());
+  keep_asked(peers, options.peer_names);
   std::vector<ProblemResult> results;
   for (const std::string& problem : options.problems) {
     results.push_back(sweep(problem, peers, options));

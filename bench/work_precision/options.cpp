@@ -35,6 +35,7 @@ const char* const usage =
     "  --out DIR         where work_precision.csv, index.html and figures/ go (out/work_precision)\n"
     "  --problem LIST    of kg20,kg4096,kgs,kg2d,fpu,gkdv,ac2d,ch2d (all)\n"
     "  --method LIST     of Seiche's methods (all that apply), as egc6, \"crkn6 explicit\", \"auto by tolerance\"\n"
+    "  --peer LIST       of the other integrators (all), as \"CVODE BDF\"\n"
     "  --no-peers        Seiche's methods alone\n"
     "  --quick           every second step size, short runs only: for trying\n"
     "  --repeats N       timed runs of which the median is taken (5)\n"
@@ -54,6 +55,7 @@ Options Options::parse(const std::vector<std::string>& arguments) {
       {"--out", [&](const std::string& text) { options.out = text; }},
       {"--problem", [&](const std::string& text) { options.problems = split(text); }},
       {"--method", [&](const std::string& text) { options.methods = split(text); }},
+      {"--peer", [&](const std::string& text) { options.peer_names = split(text); }},
       {"--repeats",
        [&](const std::string& text) { options.repeats = std::max(1, static_cast<int>(positive(option, text))); }},
       {"--cap", [&](const std::string& text) { options.cap_seconds = positive(option, text); }},

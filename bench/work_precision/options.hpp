@@ -10,7 +10,8 @@ namespace seiche::bench {
 struct Options {
   std::filesystem::path out = "out/work_precision";
   std::vector<std::string> problems;
-  std::vector<std::string> methods;  // of Seiche; empty: all that apply
+  std::vector<std::string> peer_names;  // empty: all of them
+  std::vector<std::string> methods;     // of Seiche; empty: all that apply
   bool quick = false;
   bool peers = true;  // other integrators beside Seiche's methods
   bool help = false;

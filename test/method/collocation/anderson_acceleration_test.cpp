@@ -4,6 +4,7 @@
 #include <test/support/plain_space.hpp>
 
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include <cmath>
 #include <vector>
