@@ -2,17 +2,14 @@
 #include <bench/peers/right_hand_side.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 namespace seiche::bench {
 namespace {
 
 using Kind = Equation::Kind;
 
-double dot(const double* a, const double* b, std::size_t n) {
-  double sum = 0;
-  for (std::size_t j = 0; j < n; ++j) sum += a[j] * b[j];
-  return sum;
-}
+double dot(const double* a, const double* b, std::size_t n) { return std::inner_product(a, a + n, b, 0.0); }
 
 // u_{j+1} − u_j over all bonds, the ends at rest
 template <class Use>

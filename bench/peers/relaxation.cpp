@@ -13,15 +13,13 @@ namespace seiche::bench {
 namespace {
 
 struct Tableau {
-  int order;                           // of the solution
-  int error_order;                     // of what it is compared with
+  int error_order;                     // of what the solution is compared with
   std::vector<std::vector<double>> a;  // a[i]: of stage i + 1
   std::vector<double> b, error;        // of the solution, and what that has beyond the other solution
 };
 
 Tableau dormand_prince() {
-  return {.order = 5,
-          .error_order = 4,
+  return {.error_order = 4,
           .a = {{1.0 / 5},
                 {3.0 / 40, 9.0 / 40},
                 {44.0 / 45, -56.0 / 15, 32.0 / 9},
@@ -35,7 +33,7 @@ Tableau dormand_prince() {
 // No weight of it is negative: where no stage feeds H, their sum does not.
 Tableau fehlberg() {
   namespace odeint = boost::numeric::odeint;
-  Tableau tableau{.order = 8, .error_order = 7, .a = {}, .b = {}, .error = {}};
+  Tableau tableau{.error_order = 7, .a = {}, .b = {}, .error = {}};
   const auto set = [&](const auto&... rows) { tableau.a = {std::vector<double>(rows.begin(), rows.end())...}; };
   set(odeint::rk78_coefficients_a1<>(), odeint::rk78_coefficients_a2<>(), odeint::rk78_coefficients_a3<>(),
       odeint::rk78_coefficients_a4<>(), odeint::rk78_coefficients_a5<>(), odeint::rk78_coefficients_a6<>(),

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -85,6 +86,8 @@ struct Solution {
   std::shared_ptr<const DenseOutput> sol;  // z(t) at every time of the run, where asked for
 
   bool success() const { return report.status == RunReport::Status::success; }
+  // The state recorded last; as long as this lives.
+  Eigen::Map<const Vector> last() const { return {z.data() + (std::ssize(z) - size), size}; }
 };
 
 // Throws Error for set-up mistakes: sizes and times that do not fit, a method that does not apply, neither h nor

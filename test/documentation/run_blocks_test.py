@@ -233,7 +233,8 @@ class Grounds(unittest.TestCase):
         t = np.arange(30) * 14.0
         wave = np.array([[math.sin(i + j) for i in range(12)] for j in range(30)])
         energy = {"t": t, "H": 1 / (1 + t)}
-        run = types.SimpleNamespace(t=t, energy=energy, **{name: wave for name in ("p", "q", "u", "v", "q1", "q2", "u1", "u2")})
+        fields = {name: wave for name in ("p", "q", "u", "v", "q1", "q2", "u1", "u2")}
+        run = types.SimpleNamespace(t=t, energy=energy, **fields)
         with tempfile.TemporaryDirectory() as directory:
             for name in draw.DRAWN:
                 draw.draw(name, run, pathlib.Path(directory) / f"{name}.png")

@@ -162,7 +162,7 @@ initial = { q = "0.5", p = "-2" })toml"));
     EXPECT_THAT(failed.report.message, HasSubstr("V is not a finite number at q = -1, straight ahead of t = "))
         << method;
     Problem rest = problem;
-    rest.initial = Eigen::Map<const Vector>(failed.z.data() + failed.z.size() - 2, 2);
+    rest.initial = failed.last();
     const Solution more = solve(rest, {.method = "egc6", .tolerance = 1e-6, .t_start = failed.report.t, .t_end = 5});
     EXPECT_TRUE(more.success()) << method << ": " << more.report.message;
   }

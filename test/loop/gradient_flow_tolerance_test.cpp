@@ -36,17 +36,15 @@ std::vector<Flow> flows() {
   };
 }
 
-Vector last(const Solution& s) { return Eigen::Map<const Vector>(s.z.data() + s.z.size() - s.size, s.size); }
-
 // The spinodal decomposition multiplies errors at its beginning by about ten.
 TEST(GradientFlowToleranceSlow, SaysWhatTheErrorWillBeOverFourDecades) {
   for (const Flow& flow : flows()) {
-    const Vector exact = last(solve(flow.problem, {.method = "egc6", .h = flow.reference_h, .t_end = flow.t_end}));
+    const Vector exact = solve(flow.problem, {.method = "egc6", .h = flow.reference_h, .t_end = flow.t_end}).last();
     for (const char* method : {"seisav", "seilm", "egc4", "egc6", "etdrk4"}) {
       for (const double tolerance : {1e-1, 1e-2, 1e-3, 1e-4}) {
         const Solution s = solve(flow.problem, {.method = method, .tolerance = tolerance, .t_end = flow.t_end});
         ASSERT_TRUE(s.success()) << s.report.message;
-        EXPECT_LE((last(s) - exact).lpNorm<Eigen::Infinity>(), 20 * tolerance)
+        EXPECT_LE((s.last() - exact).lpNorm<Eigen::Infinity>(), 20 * tolerance)
             << flow.name << ", " << method << ", " << tolerance << ": " << s.report.message;
         EXPECT_EQ(s.report.law, LawVerdict::holds) << flow.name << ", " << method;
         if (tolerance == 1e-2) {
@@ -101,8 +99,8 @@ TEST(GradientFlowTolerance, HoldsWhereTheLinearPartGrows) {
       for (const double tolerance : {1e-3, 1e-6}) {
         const Solution s = solve(p, {.method = method, .tolerance = tolerance, .t_end = 3});
         ASSERT_TRUE(s.success()) << s.report.message;
-        EXPECT_NEAR(last(s)[0], exact(0.1, 3), 20 * tolerance) << method << " " << is_upward;
-        EXPECT_NEAR(last(s)[1], exact(-0.3, 3), 20 * tolerance) << method << " " << is_upward;
+        EXPECT_NEAR(s.last()[0], exact(0.1, 3), 20 * tolerance) << method << " " << is_upward;
+        EXPECT_NEAR(s.last()[1], exact(-0.3, 3), 20 * tolerance) << method << " " << is_upward;
       }
   }
 }

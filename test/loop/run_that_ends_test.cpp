@@ -174,7 +174,7 @@ TEST(RunThatEnds, EveryEntryPointFollowsAPulseInsideTheFirstStep) {
                               "x.toml"));
   const Ended direct = run(p, "egc6", 1e-6, 1);
   const Solution solved = solve(p, {.method = "egc6", .tolerance = 1e-6, .t_end = 1});
-  const Vector last = Eigen::Map<const Vector>(solved.z.data() + solved.z.size() - 2, 2);
+  const Vector last = solved.last();
   EXPECT_LE((last - direct.z).lpNorm<Eigen::Infinity>(), 1e-12);
   EXPECT_EQ(solved.report.rejected, direct.report.rejected);
 }

@@ -30,15 +30,20 @@ void AndersonAcceleration::advance(std::span<Vector> x) {
 
   least_ = residual_;
   step_.setZero();
-  for (std::size_t i = 0; i < known_; ++i) {
-    const double share = space_.dot(pairs_[i].of_residual, least_);
-    least_ -= share * pairs_[i].of_residual;
-    step_ -= share * pairs_[i].of_x;
-  }
+  take_off(least_, step_, pairs_.size());
   least_size_ = space_.norm(least_);
   step_ += least_;
   x_ += step_;
   for (std::size_t i = 0; i < x.size(); ++i) x[i].segment(part_.begin, part_.size) = state(x_, i);
+}
+
+void AndersonAcceleration::take_off(Vector& residual, Vector& x, std::size_t without) const {
+  for (std::size_t i = 0; i < known_; ++i) {
+    if (i == without) continue;
+    const double share = space_.dot(pairs_[i].of_residual, residual);
+    residual -= share * pairs_[i].of_residual;
+    x -= share * pairs_[i].of_x;
+  }
 }
 
 void AndersonAcceleration::remember() {
@@ -48,12 +53,7 @@ void AndersonAcceleration::remember() {
   pair.of_x = step_;
   pair.of_residual = residual_ - least_;
   const double size = space_.norm(pair.of_residual);
-  for (std::size_t i = 0; i < known_; ++i) {
-    if (i == place) continue;
-    const double share = space_.dot(pairs_[i].of_residual, pair.of_residual);
-    pair.of_residual -= share * pairs_[i].of_residual;
-    pair.of_x -= share * pairs_[i].of_x;
-  }
+  take_off(pair.of_residual, pair.of_x, place);
   const double left = space_.norm(pair.of_residual);
   constexpr double parallel = 1e-8;
   if (!(left > parallel * size)) {  // nothing new; or not a number

@@ -35,6 +35,8 @@ class AndersonAcceleration {
   struct Pair {
     Vector of_x, of_residual;  // differences; those of residuals are orthonormal
   };
+  // What of a residual lies in the pairs, but for one of them, and the same shares of their x.
+  void take_off(Vector& residual, Vector& x, std::size_t without) const;
   void remember();  // the last step, and by what it has changed the residual
   auto state(Vector& of_all, std::size_t i) const {
     return of_all.segment(static_cast<Index>(i) * part_.size, part_.size);

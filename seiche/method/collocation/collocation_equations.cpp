@@ -13,8 +13,7 @@ CollocationEquations::CollocationEquations(const System& system, const GaussRule
       force_(system),
       of_forces_(force_.kind() == PhiRows::Forces::gradients ? system.potential->support()
                                                              : Potential::Support{0, system.space->size()}),
-      may_save_(has_tables && rule.nodes.size() > 2),
-      asks_for_errors_(has_tables && (may_save_ || is_gradient_flow(system))),
+      has_tables_(has_tables),
       forces_(static_cast<std::size_t>(rule.nodes.size()), Vector::Zero(system.space->size())),
       components_before_(of_forces_.size),
       change_(Vector::Zero(system.space->size())),
@@ -71,7 +70,7 @@ bool CollocationEquations::solve(const State& s, double t, double h, const PhiMa
 
 // The force at the last node, which follows from all the others, stands for what a sweep changes.
 bool CollocationEquations::sweep(const State& s, double t, double h, const PhiMap& nodes, FunctionRef<double()> error) {
-  SweepControl control(stages(), s.history_h != 0, may_save_);
+  SweepControl control(stages(), s.history_h != 0, has_tables_);
   double change = 0, change_before = 0;
   do {
     components_before_ = forces_.back().segment(of_forces_.begin, of_forces_.size);
@@ -93,7 +92,7 @@ bool CollocationEquations::sweep_accelerated(const State& s, double t, double h,
   constexpr double far = 1e-3;         // from a solution, as a share of its size
   const double of_one = 1 / std::sqrt(static_cast<double>(stages()));
   const double size_before = system_.space->norm(s.z);
-  const bool knows_error = asks_for_errors_ && s.history_h != 0;
+  const bool knows_error = has_tables_ && s.history_h != 0;
   double first = 0, left = 0, size = 0;
   acceleration_->restart();
   for (int sweeps = 1; sweeps <= most; ++sweeps) {

@@ -33,7 +33,7 @@ class CollocationEquations {
   // Without tables of φ an error costs more to know than the sweeps that it saves.
   CollocationEquations(const System& system, const GaussRule& rule, Kept kept, bool has_tables);
 
-  bool asks_for_errors() const { return asks_for_errors_; }
+  bool asks_for_errors() const { return has_tables_ && (stages() > 2 || are_accelerated()); }
   bool are_accelerated() const { return acceleration_.has_value(); }
   PhiRows::Forces kind() const { return force_.kind(); }
   // All components of Z_i, or those that V depends on?
@@ -68,7 +68,7 @@ class CollocationEquations {
   GaussRule rule_;
   NonlinearForce force_;
   Potential::Support of_forces_;
-  bool may_save_, asks_for_errors_;
+  bool has_tables_;
   std::vector<Vector> forces_;
   std::vector<Sample> samples_;
   std::vector<StepDissipation::Energies> energies_;

@@ -25,7 +25,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
         rule_(stages),
         output_{.forces = stages,
                 .order = stages,
-                .kind = NonlinearForce(system).kind(),
+                .kind = NonlinearForce::kind_of(system),
                 .weights = [C = interpolation(rule_.nodes)](double theta) { return collocation_weights(C, theta); }},
         dissipation_(system, *phi_, output_, output_, {rule_, GaussRule(stages + 2), NestedRules(stages)}),
         projected_(system, *phi_, *this, law),

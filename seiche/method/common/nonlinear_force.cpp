@@ -2,10 +2,12 @@
 
 namespace seiche {
 
-NonlinearForce::NonlinearForce(const System& system)
-    : NonlinearForce(system, system.damping->is_constant() && !system.force && !system.structure
-                                 ? PhiRows::Forces::gradients
-                                 : PhiRows::Forces::states) {}
+PhiRows::Forces NonlinearForce::kind_of(const System& system) {
+  return system.damping->is_constant() && !system.force && !system.structure ? PhiRows::Forces::gradients
+                                                                             : PhiRows::Forces::states;
+}
+
+NonlinearForce::NonlinearForce(const System& system) : NonlinearForce(system, kind_of(system)) {}
 
 NonlinearForce::NonlinearForce(const System& system, PhiRows::Forces kind)
     : system_(system), kind_(kind), gradient_(Vector::Zero(system.space->size())), rest_(gradient_) {

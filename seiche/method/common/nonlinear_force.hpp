@@ -13,6 +13,7 @@ class NonlinearForce {
   explicit NonlinearForce(const System& system);               // which outlives it
   NonlinearForce(const System& system, PhiRows::Forces kind);  // states: always N itself
 
+  static PhiRows::Forces kind_of(const System& system);
   PhiRows::Forces kind() const { return kind_; }  // what PhiRows is to say of these forces
 
   using Look = FunctionRef<void(const Vector& z, const Vector& potential_gradient)>;

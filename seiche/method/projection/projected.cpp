@@ -58,7 +58,7 @@ StepReport Projected::step(State& s, double h) {
   const std::int64_t n = s.n;
   prepare(h);
   const bool parts_first = law_ != EnergyLaw::none && base_.may_be_solved_in_parts();
-  Taken taken = take(s, t, h, law_ == EnergyLaw::none || parts_first, report);
+  Taken taken = take(s, t, h, parts_first, report);
   if (taken == Taken::unresolved && law_ == EnergyLaw::none) {
     fail(report, s, h, taken, 0);
     return report;

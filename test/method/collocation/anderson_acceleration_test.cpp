@@ -33,6 +33,10 @@ struct Iteration {
     x[0].segment(part.begin, part.size) = next.head(part.size);
     x[1].segment(part.begin, part.size) = next.tail(part.size);
   }
+  void advance(AndersonAcceleration& acceleration, std::vector<Vector>& x) const {
+    apply(x);
+    acceleration.advance(x);
+  }
   Vector fixed_point() const { return (Matrix::Identity(8, 8) - A).partialPivLu().solve(b); }
 };
 
@@ -55,10 +59,7 @@ TEST(AndersonAcceleration, SolvesALinearEquationInAsManyStepsAsThereAreUnknowns)
     acceleration.restart();
     acceleration.advance(x);
     EXPECT_TRUE(std::isinf(acceleration.residual()));
-    for (int i = 0; i < 10; ++i) {
-      iteration.apply(x);
-      acceleration.advance(x);
-    }
+    for (int i = 0; i < 10; ++i) iteration.advance(acceleration, x);
     EXPECT_LE((Iteration::unknowns(x) - iteration.fixed_point()).norm(), 1e-10);
     EXPECT_EQ(x[1][0], 7.0) << "what is no unknown stays";
     EXPECT_EQ(x[0][5], 7.0);
@@ -99,10 +100,7 @@ TEST(AndersonAcceleration, ForgetsTheOldestIterates) {
   AndersonAcceleration acceleration(space, 2, part, 3);
   std::vector<Vector> x = iteration.start();
   acceleration.advance(x);
-  for (int i = 0; i < 40; ++i) {
-    iteration.apply(x);
-    acceleration.advance(x);
-  }
+  for (int i = 0; i < 40; ++i) iteration.advance(acceleration, x);
   EXPECT_LE((Iteration::unknowns(x) - iteration.fixed_point()).norm(), 1e-8);
 }
 
@@ -114,8 +112,7 @@ TEST(AndersonAcceleration, StaysAtAFixedPoint) {
   std::vector<Vector> x = iteration.start();
   acceleration.advance(x);
   for (int i = 0; i < 6; ++i) {
-    iteration.apply(x);
-    acceleration.advance(x);
+    iteration.advance(acceleration, x);
     EXPECT_EQ(Iteration::unknowns(x), Vector::Ones(8)) << i;
   }
 }

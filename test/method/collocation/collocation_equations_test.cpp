@@ -10,8 +10,6 @@
 namespace seiche::test {
 namespace TEST_FILE {
 
-Vector last(const Solution& s) { return Eigen::Map<const Vector>(s.z.data() + s.z.size() - s.size, s.size); }
-
 // u' = Δu − ∇V + f from u = 0
 Problem from_rest(const std::string& keys) {
   const std::string text =
@@ -25,12 +23,12 @@ Problem from_rest(const std::string& keys) {
 TEST(CollocationEquations, AreSolvedFromRestUnderAForceAndOnASlope) {
   for (const Problem& p : {from_rest("V = \"3*(cosh(u) - 1) + u^3/3\"\nforce = \"50*exp(-(x - 10)^2)*cos(3*x)\"\n"),
                            from_rest("V = \"5*(u - 0.3)^2*(u - 0.7)^2\"\n")}) {
-    const Vector exact = last(solve(p, {.method = "egc6", .h = 0.002, .t_end = 1}));
+    const Vector exact = solve(p, {.method = "egc6", .h = 0.002, .t_end = 1}).last();
     for (const char* method : {"egc2", "egc4", "egc6"}) {
       const Solution s = solve(p, {.method = method, .h = 0.05, .t_end = 1});
       ASSERT_TRUE(s.success()) << method << s.report.message;
       EXPECT_EQ(s.report.halved + s.report.replaced.count, 0) << method << s.report.message;
-      EXPECT_LE((last(s) - exact).lpNorm<Eigen::Infinity>(), 2e-3) << method;
+      EXPECT_LE((s.last() - exact).lpNorm<Eigen::Infinity>(), 2e-3) << method;
     }
   }
 }

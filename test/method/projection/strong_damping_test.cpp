@@ -28,7 +28,7 @@ struct Strong {
 // Infinite where the run gave no solution.
 Vector end_of(const Solution& s) {
   if (!s.success()) return Vector::Constant(s.size, std::numeric_limits<double>::infinity());
-  return Eigen::Map<const Vector>(s.z.data() + s.z.size() - static_cast<std::size_t>(s.size), s.size);
+  return s.last();
 }
 
 MethodOptions with_law(std::optional<EnergyLaw> law) {
