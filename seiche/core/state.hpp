@@ -41,7 +41,8 @@ struct State {
   // it is to round-off. The sav family where r² is relaxed: its modified energy.
   double energy = 0.0;
   double energy_terms = 0.0;  // the sizes of the terms of H(z), to which its round-off is relative
-  // Collocation: the forces at the nodes of the last step, whose length was history_h; none after a start or restart.
+  // Collocation: the forces at the nodes of the last step, whose length was history_h; splittings that look at V where
+  // they end: ∇V(z). Nothing is known, and history_h is 0, after a start or restart.
   std::vector<Vector> history = {};
   double history_h = 0.0;
 

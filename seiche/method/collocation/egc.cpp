@@ -236,11 +236,11 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
   double flow_missed(const State& s, double h) override { return dissipation_.flow_missed(h, s, forces()); }
 
   // The forces before the step are left in forces().
-  void accept(State& s, double h, bool resolved) override {
+  void accept(State& s, double h, const Taken& taken) override {
     last_ = {h, s.history_h};
     missing_is_known_ = false;
     s.history.swap(forces());
-    s.history_h = resolved ? h : 0;
+    s.history_h = taken.resolved ? h : 0;
   }
 
   const Space& space() const { return *system_.space; }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 namespace seiche {
@@ -23,6 +24,8 @@ class BaseStep {
  public:
   virtual ~BaseStep() = default;
 
+  virtual void remember_nothing(State& /*s*/) {}  // makes room in s for what `accept` leaves there
+
   // z ← ẑ, the solution at t + h from s.z at t. False, with z anything, where ẑ is no solution.
   virtual bool compute(const State& s, double t, double h, Vector& z) = 0;
   virtual std::string_view failure() const = 0;  // what has happened then; a literal
@@ -30,6 +33,9 @@ class BaseStep {
 
   // Where a step finds no solution, parts of it do: they are tried before e^{hL}z.
   virtual bool may_be_solved_in_parts() const { return false; }
+
+  // V(ẑ) of the step just computed, where that is known without looking for it.
+  virtual std::optional<double> potential_energy(const Vector& /*z*/) { return std::nullopt; }
 
   // Of the step just computed, where a projection is a part of it: how often that found nothing better than bisection,
   // and whether it moved anything far.
@@ -45,8 +51,11 @@ class BaseStep {
   virtual void prepare_flow(double /*h*/) {}
 
   // The step just computed will be taken: s is still as before it but for what this changes, and never z, t and n.
-  // Not resolved: e^{hL}z was taken instead of ẑ.
-  virtual void accept(State& /*s*/, double /*h*/, bool /*resolved*/) {}
+  struct Taken {
+    bool resolved = true;  // or e^{hL}z was taken instead of ẑ
+    double factor = 1;     // to factor · ẑ; 0: to another state
+  };
+  virtual void accept(State& /*s*/, double /*h*/, const Taken& /*taken*/) {}
 };
 
 }  // namespace seiche

@@ -1,5 +1,7 @@
 #include <seiche/method/projection/energy_line.hpp>
 
+#include <algorithm>
+
 namespace seiche {
 namespace {
 
@@ -17,7 +19,7 @@ EnergyLineScratch::EnergyLineScratch(const System& system)
 }
 
 EnergyLine::EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLineScratch& scratch, const Vector& z,
-                       Direction direction)
+                       Direction direction, std::optional<double> V)
     : system_(system),
       scratch_(scratch),
       z_(z),
@@ -25,19 +27,24 @@ EnergyLine::EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLine
               (direction == Direction::casimir_free && !without_casimirs(system, phi, z, scratch.d))),
       polynomial_(system.potential->degree() > 0) {
   if (is_ray_)
-    prepare_ray();
+    prepare_ray(V);
   else if (direction == Direction::steepest)
     turn_downhill(phi);
 }
 
-void EnergyLine::prepare_ray() {
+void EnergyLine::prepare_ray(std::optional<double> V) {
   if (!polynomial_) {  // slope() takes the gradient, when it is called
     scratch_.d = z_;
     return;
   }
   K_ = system_.linear->quadratic(z_);
   slope_ = Slope{2 * K_.value, std::abs(2 * K_.value)};
-  system_.potential->along_ray(z_, scratch_.V);
+  if (const int degree = system_.potential->homogeneity(); V && degree > 0) {
+    std::fill(scratch_.V.begin(), scratch_.V.end(), 0.0);
+    scratch_.V[static_cast<std::size_t>(degree)] = *V;
+  } else {
+    system_.potential->along_ray(z_, scratch_.V);
+  }
   for (std::size_t k = 1; k < scratch_.V.size(); ++k) {
     slope_->value += static_cast<double>(k) * scratch_.V[k];
     slope_->size += static_cast<double>(k) * std::abs(scratch_.V[k]);

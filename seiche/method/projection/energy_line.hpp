@@ -25,9 +25,9 @@ class EnergyLine {
     ray,           // d = z
     steepest,      // d ∝ ∇H(z) without its Casimir part, as long as z
   };
-  // All outlive the line; one line of a scratch at a time.
+  // All outlive the line; one line of a scratch at a time. V: V(z), where that is known.
   EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLineScratch& scratch, const Vector& z,
-             Direction direction);
+             Direction direction, std::optional<double> V = {});
 
   struct Parts {  // of H at one point
     double lambda = 0;
@@ -46,11 +46,12 @@ class EnergyLine {
   // dH/dλ at 0. But on a ray where V is a polynomial the first call takes a gradient.
   Slope slope();
 
-  void move(Vector& z, double lambda) const;  // z is the vector of the line
+  void move(Vector& z, double lambda) const;                               // z is the vector of the line
+  double factor(double lambda) const { return is_ray_ ? 1 + lambda : 0; }  // of z; 0: that is no multiple of it
   const Vector& direction() const { return is_ray_ ? z_ : scratch_.d; }
 
  private:
-  void prepare_ray();
+  void prepare_ray(std::optional<double> V);
   void take_gradients();
   void turn_downhill(const PhiEvaluator& phi);
 

@@ -28,18 +28,31 @@ EnergyProjection::EnergyProjection(const System& system, const PhiEvaluator& phi
       rest_(system.potential->value(Vector::Zero(system.space->size()))),
       scratch_(system) {}
 
-double EnergyProjection::measure(const Vector& z) {
-  line_.emplace(system_, phi_, scratch_, z, EnergyLine::Direction::casimir_free);
-  start_ = line_->at(0);
+double EnergyProjection::measure(const Vector& z, std::optional<double> V) {
+  line_.reset();
+  V_ = V;
+  if (V) {
+    const ValueAndMagnitude K = system_.linear->quadratic(z);
+    start_ = {.K = K.value, .V = *V, .size = K.magnitude + std::abs(*V)};
+  } else {
+    begin_line(z);
+  }
   return start_.H();
+}
+
+void EnergyProjection::begin_line(const Vector& z) {
+  line_.emplace(system_, phi_, scratch_, z, EnergyLine::Direction::casimir_free, V_);
+  start_ = line_->at(0);
 }
 
 //   zⁿ⁺¹ = ẑ + λ(ẑ − Πẑ),   H(zⁿ⁺¹) = E*                                                                       (E5)
 EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarget& aim) {
   using Direction = EnergyLine::Direction;
+  // Terms of V may be larger than V: where only their sum is known, what round-off makes of H is more than `loss`.
+  if (!line_ && !(start_.H() == aim.H && start_.H() <= aim.cap)) begin_line(z);
   Outcome outcome{
       .computed = start_.H(), .H = start_.H(), .loss = start_.loss(), .values = start_.values(), .terms = start_.size};
-  if (is_there(aim)) {
+  if (!line_ || is_there(aim)) {
     outcome.admissible = true;
     outcome.H = aim.H;
     return outcome;
@@ -99,6 +112,7 @@ bool EnergyProjection::solve(EnergyLine& line, EnergyLine::Parts here, const Ene
   }
   if (!(miss(here) <= here.loss()) || !(here.H() <= aim.cap + slack(here, aim))) return false;
   if (here.lambda != 0) {
+    outcome.factor = line.factor(here.lambda);
     outcome.displacement = std::abs(here.lambda) * system_.space->norm(line.direction());
     line.move(z, here.lambda);
   }
@@ -122,6 +136,7 @@ bool EnergyProjection::bisect(const EnergyLine& line, double goal, Vector& z, Ou
     else
       high = parts.lambda;
   }
+  outcome.factor = line.factor(low.lambda);
   outcome.displacement = std::abs(low.lambda) * system_.space->norm(line.direction());
   line.move(z, low.lambda);
   outcome.admissible = true;

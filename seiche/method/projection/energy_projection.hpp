@@ -27,13 +27,14 @@ class EnergyProjection {
     int iterations = 0;
     double computed = 0;      // Ĥ, of the z that was passed
     double H = 0;             // of the z that came out; the target itself, where it was met to round-off
+    double factor = 1;        // what came out is so many times the z that was passed; 0: no multiple of it
     double displacement = 0;  // Euclidean norm of the move
     double loss = 0;          // what round-off makes of H there
     double values = 0;        // |½ẑᵀMẑ| + |V(ẑ)|, of the z that was passed
     double terms = 0;         // the sizes of the terms of H, of the z that came out
   };
-  // Ĥ = H(z), and the line through z that `project` moves it along: each `project` follows a `measure` of the same z.
-  double measure(const Vector& z);
+  // Ĥ = H(z); each `project` follows a `measure` of the same z. V: its potential energy, where that is known.
+  double measure(const Vector& z, std::optional<double> V = {});
   // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned:
   // then z stays as it is if target < cap and H(z) ≤ cap, for the cap is the law; and otherwise it moves along ∇H. If
   // no iteration converges, to a point with H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if
@@ -46,6 +47,7 @@ class EnergyProjection {
 
  private:
   bool is_there(const EnergyTarget& aim);
+  void begin_line(const Vector& z);
   bool solve(EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z, Outcome& outcome);
   bool bisect(const EnergyLine& line, double goal, Vector& z, Outcome& outcome);
 
@@ -53,8 +55,9 @@ class EnergyProjection {
   const PhiEvaluator& phi_;
   double rest_;
   EnergyLineScratch scratch_;
-  std::optional<EnergyLine> line_;  // of the last `measure`, and H where it begins
-  EnergyLine::Parts start_;
+  std::optional<EnergyLine> line_;  // that z of the last `measure` moves along, once it has to
+  EnergyLine::Parts start_;         // H at that z
+  std::optional<double> V_;
 };
 
 }  // namespace seiche

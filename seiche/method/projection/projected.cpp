@@ -134,10 +134,10 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
   bool resolved = base_.compute(s, t, h, z_);  // propose ẑ
   report.fallbacks += base_.fallbacks();
   if (resolved) {
-    const double computed = projection_.measure(z_);    // Ĥ = H(ẑ)
-    amount = measure_dissipation(s, t, h, computed);    // D and its doubt u: (E3)
-    target = choose_energy(s, t, h, computed, amount);  // E*: (E4)
-    outcome = projection_.project(z_, target);          // zⁿ⁺¹ with H(zⁿ⁺¹) = E*: (E5)
+    const double computed = projection_.measure(z_, base_.potential_energy(z_));  // Ĥ = H(ẑ)
+    amount = measure_dissipation(s, t, h, computed);                              // D and its doubt u: (E3)
+    target = choose_energy(s, t, h, computed, amount);                            // E*: (E4)
+    outcome = projection_.project(z_, target);  // zⁿ⁺¹ with H(zⁿ⁺¹) = E*: (E5)
     resolved = std::isfinite(outcome.terms) && !has_grown_beyond_reason(outcome, s, t, h);
   }
   if (!resolved) {
@@ -246,7 +246,7 @@ Projected::Taken Projected::take_without_law(State& s, double t, double h, StepR
 
 void Projected::commit(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
                        const EnergyProjection::Outcome& outcome, StepReport& report) {
-  base_.accept(s, h, resolved);
+  base_.accept(s, h, {.resolved = resolved, .factor = resolved ? outcome.factor : 0});
   const double asked = std::abs(outcome.computed - outcome.H);
   const double blurred = outcome.displacement > 0 ? std::min(1.0, outcome.loss / asked) : 0;
   last_ = {.t = t,

@@ -89,7 +89,10 @@ class ProjectedStepper final : public Stepper {
                    EnergyLaw law)
       : phi_(std::move(phi)), base_(std::move(base)), projected_(system, *phi_, *base_, law) {}
 
-  void begin(State& s) override { projected_.begin(s); }
+  void begin(State& s) override {
+    projected_.begin(s);
+    base_->remember_nothing(s);
+  }
   StepReport step(State& s, double h) override { return projected_.step(s, h); }
   StepReport attempt(State& s, double h) { return projected_.attempt(s, h); }
   double blur() const { return projected_.last().blur; }

@@ -2,6 +2,7 @@
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/projection/flow_quadrature.hpp>
 #include <seiche/method/splitting/crkn.hpp>
+#include <seiche/method/splitting/end_gradient.hpp>
 #include <seiche/method/splitting/momentum_form.hpp>
 #include <seiche/method/splitting/nystrom_scheme.hpp>
 
@@ -50,26 +51,32 @@ class Nystrom : public BaseStep {
   double taken_ = 0;
 };
 
-// A flow, a kick, a flow, …, each by the operators of the system.
+// A kick, a flow, a kick, …, each by the operators of the system: the force of the last kick is that of the next step's
+// first one.
 class OneByOne : public Nystrom {
  public:
-  OneByOne(const System& system, const PhiEvaluator& phi, int order) : Nystrom(system, phi, order) {
-    for (Vector* v : {&gradient_, &kick_}) v->setZero(system.space->size());
-  }
+  OneByOne(const System& system, const PhiEvaluator& phi, int order)
+      : Nystrom(system, phi, order), end_(system), kick_(system, form()) {}
 
   bool compute(const State& s, double, double h, Vector& z) override {
     z = s.z;
     prepare(h);
     const std::vector<double>& b = scheme().b;
-    const double force = kick(b[0] * h, z) / std::abs(b[0]);
+    const Vector& first = force(z, end_.at_start(s));
+    kick_.add(b[0] * h, first, z);
+    const double size = space().norm(s.z) + h * kick_.length(first);
     double taken = 0;
     for (std::size_t i = 0; i < scheme().flows(); ++i) {
       taken += flow(i, z);
       kick(b[i + 1] * h, z);
     }
     set_taken(taken);
-    return may_be_solution(space(), z, space().norm(s.z) + force) || flow_alone(s, h, z);
+    return may_be_solution(space(), z, size) || flow_alone(s, h, z);
   }
+
+  void remember_nothing(State& s) override { end_.begin(s); }
+  std::optional<double> potential_energy(const Vector&) override { return end_.V(); }
+  void accept(State& s, double h, const Taken& taken) override { end_.accept(s, h, taken.factor); }
 
  protected:
   virtual void prepare(double h) = 0;
@@ -78,21 +85,17 @@ class OneByOne : public Nystrom {
   virtual bool flow_alone(const State& /*s*/, double /*h*/, Vector& /*z*/) { return false; }
   // The i-th A-flow of a step; returns what the damping takes from H in it, where it takes any.
   virtual double flow(std::size_t i, Vector& z) = 0;
-  virtual double kick(double h, Vector& z) = 0;  // returns the length of the kick
+  // What z is kicked by, S before it, from ∇V(z); zero outside the positions.
+  virtual const Vector& force(const Vector& /*z*/, const Vector& gradient) { return gradient; }
 
-  // z += h S g with g in gradient_, zero outside the positions; returns the length of it.
-  double kick_by_gradient(double h, Vector& z) {
-    const auto g = gradient_.segment(form().positions.begin, form().positions.size);
-    if (form().canonical) {
-      z.tail(form().positions.size) -= h * g;
-      return std::abs(h) * space().norm(g);
-    }
-    system().linear->apply_S(gradient_, kick_);
-    z += h * kick_;
-    return std::abs(h) * space().norm(kick_);
-  }
+  const Vector& force_at(const Vector& z) { return force(z, end_.take(z)); }
+  void kick(double h, Vector& z) { kick_.add(h, force_at(z), z); }
+  EndGradient& end() { return end_; }
+  MomentumKick& kicker() { return kick_; }
 
-  Vector gradient_, kick_;
+ private:
+  EndGradient end_;
+  MomentumKick kick_;
 };
 
 class ExactFlows final : public OneByOne {
@@ -116,13 +119,13 @@ class ExactFlows final : public OneByOne {
   double flow_missed(const State& s, double h) override {
     if (!exact_ || exact_->resolves(h)) return 0;
     pushed_ = s.z;
-    system().potential->gradient(s.z, gradient_);
+    const Vector& gradient = end().at_start(s);
     double taken = 0;
     for (std::size_t i = 0; i < scheme().flows(); ++i) {
-      kick_by_gradient(scheme().b[i] * h, pushed_);
+      kicker().add(scheme().b[i] * h, gradient, pushed_);
       taken += flow(i, pushed_);
     }
-    return taken + exact_->miss(h, s.z, gradient_, s.energy_terms);  // of a rule of no weight: less all there is
+    return taken + exact_->miss(h, s.z, gradient, s.energy_terms);  // of a rule of no weight: less all there is
   }
 
  private:
@@ -144,11 +147,6 @@ class ExactFlows final : public OneByOne {
     return dissipates() ? before - system().linear->quadratic_energy(z) : 0;
   }
 
-  double kick(double h, Vector& z) override {
-    system().potential->gradient(z, gradient_);
-    return kick_by_gradient(h, z);
-  }
-
   // Every stage is a time inside the step, although some flows lead back.
   bool flow_alone(const State& s, double h, Vector& z) override {
     const double nothing = epsilon * space().max_norm(s.z);
@@ -156,8 +154,7 @@ class ExactFlows final : public OneByOne {
     double time = 0;
     z = s.z;
     for (std::size_t i = 0; i <= scheme().flows(); ++i) {
-      work_ = z;
-      if (!(kick(h, work_) <= nothing)) return false;
+      if (!(std::abs(h) * kicker().length(force_at(z)) <= nothing)) return false;
       if (i == scheme().flows()) break;
       time = i + 1 < scheme().flows() ? time + scheme().a[i] : 1;
       phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, time * h)->apply(s.z, {}, {&work_, 1});
@@ -212,7 +209,7 @@ class Drifts final : public OneByOne {
  public:
   Drifts(const System& system, const PhiEvaluator& phi, int order)
       : OneByOne(system, phi, order), stages_(form(), scheme()) {
-    for (Vector* v : {&Mz_, &momenta_}) v->setZero(system.space->size());
+    for (Vector* v : {&Mz_, &momenta_, &force_, &drift_}) v->setZero(system.space->size());
   }
 
   std::string_view remedy() const override { return remedy_of_kicks; }
@@ -234,23 +231,21 @@ class Drifts final : public OneByOne {
     momenta_.segment(u.begin, u.size).setZero();
     system().linear->apply_M(momenta_, Mz_);
     const double twice_T = space().dot(momenta_, Mz_);
-    system().linear->apply_S(Mz_, kick_);
-    z += (decay - 1) * momenta_ + length * kick_;
+    system().linear->apply_S(Mz_, drift_);
+    z += (decay - 1) * momenta_ + length * drift_;
     return twice_T * (1 - decay * decay) / 2;
   }
 
-  double kick(double h, Vector& z) override {
+  const Vector& force(const Vector& z, const Vector& gradient) override {
     const Potential::Support u = form().positions;
-    gradient_.segment(u.begin, u.size).setZero();  // where there is no V, its gradient is never written
-    system().potential->gradient(z, gradient_);
     system().linear->apply_M(z, Mz_);
-    gradient_.segment(u.begin, u.size) += Mz_.segment(u.begin, u.size);
-    return kick_by_gradient(h, z);
+    force_.segment(u.begin, u.size) = gradient.segment(u.begin, u.size) + Mz_.segment(u.begin, u.size);
+    return force_;
   }
 
   ExplicitStages stages_;
   std::span<const Kicks::KickAndDrift> of_h_;
-  Vector Mz_, momenta_;
+  Vector Mz_, momenta_, force_, drift_;
 };
 
 // The same where the backend has kicks of its own.

@@ -106,4 +106,24 @@ MomentumForm momentum_form(const System& system) {
   return wider.separable ? wider : form;
 }
 
+MomentumKick::MomentumKick(const System& system, const MomentumForm& form)
+    : system_(system), positions_(form.positions), is_canonical_(form.canonical) {
+  if (!is_canonical_) kick_.setZero(system.space->size());
+}
+
+void MomentumKick::add(double a, const Vector& g, Vector& z) {
+  if (is_canonical_) {
+    z.tail(positions_.size) -= a * g.head(positions_.size);
+    return;
+  }
+  system_.linear->apply_S(g, kick_);
+  z += a * kick_;
+}
+
+double MomentumKick::length(const Vector& g) {
+  if (is_canonical_) return system_.space->norm(g.head(positions_.size));
+  system_.linear->apply_S(g, kick_);
+  return system_.space->norm(kick_);
+}
+
 }  // namespace seiche

@@ -19,4 +19,19 @@ struct MomentumForm {
 };
 MomentumForm momentum_form(const System& system);
 
+// z += a Sg for gradients g of V, which are zero outside the positions.
+class MomentumKick {
+ public:
+  MomentumKick(const System& system, const MomentumForm& form);  // the system outlives it
+
+  void add(double a, const Vector& g, Vector& z);
+  double length(const Vector& g);  // |Sg|
+
+ private:
+  const System& system_;
+  Potential::Support positions_;
+  bool is_canonical_;
+  Vector kick_;
+};
+
 }  // namespace seiche

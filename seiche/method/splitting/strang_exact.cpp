@@ -1,75 +1,137 @@
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/common/nonlinear_force.hpp>
+#include <seiche/method/splitting/end_gradient.hpp>
 #include <seiche/method/splitting/momentum_form.hpp>
 #include <seiche/method/splitting/strang_exact.hpp>
 
 namespace seiche {
 namespace {
 
-class StrangExact final : public BaseStep {
+class StrangExact : public BaseStep {
  public:
   StrangExact(const System& system, const PhiEvaluator& phi)
       : system_(system),
         phi_(phi),
-        force_(system, PhiRows::Forces::states),
         kind_(StepDissipation::kind_of(system, phi)),
-        is_kick_(system.damping->is_constant() && momentum_form(system).kicks &&
-                 !(system.force && system.force->touches_potential())),
-        halves_(cached_step_sizes(system.space->size_of_all())) {
-    for (Vector* v : {&gradient_, &rate_, &rest_, &middle_, &scratch_}) v->setZero(system.space->size());
+        end_(system),
+        flows_(cached_step_sizes(system.space->size_of_all())) {
+    for (Vector* v : {&rest_, &middle_, &scratch_}) v->setZero(system.space->size());
   }
 
-  bool compute(const State& s, double t, double h, Vector& z) override {
-    const PhiMap& half =
-        halves_.at(h, [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h / 2); });
-    half.apply(s.z, {}, {&z, 1});
-    evaluate(t + h / 2, z);
-    const double size = system_.space->norm(s.z) + h * system_.space->norm(rate_);
-    if (!is_kick_) {
-      middle_ = z + h / 2 * rate_;
-      evaluate(t + h / 2, middle_);
-    }
-    middle_ = z + h * rate_;
-    half.apply(middle_, {}, {&z, 1});
-    return may_be_solution(*system_.space, z, size);
-  }
-
+  void remember_nothing(State& s) override { end_.begin(s); }
   std::string_view failure() const override { return "the result of the splitting is not finite"; }
   StepDissipation::Kind dissipation_kind() const override { return kind_; }
 
   // By the values of Q at both ends, which is all that is known.
   StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double) override {
     StepDissipation::Sum sum;
-    add_end(t, s.z, h / 2, sum);
-    add_end(t + h, z, h / 2, sum);
+    const auto add_end = [&](double at, const Vector& end, const Vector& gradient) {
+      sum.add(h / 2, system_.dissipation(at, end, gradient, scratch_, rest_));
+    };
+    add_end(t, s.z, end_.at_start(s));
+    add_end(t + h, z, gradient_at(z));
     return {.fine = sum.taken, .work = sum.work, .negative = sum.negative, .gain = sum.gain};
   }
 
+ protected:
+  const System& system() const { return system_; }
+  const Space& space() const { return *system_.space; }
+  virtual const Vector& gradient_at(const Vector& z) = 0;  // ∇V(ẑ) of the step just computed
+  const PhiMap& flow(double h) {                           // e^{hL}
+    return flows_.at(h, [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); });
+  }
+
+  EndGradient& end() { return end_; }
+  Vector& middle() { return middle_; }
+
  private:
+  const System& system_;
+  const PhiEvaluator& phi_;
+  StepDissipation::Kind kind_;
+  EndGradient end_;
+  StepCache<PhiMap> flows_;
+  Vector rest_, middle_, scratch_;
+};
+
+class KickFlowKick final : public StrangExact {
+ public:
+  KickFlowKick(const System& system, const PhiEvaluator& phi, const MomentumForm& form)
+      : StrangExact(system, phi), kick_(system, form) {}
+
+  bool compute(const State& s, double t, double h, Vector& z) override {
+    middle() = s.z;
+    kick(t, h, end().at_start(s), middle());
+    flow(h).apply(middle(), {}, {&z, 1});
+    kick(t, h, end().take(z), z);
+    return may_be_solution(space(), z, space().norm(s.z) + h * kick_.length(end().last()));
+  }
+
+  std::optional<double> potential_energy(const Vector&) override { return end().V(); }
+  void accept(State& s, double h, const Taken& taken) override { end().accept(s, h, taken.factor); }
+
+ private:
+  const Vector& gradient_at(const Vector&) override { return end().last(); }
+
+  // One of the two of the step from t.
+  void kick(double t, double h, const Vector& gradient, Vector& z) {
+    kick_.add(h / 2, gradient, z);
+    if (system().force) system().force->add(t + h / 2, h / 2, z);
+  }
+
+  MomentumKick kick_;
+};
+
+class FlowMidpointFlow final : public StrangExact {
+ public:
+  FlowMidpointFlow(const System& system, const PhiEvaluator& phi)
+      : StrangExact(system, phi), force_(system, PhiRows::Forces::states), rate_(system.initial) {}
+
+  bool compute(const State& s, double t, double h, Vector& z) override {
+    looked_ = false;
+    flow(h / 2).apply(s.z, {}, {&z, 1});
+    evaluate(t + h / 2, z);
+    const double size = space().norm(s.z) + h * space().norm(rate_);
+    middle() = z + h / 2 * rate_;
+    evaluate(t + h / 2, middle());
+    middle() = z + h * rate_;
+    flow(h / 2).apply(middle(), {}, {&z, 1});
+    return may_be_solution(space(), z, size);
+  }
+
+  // Where `dissipated` asks for the gradient anyway.
+  std::optional<double> potential_energy(const Vector& z) override {
+    if (dissipation_kind() != StepDissipation::Kind::general) return std::nullopt;
+    gradient_at(z);
+    return end().V();
+  }
+  void accept(State& s, double h, const Taken& taken) override { end().accept(s, h, looked_ ? taken.factor : 0); }
+
+ private:
+  const Vector& gradient_at(const Vector& z) override {
+    if (!looked_) end().take(z);
+    looked_ = true;
+    return end().last();
+  }
+
   // rate_ ← N(z) at time t
   void evaluate(double t, const Vector& z) {
     rate_ = z;
     force_.evaluate(t, rate_);
   }
 
-  void add_end(double t, const Vector& z, double weight, StepDissipation::Sum& sum) {
-    system_.potential->gradient(z, gradient_);
-    sum.add(weight, system_.dissipation(t, z, gradient_, scratch_, rest_));
-  }
-
-  const System& system_;
-  const PhiEvaluator& phi_;
   NonlinearForce force_;
-  StepDissipation::Kind kind_;
-  bool is_kick_;
-  StepCache<PhiMap> halves_;  // e^{hL/2}
-  Vector gradient_, rate_, rest_, middle_, scratch_;
+  Vector rate_;
+  bool looked_ = false;  // at ∇V(ẑ)
 };
 
 }  // namespace
 
 std::unique_ptr<BaseStep> strang_exact(const System& system, const PhiEvaluator& phi) {
-  return std::make_unique<StrangExact>(system, phi);
+  const MomentumForm form = momentum_form(system);
+  const bool force_moves_positions = system.force && system.force->touches_potential();
+  if (form.kicks && system.damping->is_constant() && !force_moves_positions)
+    return std::make_unique<KickFlowKick>(system, phi, form);
+  return std::make_unique<FlowMidpointFlow>(system, phi);
 }
 
 }  // namespace seiche

@@ -8,9 +8,10 @@
 
 namespace seiche {
 
-// e^{hL/2}, ż = N(z) for h, e^{hL/2}, with L = SM − D₀ and N(z) = S∇V(z) − (D − D₀)z, D taken at the middle of the
-// step: order two. The flow of N is a kick where S∇V moves momenta alone and D is D₀, and the explicit midpoint rule
-// elsewhere. `system` and `phi` outlive it.
+// Order two, with L = SM − D₀ and N(z) = S∇V(z) − (D − D₀)z, D taken at the middle of the step. Where S∇V moves momenta
+// alone and D is D₀ the flow of N is a kick, and a step kick, e^{hL}, kick: one gradient, that of the end, which also
+// tells V there. Elsewhere e^{hL/2}, ż = N(z) for h by the explicit midpoint rule, e^{hL/2}. `system` and `phi` outlive
+// it.
 std::unique_ptr<BaseStep> strang_exact(const System& system, const PhiEvaluator& phi);
 
 }  // namespace seiche
