@@ -48,10 +48,10 @@ void EnergyProjection::begin_line(const Vector& z) {
 //   zⁿ⁺¹ = ẑ + λ(ẑ − Πẑ),   H(zⁿ⁺¹) = E*                                                                       (E5)
 EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarget& aim) {
   using Direction = EnergyLine::Direction;
-  // Terms of V may be larger than V: where only their sum is known, what round-off makes of H is more than `loss`.
-  if (!line_ && !(start_.H() == aim.H && start_.H() <= aim.cap)) begin_line(z);
+  if (!line_ && !(knows_sizes(aim) && start_.H() == aim.H && start_.H() <= aim.cap)) begin_line(z);
   Outcome outcome{
       .computed = start_.H(), .H = start_.H(), .loss = start_.loss(), .values = start_.values(), .terms = start_.size};
+  if (!line_ && system_.potential->homogeneity() == 0) outcome.terms = std::max(aim.terms, start_.size);
   if (!line_ || is_there(aim)) {
     outcome.admissible = true;
     outcome.H = aim.H;
@@ -81,6 +81,13 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarge
   for (const Direction direction : {Direction::casimir_free, Direction::ray})
     if (bisect(EnergyLine(system_, phi_, scratch_, z, direction), goal, z, outcome)) break;
   return outcome;
+}
+
+// True where the sizes of the terms of H(ẑ) are known without looking at V again: a homogeneous V is one term, and others
+// stay of their size until the energies have fallen far below it.
+bool EnergyProjection::knows_sizes(const EnergyTarget& aim) const {
+  constexpr double far = 0.25;
+  return system_.potential->homogeneity() > 0 || start_.size >= far * aim.terms;
 }
 
 // True where H(ẑ) = E* to round-off. Near rest, where H is flat, to all that round-off makes of it: to mend that,

@@ -46,6 +46,7 @@ class EnergyProjection {
   bool moved_far(const Outcome& outcome, const Vector& z) const;
 
  private:
+  bool knows_sizes(const EnergyTarget& aim) const;
   bool is_there(const EnergyTarget& aim);
   void begin_line(const Vector& z);
   bool solve(EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z, Outcome& outcome);

@@ -63,7 +63,7 @@ class OneByOne : public Nystrom {
     prepare(h);
     const std::vector<double>& b = scheme().b;
     const Vector& first = force(z, end_.at_start(s));
-    kick_.add(b[0] * h, first, z);
+    kick_.apply(b[0] * h, first, z, z);
     const double size = space().norm(s.z) + h * kick_.length(first);
     double taken = 0;
     for (std::size_t i = 0; i < scheme().flows(); ++i) {
@@ -89,7 +89,7 @@ class OneByOne : public Nystrom {
   virtual const Vector& force(const Vector& /*z*/, const Vector& gradient) { return gradient; }
 
   const Vector& force_at(const Vector& z) { return force(z, end_.take(z)); }
-  void kick(double h, Vector& z) { kick_.add(h, force_at(z), z); }
+  void kick(double h, Vector& z) { kick_.apply(h, force_at(z), z, z); }
   EndGradient& end() { return end_; }
   MomentumKick& kicker() { return kick_; }
 
@@ -122,7 +122,7 @@ class ExactFlows final : public OneByOne {
     const Vector& gradient = end().at_start(s);
     double taken = 0;
     for (std::size_t i = 0; i < scheme().flows(); ++i) {
-      kicker().add(scheme().b[i] * h, gradient, pushed_);
+      kicker().apply(scheme().b[i] * h, gradient, pushed_, pushed_);
       taken += flow(i, pushed_);
     }
     return taken + exact_->miss(h, s.z, gradient, s.energy_terms);  // of a rule of no weight: less all there is

@@ -111,13 +111,15 @@ MomentumKick::MomentumKick(const System& system, const MomentumForm& form)
   if (!is_canonical_) kick_.setZero(system.space->size());
 }
 
-void MomentumKick::add(double a, const Vector& g, Vector& z) {
+void MomentumKick::apply(double a, const Vector& g, const Vector& before, Vector& after) {
   if (is_canonical_) {
-    z.tail(positions_.size) -= a * g.head(positions_.size);
+    const Index n = positions_.size;
+    if (&before != &after) after.head(n) = before.head(n);
+    after.tail(n) = before.tail(n) - a * g.head(n);
     return;
   }
   system_.linear->apply_S(g, kick_);
-  z += a * kick_;
+  after = before + a * kick_;
 }
 
 double MomentumKick::length(const Vector& g) {

@@ -19,13 +19,13 @@ struct MomentumForm {
 };
 MomentumForm momentum_form(const System& system);
 
-// z += a Sg for gradients g of V, which are zero outside the positions.
+// after ← before + a Sg for gradients g of V, which are zero outside the positions.
 class MomentumKick {
  public:
   MomentumKick(const System& system, const MomentumForm& form);  // the system outlives it
 
-  void add(double a, const Vector& g, Vector& z);
-  double length(const Vector& g);  // |Sg|
+  void apply(double a, const Vector& g, const Vector& before, Vector& after);  // which may be one
+  double length(const Vector& g);                                              // |Sg|
 
  private:
   const System& system_;
