@@ -74,6 +74,33 @@ ExpressionGraph::ExpressionGraph(int variables, std::span<const std::span<const 
     if (outputs_.size() == 1) first_end_ = nodes_.size();
   }
   find_partners();
+  find_factors();
+}
+
+// What functions, powers, products and quotients are taken of, and what it takes to know that.
+void ExpressionGraph::find_factors() {
+  in_slopes_.assign(first_end_, false);
+  for (std::size_t i = first_end_; i-- > 0;) {
+    const Node& node = nodes_[i];
+    const bool is_sum = node.kind == Kind::add || node.kind == Kind::subtract || node.kind == Kind::negate;
+    const int number = node.kind == Kind::multiply ? number_in_product(node) : -1;
+    if (number >= 0) in_slopes_[static_cast<std::size_t>(number)] = true;
+    if ((is_sum || number >= 0) && !in_slopes_[i]) continue;
+    for (const int operand : {node.a, node.b})
+      if (operand >= 0) in_slopes_[static_cast<std::size_t>(operand)] = true;
+  }
+}
+
+int ExpressionGraph::number_in_product(const Node& product) const {
+  for (const int operand : {product.a, product.b})
+    if (nodes_[static_cast<std::size_t>(operand)].kind == Kind::number) return operand;
+  return -1;
+}
+
+bool ExpressionGraph::has_sums_in_slopes() const {
+  for (std::size_t i = 0; i < first_end_; ++i)
+    if (in_slopes_[i] && (nodes_[i].kind == Kind::add || nodes_[i].kind == Kind::subtract)) return true;
+  return false;
 }
 
 void ExpressionGraph::find_partners() {
@@ -128,16 +155,23 @@ void ExpressionGraph::set_numbers(double* table, std::size_t points) const {
 }
 
 void ExpressionGraph::evaluate(double* table, std::size_t points) const {
-  evaluate_nodes(table, points, nodes_.size());
+  evaluate_nodes(table, points, nodes_.size(), [](std::size_t) { return true; });
 }
 
 void ExpressionGraph::evaluate_first(double* table, std::size_t points) const {
-  evaluate_nodes(table, points, first_end_);
+  evaluate_nodes(table, points, first_end_, [](std::size_t) { return true; });
 }
 
-void ExpressionGraph::evaluate_nodes(double* table, std::size_t points, std::size_t end) const {
+void ExpressionGraph::evaluate_for_slopes(double* table, std::size_t points) const {
+  evaluate_nodes(table, points, first_end_, [this](std::size_t node) { return in_slopes_[node]; });
+}
+
+template <class IsAsked>
+void ExpressionGraph::evaluate_nodes(double* table, std::size_t points, std::size_t end,
+                                     const IsAsked& is_asked) const {
   const auto row = [table](int node) { return table + static_cast<std::size_t>(node) * block; };
   for (std::size_t i = static_cast<std::size_t>(variables_); i < end; ++i) {
+    if (!is_asked(i)) continue;
     const Node& node = nodes_[i];
     double* const out = table + i * block;
     switch (node.kind) {
@@ -152,7 +186,8 @@ void ExpressionGraph::evaluate_nodes(double* table, std::size_t points, std::siz
       case Kind::whole_power: raise(row(node.a), node.index, out, points); break;
       case Kind::call:
         // Sine and cosine of one number come together, where the first of them stands.
-        if (const int partner = node.partner; partner >= 0 && static_cast<std::size_t>(partner) < end) {
+        if (const int partner = node.partner;
+            partner >= 0 && static_cast<std::size_t>(partner) < end && is_asked(static_cast<std::size_t>(partner))) {
           if (static_cast<std::size_t>(partner) < i) break;
           const bool is_sine = node.function->of_many == &VectorFunctions::sin;
           vector_functions().sincos(row(node.a), is_sine ? out : row(partner), is_sine ? row(partner) : out, points);

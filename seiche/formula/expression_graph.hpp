@@ -29,6 +29,7 @@ class ExpressionGraph {
 
   std::span<const Node> nodes() const { return nodes_; }
   int variables() const { return variables_; }
+  int number_in_product(const Node& product) const;  // the operand that is a number; -1: none is
   std::size_t output(std::size_t program) const { return outputs_[program]; }  // the node of its value
 
   // Values of all nodes at up to `block` points, block numbers for each. The caller has put in the numbers of the
@@ -37,6 +38,9 @@ class ExpressionGraph {
   void set_numbers(double* table, std::size_t points = block) const;
   void evaluate(double* table, std::size_t points) const;        // of all programs
   void evaluate_first(double* table, std::size_t points) const;  // of the first program, whose nodes come first
+  // Of these those alone that mean slopes of it are made of: what is only added up is not.
+  void evaluate_for_slopes(double* table, std::size_t points) const;
+  bool has_sums_in_slopes() const;  // is any of these a sum, in which terms might cancel?
 
  private:
   using Key = std::tuple<Instruction::Kind, int, int, double, int, const FormulaFunction*>;
@@ -44,12 +48,15 @@ class ExpressionGraph {
   int add(const Node& node, Known& known);
   int add_program(std::span<const Instruction> program, Known& known);
   void find_partners();
-  void evaluate_nodes(double* table, std::size_t points, std::size_t end) const;
+  void find_factors();
+  template <class IsAsked>
+  void evaluate_nodes(double* table, std::size_t points, std::size_t end, const IsAsked& is_asked) const;
 
   int variables_;
   std::vector<Node> nodes_;
   std::vector<std::size_t> outputs_;
-  std::size_t first_end_ = 0;  // behind the nodes of the first program
+  std::size_t first_end_ = 0;    // behind the nodes of the first program
+  std::vector<bool> in_slopes_;  // of the first program
 };
 
 }  // namespace seiche

@@ -1,4 +1,5 @@
 #include <seiche/core/base/vector.hpp>
+#include <seiche/core/simd/multiversion.hpp>
 #include <seiche/formula/expression_slopes.hpp>
 
 #include <algorithm>
@@ -26,6 +27,14 @@ PowerFactors power_factors(double xa, double xb, double ya, double yb, bool expo
   return {outer * (ya + yb) / 2 * log.mean_slope(xa, xb), outer * (la + lb) / 2};
 }
 
+SEICHE_MULTIVERSION void take_term(const double* f, const double* x, double* out, std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) out[j] = f[j] * x[j];
+}
+SEICHE_MULTIVERSION void add_terms(const double* f, const double* x, const double* g, const double* y, double* out,
+                                   std::size_t n) {
+  for (std::size_t j = 0; j < n; ++j) out[j] = f[j] * x[j] + g[j] * y[j];
+}
+
 // Sums of products; or, with `bounds` for the factors of products, the same where no term has a sign.
 template <bool unsigned_terms>
 void add_up(const ExpressionGraph& graph, const double* a, const double* b, const double* bounds, int directions,
@@ -37,16 +46,19 @@ void add_up(const ExpressionGraph& graph, const double* a, const double* b, cons
     return table[static_cast<std::size_t>(node) * block + j];
   };
   const auto sized = [](double x) { return unsigned_terms ? std::abs(x) : x; };
+  std::array<double, block> of_f, of_g;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before they are read
   // out ← f·(slopes of x) + g·(slopes of y), where x and y are nodes and f and g functions of the point
   const auto combine = [&](std::size_t i, int x, int y, const auto& f, const auto& g) {
     double* const out = slopes + i * width;
     const double* const of_x = slopes + static_cast<std::size_t>(x) * width;
-    const double* const of_y = y < 0 ? of_x : slopes + static_cast<std::size_t>(y) * width;
-    for (std::size_t j = 0; j < points; ++j) {
-      const double fx = sized(f(j));
-      const double gy = y < 0 ? 0.0 : sized(g(j));
-      for (std::size_t d = 0; d < width; d += block)
-        out[d + j] = y < 0 ? fx * of_x[d + j] : fx * of_x[d + j] + gy * of_y[d + j];
+    const double* const of_y = y < 0 ? nullptr : slopes + static_cast<std::size_t>(y) * width;
+    for (std::size_t j = 0; j < points; ++j) of_f[j] = sized(f(j));
+    for (std::size_t j = 0; y >= 0 && j < points; ++j) of_g[j] = sized(g(j));
+    for (std::size_t d = 0; d < width; d += block) {
+      if (y < 0)
+        take_term(of_f.data(), of_x + d, out + d, points);
+      else
+        add_terms(of_f.data(), of_x + d, of_g.data(), of_y + d, out + d, points);
     }
   };
   std::array<double, block> of_call;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
@@ -75,6 +87,11 @@ void add_up(const ExpressionGraph& graph, const double* a, const double* b, cons
       case Kind::subtract: combine(i, x, y, one, minus_one); break;
       case Kind::negate: combine(i, x, -1, minus_one, none); break;
       case Kind::multiply:
+        if (const int number = graph.number_in_product(node); number >= 0) {
+          combine(
+              i, number == x ? y : x, -1, [&](std::size_t j) { return mean(number, j); }, none);
+          break;
+        }
         combine(
             i, x, y, [&](std::size_t j) { return mean(y, j); }, [&](std::size_t j) { return mean(x, j); });
         break;
@@ -159,7 +176,10 @@ void error_bounds(const ExpressionGraph& graph, const double* table, std::size_t
       case Kind::whole_power:
         set([&](std::size_t j) {
           const double n = std::abs(node.index), size = std::abs(x[j]);
-          const double slope = node.index > 0 ? std::pow(size + epsilon * of_x[j], n - 1) : std::abs(value[j]) / size;
+          const double most = size + epsilon * of_x[j];
+          const double slope = node.index == 2  ? most
+                               : node.index > 0 ? std::pow(most, n - 1)
+                                                : std::abs(value[j]) / size;
           return n * (std::abs(value[j]) + (n > 0 ? slope * of_x[j] : 0.0));
         });
         break;

@@ -1,10 +1,12 @@
 #include <seiche/core/numerics/gauss_rule.hpp>
 #include <seiche/formula/cancellation.hpp>
+#include <seiche/formula/expression_code.hpp>
 #include <seiche/formula/expression_slopes.hpp>
 #include <seiche/potential/formula_potential.hpp>
 #include <seiche/potential/loops.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace seiche {
@@ -28,12 +30,36 @@ ExpressionGraph graph_of(const PointFormula& w) {
   return ExpressionGraph(static_cast<int>(w.gradient.size() + axes), programs);
 }
 
+// Of the value alone, for its mean slopes: as it was written, with fewer functions, where no sum in it can cancel.
+ExpressionGraph mean_graph_of(const PointFormula& w) {
+  const int variables = static_cast<int>(w.gradient.size() + axes);
+  ExpressionGraph as_written(variables, std::array{w.value->program()});
+  if (!as_written.has_sums_in_slopes()) return as_written;
+  const FormulaProgram program = without_cancellation(w.value->program());
+  return {variables, std::array{std::span<const Instruction>(program)}};
+}
+
+// Of the values of so many programs from `first` on.
+ExpressionCode code_of(const ExpressionGraph& graph, std::size_t first, std::size_t count) {
+  std::vector<std::size_t> outputs;
+  for (std::size_t program = first; program < first + count; ++program) outputs.push_back(graph.output(program));
+  return {graph, outputs};
+}
+
 class FormulaPotential final : public PointwisePotential {
  public:
   FormulaPotential(const PointFormula& w, const Grid& grid)
-      : w_(w), graph_(graph_of(w)), fields_(w.gradient.size()), mean_rule_(gauss_rule((w.degree + 1) / 2)) {
-    scratch_size_ =
-        std::max((2 + fields_) * graph_.table_size(), 2 * (fields_ + axes) + taylor_scratch_size(graph_, w.degree));
+      : w_(w),
+        graph_(graph_of(w)),
+        mean_graph_(mean_graph_of(w)),
+        fields_(w.gradient.size()),
+        value_(code_of(graph_, 0, 1)),
+        slopes_(code_of(graph_, 1, fields_)),
+        value_and_slopes_(code_of(graph_, 0, 1 + fields_)),
+        mean_rule_(gauss_rule((w.degree + 1) / 2)) {
+    scratch_size_ = std::max({2 * graph_.table_size(), (2 + fields_) * mean_graph_.table_size(),
+                              2 * (fields_ + axes) + taylor_scratch_size(graph_, w.degree),
+                              value_and_slopes_.table_size(), slopes_.table_size(), value_.table_size()});
     if (!w.uses_place) return;
     const Index n = grid.unknowns();
     for (Index a = 0; a < grid.dimension(); ++a) {
@@ -64,13 +90,14 @@ class FormulaPotential final : public PointwisePotential {
 
   double value(std::span<const double> u) const override {
     return sum(u, [&](double* table, std::size_t, std::size_t points) {
-      graph_.evaluate_first(table, points);
-      return total(value_row(table), points);
+      value_.run(table, points);
+      return total(value_.value(0), table, points);
     });
   }
 
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
     LongSum bounds;
+    set_numbers(graph_, u.size());
     const double value = sum(u, [&](double* table, std::size_t, std::size_t points) {
       double* const of_nodes = table + graph_.table_size();
       graph_.evaluate_first(table, points);
@@ -85,17 +112,22 @@ class FormulaPotential final : public PointwisePotential {
   void gradient_round_off(std::span<const double> u, std::span<double> bounds) const override {
     const std::size_t n = u.size() / fields_;
     sum(u, [&](double* table, std::size_t begin, std::size_t points) {
-      double* const of_nodes = table + graph_.table_size();
-      double* const slopes = of_nodes + graph_.table_size();
+      double* of_nodes = table + graph_.table_size();
+      graph_.set_numbers(table, points);
       graph_.evaluate(table, points);
       error_bounds(graph_, table, points, graph_.nodes().size(), of_nodes);
-      sizes_of_slopes(graph_, table, of_nodes, static_cast<int>(fields_), points, slopes);
+      for (std::size_t f = 0; f < fields_; ++f)
+        std::copy_n(of_nodes + graph_.output(1 + f) * block, points, bounds.data() + f * n + begin);
+      of_nodes = table + mean_graph_.table_size();
+      double* const slopes = of_nodes + mean_graph_.table_size();
+      mean_graph_.set_numbers(table, points);
+      mean_graph_.evaluate(table, points);
+      error_bounds(mean_graph_, table, points, mean_graph_.nodes().size(), of_nodes);
+      sizes_of_slopes(mean_graph_, table, of_nodes, static_cast<int>(fields_), points, slopes);
       for (std::size_t f = 0; f < fields_; ++f) {
-        const double* const mean = slopes + (graph_.output(0) * fields_ + f) * block;
-        for (std::size_t j = 0; j < points; ++j) {
-          const double of_mean = std::isfinite(mean[j]) ? mean[j] : 0;
-          bounds[f * n + begin + j] = std::max(slope_row(of_nodes, f)[j], of_mean);
-        }
+        const double* const mean = slopes + (mean_graph_.output(0) * fields_ + f) * block;
+        for (std::size_t j = 0; j < points; ++j)
+          if (std::isfinite(mean[j])) bounds[f * n + begin + j] = std::max(bounds[f * n + begin + j], mean[j]);
       }
       return 0.0;
     });
@@ -140,14 +172,35 @@ class FormulaPotential final : public PointwisePotential {
 
  private:
   const double* value_row(const double* table) const { return table + graph_.output(0) * block; }
-  const double* slope_row(const double* table, std::size_t field) const {
-    return table + graph_.output(1 + field) * block;
-  }
 
   SEICHE_MULTIVERSION static double total(const double* values, std::size_t points) {
     LaneSums sums;
     for_points(0, points, [&](std::size_t j, std::size_t lane) { sums[lane] += values[j]; });
     return sums.total();
+  }
+  static double total(const ExpressionCode::Value& value, const double* table, std::size_t points) {
+    if (value.row < 0) return value.factor * static_cast<double>(points);
+    return value.factor * total(table + static_cast<std::size_t>(value.row) * block, points);
+  }
+
+  SEICHE_MULTIVERSION static void put_between(double theta, const double* a, const double* b, double* out,
+                                              std::size_t points) {
+    for (std::size_t j = 0; j < points; ++j) out[j] = a[j] + theta * (b[j] - a[j]);
+  }
+
+  // out ← or += factor · value
+  template <bool adds = false>
+  static void put_out(const ExpressionCode::Value& value, double factor, const double* table, double* out,
+                      std::size_t points) {
+    factor *= value.factor;
+    if (value.row >= 0)
+      multiply_row<adds>(factor, table + static_cast<std::size_t>(value.row) * block, out, points);
+    else
+      for (std::size_t j = 0; j < points; ++j) out[j] = adds ? out[j] + factor : factor;
+  }
+  template <bool adds>
+  SEICHE_MULTIVERSION static void multiply_row(double factor, const double* row, double* out, std::size_t points) {
+    for (std::size_t j = 0; j < points; ++j) out[j] = adds ? out[j] + factor * row[j] : factor * row[j];
   }
 
   // Fields in the order of u, times `factor`, and the place, into the rows of the variables.
@@ -158,11 +211,14 @@ class FormulaPotential final : public PointwisePotential {
     for (std::size_t a = 0; a < places_.size(); ++a)
       std::copy_n(places_[a].data() + begin, points, table + (fields_ + a) * block);
   }
-  // What stays from block to block of n points in all.
-  void begin_table(double* table, std::size_t n) const {
-    const std::size_t points = std::min(block, n);
-    graph_.set_numbers(table, points);
-    for (std::size_t a = places_.size(); a < axes; ++a) std::fill_n(table + (fields_ + a) * block, points, 0.0);
+  // What stays from block to block of n points in all: no place, and the numbers of a graph, in the first table or the
+  // second.
+  void set_no_place(double* table, std::size_t n) const {
+    for (std::size_t a = places_.size(); a < axes; ++a)
+      std::fill_n(table + (fields_ + a) * block, std::min(block, n), 0.0);
+  }
+  void set_numbers(const ExpressionGraph& graph, std::size_t size, std::size_t table = 0) const {
+    graph.set_numbers(scratch_of(scratch_size_).data() + table * graph.table_size(), std::min(block, size / fields_));
   }
 
   // Σ visit(table, first point, points) over the blocks, with u in the first of 2 + fields_ tables.
@@ -170,7 +226,7 @@ class FormulaPotential final : public PointwisePotential {
   double sum(std::span<const double> u, const Visit& visit, double factor = 1) const {
     double* const table = scratch_of(scratch_size_).data();
     const std::size_t n = u.size() / fields_;
-    begin_table(table, n);
+    set_no_place(table, n);
     LongSum all;
     for (std::size_t begin = 0; begin < n; begin += block) {
       const std::size_t points = std::min(block, n - begin);
@@ -185,26 +241,27 @@ class FormulaPotential final : public PointwisePotential {
     return sum(
         u,
         [&](double* table, std::size_t begin, std::size_t points) {
-          graph_.evaluate(table, points);
+          value_and_slopes_.run(table, points);
           for (std::size_t f = 0; f < fields_; ++f)
-            for (std::size_t j = 0; j < points; ++j) gradient[f * n + begin + j] = out * slope_row(table, f)[j];
-          return total(value_row(table), points);
+            put_out(value_and_slopes_.value(1 + f), out, table, gradient.data() + f * n + begin, points);
+          return total(value_and_slopes_.value(0), table, points);
         },
         in);
   }
 
   void mean_by_slopes(std::span<const double> a, std::span<const double> b, std::span<double> mean) const {
     const std::size_t n = a.size() / fields_;
-    begin_table(scratch_of(scratch_size_).data() + graph_.table_size(), n);
+    for (const std::size_t table : {0, 1}) set_numbers(mean_graph_, a.size(), table);
+    set_no_place(scratch_of(scratch_size_).data() + mean_graph_.table_size(), n);
     sum(a, [&](double* at_a, std::size_t begin, std::size_t points) {
-      double* const at_b = at_a + graph_.table_size();
-      double* const slopes = at_b + graph_.table_size();
+      double* const at_b = at_a + mean_graph_.table_size();
+      double* const slopes = at_b + mean_graph_.table_size();
       put_in(at_b, b, 1, begin, points);
-      graph_.evaluate_first(at_a, points);
-      graph_.evaluate_first(at_b, points);
-      mean_slopes(graph_, at_a, at_b, static_cast<int>(fields_), points, slopes);
+      mean_graph_.evaluate_for_slopes(at_a, points);
+      mean_graph_.evaluate_for_slopes(at_b, points);
+      mean_slopes(mean_graph_, at_a, at_b, static_cast<int>(fields_), points, slopes);
       for (std::size_t f = 0; f < fields_; ++f)
-        std::copy_n(slopes + (graph_.output(0) * fields_ + f) * block, points, mean.data() + f * n + begin);
+        std::copy_n(slopes + (mean_graph_.output(0) * fields_ + f) * block, points, mean.data() + f * n + begin);
       return 0.0;
     });
   }
@@ -215,21 +272,20 @@ class FormulaPotential final : public PointwisePotential {
       for (std::size_t f = 0; f < fields_; ++f) std::fill_n(mean.data() + f * n + begin, points, 0.0);
       for (const auto& [node, weight] : mean_rule_) {
         for (std::size_t f = 0; f < fields_; ++f)
-          for (std::size_t j = 0; j < points; ++j) {
-            const std::size_t i = f * n + begin + j;
-            table[f * block + j] = a[i] + node * (b[i] - a[i]);
-          }
-        graph_.evaluate(table, points);
+          put_between(node, &a[f * n + begin], &b[f * n + begin], table + f * block, points);
+        slopes_.run(table, points);
         for (std::size_t f = 0; f < fields_; ++f)
-          for (std::size_t j = 0; j < points; ++j) mean[f * n + begin + j] += weight * slope_row(table, f)[j];
+          put_out<true>(slopes_.value(f), weight, table, mean.data() + f * n + begin, points);
       }
       return 0.0;
     });
   }
 
   PointFormula w_;
-  ExpressionGraph graph_;
-  std::size_t fields_, scratch_size_;
+  ExpressionGraph graph_;  // of the value and its slopes, rewritten so that their terms do not cancel
+  ExpressionGraph mean_graph_;
+  std::size_t fields_, scratch_size_ = 0;
+  ExpressionCode value_, slopes_, value_and_slopes_;
   std::vector<GaussNode> mean_rule_;         // for polynomials
   std::vector<std::vector<double>> places_;  // by axis; empty unless W asks
 };

@@ -5,6 +5,8 @@
 namespace seiche {
 namespace {
 
+constexpr double same_sizes = 0.01;  // up to here the sizes of the terms of H are those at z
+
 // d = z without its linear Casimirs, or where S changes with z without the means that solutions keep; false: S has no
 // Casimirs.
 bool without_casimirs(const System& system, const PhiEvaluator& phi, const Vector& z, Vector& d) {
@@ -74,7 +76,7 @@ EnergyLine::Slope EnergyLine::slope() {
   return *slope_;
 }
 
-EnergyLine::Parts EnergyLine::at(double lambda) const {
+EnergyLine::Parts EnergyLine::at(double lambda) {
   Parts parts{.lambda = lambda};
   if (is_ray_ && polynomial_) {
     const double x = 1 + lambda;
@@ -91,11 +93,18 @@ EnergyLine::Parts EnergyLine::at(double lambda) const {
   else if (lambda != 0)
     scratch_.trial = z_ + lambda * scratch_.d;
   const Vector& at = lambda == 0 ? z_ : scratch_.trial;
+  if (std::abs(lambda) < same_sizes && size_) {
+    parts.K = system_.linear->quadratic_energy(at);
+    parts.V = system_.potential->value(at);
+    parts.size = *size_;
+    return parts;
+  }
   const ValueAndMagnitude K = system_.linear->quadratic(at);
   const ValueAndMagnitude V = system_.potential->value_and_magnitude(at);
   parts.K = K.value;
   parts.V = V.value;
   parts.size = K.magnitude + V.magnitude;  // and not |K| + |V|, in which terms may cancel
+  if (lambda == 0) size_ = parts.size;
   return parts;
 }
 

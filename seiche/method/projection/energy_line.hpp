@@ -38,7 +38,7 @@ class EnergyLine {
     double round_off() const { return 4 * epsilon * values(); }  // to be hoped for
     double loss() const { return 16 * epsilon * size; }          // to be put up with
   };
-  Parts at(double lambda) const;
+  Parts at(double lambda);
 
   struct Slope {
     double value = 0, size = 0;  // size: the sum of its terms without their signs
@@ -59,7 +59,8 @@ class EnergyLine {
   EnergyLineScratch& scratch_;
   const Vector& z_;
   bool is_ray_, polynomial_;
-  ValueAndMagnitude K_ = {};  // at λ = 0, on the ray
+  ValueAndMagnitude K_ = {};    // at λ = 0, on the ray
+  std::optional<double> size_;  // of the terms of H at λ = 0
   std::optional<Slope> slope_;
 };
 

@@ -83,8 +83,8 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarge
   return outcome;
 }
 
-// True where the sizes of the terms of H(ẑ) are known without looking at V again: a homogeneous V is one term, and others
-// stay of their size until the energies have fallen far below it.
+// True where the sizes of the terms of H(ẑ) are known without looking at V again: a homogeneous V is one term, and
+// others stay of their size until the energies have fallen far below it.
 bool EnergyProjection::knows_sizes(const EnergyTarget& aim) const {
   constexpr double far = 0.25;
   return system_.potential->homogeneity() > 0 || start_.size >= far * aim.terms;
@@ -131,7 +131,7 @@ bool EnergyProjection::solve(EnergyLine& line, EnergyLine::Parts here, const Ene
 
 // z towards the origin of the line, λ = −1, to a point with H ≤ goal; false, with z as it was, if H is above it even
 // there.
-bool EnergyProjection::bisect(const EnergyLine& line, double goal, Vector& z, Outcome& outcome) {
+bool EnergyProjection::bisect(EnergyLine line, double goal, Vector& z, Outcome& outcome) {
   EnergyLine::Parts low = line.at(-1);
   double high = 0;
   if (!(low.H() <= goal)) return false;

@@ -50,7 +50,7 @@ class EnergyProjection {
   bool is_there(const EnergyTarget& aim);
   void begin_line(const Vector& z);
   bool solve(EnergyLine& line, EnergyLine::Parts here, const EnergyTarget& aim, Vector& z, Outcome& outcome);
-  bool bisect(const EnergyLine& line, double goal, Vector& z, Outcome& outcome);
+  bool bisect(EnergyLine line, double goal, Vector& z, Outcome& outcome);
 
   const System& system_;
   const PhiEvaluator& phi_;
