@@ -54,6 +54,10 @@ struct State {
     const std::size_t nodes = history.size(), remembered = midpoints.gradients.size();
     a(z, t, n, stream, r_squared, shift, energy_scale, energy, energy_terms, history, history_h, midpoints);
     if (!a.reads()) return;
+    if (history.empty() && nodes > 0) {  // written before this method kept any
+      history.assign(nodes, Vector::Zero(size));
+      history_h = 0;
+    }
     a.require(z.size() == size && history.size() == nodes && midpoints.gradients.size() == remembered);
     for (const std::vector<Vector>* vectors : {&history, &midpoints.gradients})
       for (const Vector& force : *vectors) a.require(force.size() == size);

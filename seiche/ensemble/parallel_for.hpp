@@ -1,39 +1,31 @@
-// A loop whose turns are independent of each other, on several threads.
+// A loop whose turns are independent of each other and may throw, on the threads that the loops of a step use.
 #pragma once
 
-#include <seiche/core/base/vector.hpp>
+#include <seiche/core/simd/parallel.hpp>
 
-#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <thread>
-#include <vector>
 
 namespace seiche {
 
-// What the first failing turn throws is thrown here, after all threads have ended.
+// What the first failing turn throws is thrown here, when those that had begun are done. Loops inside a turn are its
+// own, and need no threads.
 template <class Turn>
 void parallel_for(Index count, int threads, const Turn& turn) {
-  std::atomic<Index> next = 0;
+  std::atomic<bool> has_failed = false;
   std::mutex mutex;
   std::exception_ptr thrown;
-  const auto work = [&] {
-    for (Index i = next++; i < count; i = next++) {
-      try {
-        turn(i);
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        if (!thrown) thrown = std::current_exception();
-        next = count;
-      }
+  for_blocks(count, threads, [&](Index i) {
+    if (has_failed) return;
+    try {
+      turn(i);
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!thrown) thrown = std::current_exception();
+      has_failed = true;
     }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (Index i = 1; i < std::min<Index>(threads, count); ++i) others.emplace_back(work);
-    work();
-  }
+  });
   if (thrown) std::rethrow_exception(thrown);
 }
 

@@ -1,9 +1,10 @@
-#include <seiche/core/simd/lanes.hpp>
-#include <seiche/core/simd/multiversion.hpp>
+#include <seiche/core/simd/with_lanes.hpp>
 #include <seiche/formula/expression_code.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -19,8 +20,9 @@ constexpr int longest_product = 64;  // of powers; beyond it one call costs less
 
 bool is_arithmetic(const Operation& o) { return o.kind < Do::power; }
 
-// Numbers that can be multiplied, with those of their kind too, without leaving the range of double.
-bool is_moderate(double factor) { return std::abs(factor) > 1e-60 && std::abs(factor) < 1e60; }
+// Numbers that may be multiplied later than it is written: what they are factors of comes no nearer to the ends of
+// double than by this.
+bool is_moderate(double factor) { return std::abs(factor) > 1e-20 && std::abs(factor) < 1e20; }
 
 // Code in which every operation has a place of its own for its result; places become rows once all is known.
 class Builder {
@@ -42,7 +44,8 @@ class Builder {
   int places() const { return places_; }
 
  private:
-  using Key = std::tuple<Operation::Kind, int, int, int, double, double, double, int, const FormulaFunction*>;
+  using Bits = std::uint64_t;  // of numbers: NaN has no place in an order
+  using Key = std::tuple<Operation::Kind, int, int, int, Bits, Bits, Bits, int, const FormulaFunction*>;
 
   Term make(const ExpressionGraph::Node& node, int index) {
     using Is = Instruction::Kind;
@@ -147,7 +150,10 @@ class Builder {
     return x.factor == 1 ? x.place : emit({.kind = Do::affine, .x = x.place, .a = x.factor});
   }
 
-  static Key key_of(const Operation& o) { return {o.kind, o.x, o.y, o.z, o.a, o.b, o.c, o.n, o.function}; }
+  static Key key_of(const Operation& o) {
+    return {o.kind, o.x,       o.y, o.z, std::bit_cast<Bits>(o.a), std::bit_cast<Bits>(o.b), std::bit_cast<Bits>(o.c),
+            o.n,    o.function};
+  }
   int emit(Operation o) {
     const auto [known, is_new] = emitted_.try_emplace(key_of(o), places_);
     if (!is_new) return known->second;
@@ -195,8 +201,9 @@ void fuse(std::vector<Operation>& code, std::vector<int> uses) {
   std::erase_if(code, [](const Operation& o) { return o.out < 0; });
 }
 
-SEICHE_MULTIVERSION const Operation* run_arithmetic(const Operation* o, const Operation* end, double* table,
-                                                    std::size_t points) {
+template <class V>
+[[gnu::always_inline]] inline const Operation* run_arithmetic(const Operation* o, const Operation* end, double* table,
+                                                              std::size_t points) {
   for (; o != end; ++o) {
     const auto row = [table](int place) __attribute__((always_inline)) {  // -1: not asked for
       return table + static_cast<std::size_t>(std::max(place, 0)) * ExpressionCode::block;
@@ -206,33 +213,31 @@ SEICHE_MULTIVERSION const Operation* run_arithmetic(const Operation* o, const Op
     const double a = o->a, b = o->b, c = o->c;
     switch (o->kind) {
       case Do::fill:
-        for (std::size_t j = 0; j < points; j += lane_count) store<Lanes>(out + j, Lanes{} + c);
+        for (std::size_t j = 0; j < points; j += lane_count) store<V>(out + j, V{} + c);
         break;
       case Do::affine:
-        for (std::size_t j = 0; j < points; j += lane_count) store<Lanes>(out + j, a * load<Lanes>(x + j) + c);
+        for (std::size_t j = 0; j < points; j += lane_count) store<V>(out + j, a * load<V>(x + j) + c);
         break;
       case Do::linear:
         for (std::size_t j = 0; j < points; j += lane_count)
-          store<Lanes>(out + j, a * load<Lanes>(x + j) + b * load<Lanes>(z + j) + c);
+          store<V>(out + j, a * load<V>(x + j) + b * load<V>(z + j) + c);
         break;
       case Do::product:
-        for (std::size_t j = 0; j < points; j += lane_count)
-          store<Lanes>(out + j, load<Lanes>(x + j) * load<Lanes>(y + j));
+        for (std::size_t j = 0; j < points; j += lane_count) store<V>(out + j, load<V>(x + j) * load<V>(y + j));
         break;
       case Do::product_affine:
         for (std::size_t j = 0; j < points; j += lane_count)
-          store<Lanes>(out + j, a * (load<Lanes>(x + j) * load<Lanes>(y + j)) + c);
+          store<V>(out + j, a * (load<V>(x + j) * load<V>(y + j)) + c);
         break;
       case Do::product_linear:
         for (std::size_t j = 0; j < points; j += lane_count)
-          store<Lanes>(out + j, a * (load<Lanes>(x + j) * load<Lanes>(y + j)) + b * load<Lanes>(z + j) + c);
+          store<V>(out + j, a * (load<V>(x + j) * load<V>(y + j)) + b * load<V>(z + j) + c);
         break;
       case Do::quotient:
-        for (std::size_t j = 0; j < points; j += lane_count)
-          store<Lanes>(out + j, load<Lanes>(x + j) / load<Lanes>(y + j));
+        for (std::size_t j = 0; j < points; j += lane_count) store<V>(out + j, load<V>(x + j) / load<V>(y + j));
         break;
       case Do::reciprocal:
-        for (std::size_t j = 0; j < points; j += lane_count) store<Lanes>(out + j, 1 / load<Lanes>(x + j));
+        for (std::size_t j = 0; j < points; j += lane_count) store<V>(out + j, 1 / load<V>(x + j));
         break;
       default: return o;
     }
@@ -261,7 +266,8 @@ void run_call(const Operation& o, double* table, std::size_t points) {
 
 }  // namespace
 
-ExpressionCode::ExpressionCode(const ExpressionGraph& graph, std::span<const std::size_t> nodes) {
+ExpressionCode::ExpressionCode(const ExpressionGraph& graph, std::span<const std::size_t> nodes)
+    : variables_(graph.variables()) {
   Builder builder(graph);
   std::vector<Builder::Term> terms;
   for (const std::size_t node : nodes) terms.push_back(builder.of_node(node));
@@ -279,15 +285,14 @@ ExpressionCode::ExpressionCode(const ExpressionGraph& graph, std::span<const std
   for (Operation& o : operations_) for_operands(o, [&](int place) { ++used(place); });
   for (const Builder::Term& term : terms)
     if (term.place >= 0) ++used(term.place);
-  const int variables = graph.variables();
   std::vector<int> row_of(uses.size()), free;
-  for (int v = 0; v < variables; ++v) row_of[static_cast<std::size_t>(v)] = v;
-  rows_ = static_cast<std::size_t>(variables);
+  for (int v = 0; v < variables_; ++v) row_of[static_cast<std::size_t>(v)] = v;
+  rows_ = static_cast<std::size_t>(variables_);
   for (Operation& o : operations_) {
     std::vector<int> released;
     for_operands(o, [&](int& place) {
       const int row = row_of[static_cast<std::size_t>(place)];
-      if (--used(place) == 0 && place >= variables) released.push_back(row);
+      if (--used(place) == 0 && place >= variables_) released.push_back(row);
       place = row;
     });
     if (is_arithmetic(o)) free.insert(free.end(), released.begin(), released.end());
@@ -305,9 +310,17 @@ ExpressionCode::ExpressionCode(const ExpressionGraph& graph, std::span<const std
 }
 
 void ExpressionCode::run(double* table, std::size_t points) const {
+  // All eight lanes are numbers of some point: what no point asks for, 1/0 say, is not computed.
+  const std::size_t asked = points;
+  while (points % lane_count != 0) ++points;
+  for (std::size_t v = 0; v < static_cast<std::size_t>(variables_); ++v)
+    std::fill(table + v * block + asked, table + v * block + points, table[v * block + asked - 1]);
   const Operation* o = operations_.data();
   const Operation* const end = o + operations_.size();
-  while ((o = run_arithmetic(o, end, table, points)) != end) run_call(*o++, table, points);
+  const auto run_arithmetic_here = [&]<class V>() __attribute__((always_inline)) {
+    return run_arithmetic<V>(o, end, table, points);
+  };
+  while ((o = with_lanes(run_arithmetic_here)) != end) run_call(*o++, table, points);
 }
 
 }  // namespace seiche

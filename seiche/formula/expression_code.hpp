@@ -18,8 +18,8 @@ class ExpressionCode {
 
   ExpressionCode(const ExpressionGraph& graph, std::span<const std::size_t> nodes);
 
-  // Rows of the table, of which the first are those of the variables and stay as they are. `run` may write beyond
-  // `points`, up to the end of a row.
+  // Rows of the table, of which the first are those of the variables. Where `points` is no multiple of eight, `run`
+  // repeats the last point up to the next one.
   std::size_t table_size() const { return rows_ * block; }
   void run(double* table, std::size_t points) const;
 
@@ -53,6 +53,7 @@ class ExpressionCode {
   std::span<const Operation> operations() const { return operations_; }
 
  private:
+  int variables_;
   std::vector<Operation> operations_;
   std::vector<Value> values_;
   std::size_t rows_ = 0;

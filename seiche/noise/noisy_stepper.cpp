@@ -29,6 +29,7 @@ class NoisyStepper final : public Stepper {
     }
     place.part = 1;
     bathe(s, t + h / 2, h / 2, place, of_bath.damping_right, of_bath.heat);
+    s.history_h = 0;  // which is of another z
     report.ledger += of_bath;
     return report;
   }

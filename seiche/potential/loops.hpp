@@ -3,9 +3,9 @@
 
 #include <seiche/core/base/vector.hpp>
 #include <seiche/core/potential.hpp>
-#include <seiche/core/simd/lanes.hpp>
 #include <seiche/core/simd/long_sum.hpp>
 #include <seiche/core/simd/multiversion.hpp>
+#include <seiche/core/simd/with_lanes.hpp>
 
 #include <algorithm>
 #include <array>
@@ -120,18 +120,19 @@ template <class W>
   return std::abs(value);
 }
 
-// Σ_j f(j) by f(j, Lanes{}) for the eight numbers from j on, and f(j, 0.0) for one of the last few.
-template <class W, class F>
+// Σ_j f(j) by f(j, V{}) for the eight numbers from j on, and f(j, 0.0) for one of the last few.
+template <class W, class V, class F>
 [[gnu::always_inline]] inline double sum_lanes(std::size_t n, const F& f) {
   if constexpr (TakesLanes<W>) {
     LongSum all;
     for_blocks(
         n, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
-          Lanes sums{};
+          V sums{};
           std::size_t j = begin;
-          for (; j + lane_count <= end; j += lane_count) sums += f(j, Lanes{});
-          for (int lane = 0; j < end; ++j, ++lane) sums[lane] += f(j, 0.0);
-          all.add(sum(sums));
+          for (; j + lane_count <= end; j += lane_count) sums += f(j, V{});
+          std::array<double, lane_count> rest{};
+          for (std::size_t lane = 0; j < end; ++j, ++lane) rest[lane] = f(j, 0.0);
+          all.add(sum(V(sums + load<V>(rest.data()))));
         });
     return all.total();
   } else {
@@ -156,14 +157,17 @@ template <class Compute>
 }
 
 template <class W>
-SEICHE_MULTIVERSION double sum_values(const W& w, const double* u, std::size_t n) {
-  const W local = w;
-  if constexpr (TakesBlocks<W>)
-    return sum_blocks(
-        n, [&](std::size_t begin, std::size_t count, double* values)
-               __attribute__((always_inline)) { local.values(u + begin, values, count); });
-  return sum_lanes<W>(
-      n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) { return local.value(load<X>(u + j)); });
+double sum_values(const W& w, const double* u, std::size_t n) {
+  return with_lanes([&]<class V>() __attribute__((always_inline)) {
+    const W local = w;
+    if constexpr (TakesBlocks<W>)
+      return sum_blocks(
+          n, [&](std::size_t begin, std::size_t count, double* values)
+                 __attribute__((always_inline)) { local.values(u + begin, values, count); });
+    return sum_lanes<W, V>(
+        n, [&]<class X>(std::size_t j, const X&)
+               __attribute__((always_inline)) { return local.value(load<X>(u + j)); });
+  });
 }
 
 template <class W>
@@ -187,18 +191,20 @@ SEICHE_MULTIVERSION ValueAndMagnitude sum_values_and_magnitudes(const W& w, cons
 }
 
 template <class W>
-SEICHE_MULTIVERSION double sum_values_and_slopes(const W& w, const double* u, double* slope, std::size_t n) {
-  const W local = w;
-  if constexpr (TakesBlocks<W>)
-    return sum_blocks(
-        n, [&](std::size_t begin, std::size_t count, double* values)
-               __attribute__((always_inline)) { local.values_and_slopes(u + begin, values, slope + begin, count); });
-  return sum_lanes<W>(
-      n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
-        const X x = load<X>(u + j);
-        store<X>(slope + j, local.slope(x));
-        return local.value(x);
-      });
+double sum_values_and_slopes(const W& w, const double* u, double* slope, std::size_t n) {
+  return with_lanes([&]<class V>() __attribute__((always_inline)) {
+    const W local = w;
+    if constexpr (TakesBlocks<W>)
+      return sum_blocks(
+          n, [&](std::size_t begin, std::size_t count, double* values)
+                 __attribute__((always_inline)) { local.values_and_slopes(u + begin, values, slope + begin, count); });
+    return sum_lanes<W, V>(
+        n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
+          const X x = load<X>(u + j);
+          store<X>(slope + j, local.slope(x));
+          return local.value(x);
+        });
+  });
 }
 
 template <class W>
@@ -213,24 +219,26 @@ SEICHE_MULTIVERSION void slopes(const W& w, const double* u, double* slope, std:
 
 // With u = in · values: values ← out · W'(u).
 template <class W>
-SEICHE_MULTIVERSION double slopes_in_place(const W& w, double in, double out, double* values, std::size_t n) {
-  const W local = w;
-  if constexpr (TakesBlocks<W>) {
-    BlockOfPoints u;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
-    return sum_blocks(
-        n, [&](std::size_t begin, std::size_t count, double* at) __attribute__((always_inline)) {
-          double* const here = values + begin;
-          for (std::size_t j = 0; j < count; ++j) u[j] = in * here[j];
-          local.values_and_slopes(u.data(), at, here, count);
-          for (std::size_t j = 0; j < count; ++j) here[j] *= out;
+double slopes_in_place(const W& w, double in, double out, double* values, std::size_t n) {
+  return with_lanes([&]<class V>() __attribute__((always_inline)) {
+    const W local = w;
+    if constexpr (TakesBlocks<W>) {
+      BlockOfPoints u;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
+      return sum_blocks(
+          n, [&](std::size_t begin, std::size_t count, double* at) __attribute__((always_inline)) {
+            double* const here = values + begin;
+            for (std::size_t j = 0; j < count; ++j) u[j] = in * here[j];
+            local.values_and_slopes(u.data(), at, here, count);
+            for (std::size_t j = 0; j < count; ++j) here[j] *= out;
+          });
+    }
+    return sum_lanes<W, V>(
+        n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
+          const X x = in * load<X>(values + j);
+          store<X>(values + j, out * local.slope(x));
+          return local.value(x);
         });
-  }
-  return sum_lanes<W>(
-      n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
-        const X x = in * load<X>(values + j);
-        store<X>(values + j, out * local.slope(x));
-        return local.value(x);
-      });
+  });
 }
 
 template <class W>

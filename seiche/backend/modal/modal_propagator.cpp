@@ -150,15 +150,15 @@ Make find(const ModalExtent& e, unsigned unit) {
   return nullptr;
 }
 
-template <ModeLayout layout>
-SEICHE_MULTIVERSION double weighted_square_of(const double* M, const double* z, Index slots) {
+template <ModeLayout layout, class V>
+[[gnu::always_inline]] inline double weighted_square_of(const double* M, const double* z, Index slots) {
   constexpr Index per_mode = slots_per_mode(layout);
   using LastV = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
   const auto term = [&](Index slot) __attribute__((always_inline)) {
-    const Lanes x = load<Lanes>(z + slot);
-    return M == nullptr ? x * x : times<layout, Lanes>(M, slot, x) * x;
+    const V x = load<V>(z + slot);
+    return M == nullptr ? x * x : times<layout, V>(M, slot, x) * x;
   };
-  Lanes lanes{}, others{};  // sums that do not wait for one another
+  V lanes{}, others{};  // sums that do not wait for one another
   LastV last{};
   Index slot = 0;
   for (; slot + 2 * lane_count <= slots; slot += 2 * lane_count) {
@@ -174,12 +174,12 @@ SEICHE_MULTIVERSION double weighted_square_of(const double* M, const double* z, 
   return sum(lanes) + sum(last);
 }
 
-template <ModeLayout layout>
-SEICHE_MULTIVERSION void multiply_modes_of(const double* M, const double* z, Index slots, double* out) {
+template <ModeLayout layout, class V>
+[[gnu::always_inline]] inline void multiply_modes_of(const double* M, const double* z, Index slots, double* out) {
   using LastV = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
   Index slot = 0;
   for (; slot + lane_count <= slots; slot += lane_count)
-    store<Lanes>(out + slot, times<layout, Lanes>(M, slot, load<Lanes>(z + slot)));
+    store<V>(out + slot, times<layout, V>(M, slot, load<V>(z + slot)));
   for (; slot < slots; slot += slots_per_mode(layout))
     store<LastV>(out + slot, times<layout, LastV>(M, slot, load<LastV>(z + slot)));
 }
@@ -194,15 +194,19 @@ std::unique_ptr<Propagator> fused_propagator(const Space& space, const ModalExte
 }
 
 double weighted_square(ModeLayout layout, const double* M, const double* z, Index slots) {
-  return layout == ModeLayout::singles ? weighted_square_of<ModeLayout::singles>(M, z, slots)
-                                       : weighted_square_of<ModeLayout::real_pairs>(M, z, slots);
+  return with_lanes([=]<class V>() __attribute__((always_inline)) {
+    return layout == ModeLayout::singles ? weighted_square_of<ModeLayout::singles, V>(M, z, slots)
+                                         : weighted_square_of<ModeLayout::real_pairs, V>(M, z, slots);
+  });
 }
 
 void multiply_modes(ModeLayout layout, const double* M, const double* z, Index slots, double* out) {
-  if (layout == ModeLayout::singles)
-    multiply_modes_of<ModeLayout::singles>(M, z, slots, out);
-  else
-    multiply_modes_of<ModeLayout::real_pairs>(M, z, slots, out);
+  with_lanes([=]<class V>() __attribute__((always_inline)) {
+    if (layout == ModeLayout::singles)
+      multiply_modes_of<ModeLayout::singles, V>(M, z, slots, out);
+    else
+      multiply_modes_of<ModeLayout::real_pairs, V>(M, z, slots, out);
+  });
 }
 
 }  // namespace seiche

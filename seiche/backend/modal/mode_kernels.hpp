@@ -2,8 +2,7 @@
 #pragma once
 
 #include <seiche/backend/modal/mode_arrays.hpp>
-#include <seiche/core/simd/lanes.hpp>
-#include <seiche/core/simd/multiversion.hpp>
+#include <seiche/core/simd/with_lanes.hpp>
 
 #include <array>
 #include <span>
@@ -39,23 +38,10 @@ template <ModeLayout layout, class V>
   if constexpr (layout == ModeLayout::singles) {
     return load<V>(factors + slot) * x;
   } else if constexpr (layout == ModeLayout::real_pairs) {
-    if constexpr (sizeof(V) == sizeof(Pair)) {
-      return factors[slot / 2] * x;
-    } else {
-      const auto c = load<HalfLanes>(factors + slot / 2);
-      return __builtin_shufflevector(c, c, 0, 0, 1, 1, 2, 2, 3, 3) * x;
-    }
+    return load_twice<V>(factors + slot / 2) * x;
   } else {
     const V c = load<V>(factors + slot);
-    if constexpr (sizeof(V) == sizeof(Pair)) {
-      return V{c[0] * x[0] - c[1] * x[1], c[0] * x[1] + c[1] * x[0]};
-    } else {
-      constexpr V sign = {-1, 1, -1, 1, -1, 1, -1, 1};
-      const V re = __builtin_shufflevector(c, c, 0, 0, 2, 2, 4, 4, 6, 6);
-      const V im = __builtin_shufflevector(c, c, 1, 1, 3, 3, 5, 5, 7, 7);
-      const V turned = __builtin_shufflevector(x, x, 1, 0, 3, 2, 5, 4, 7, 6);
-      return re * x + (sign * im) * turned;
-    }
+    return of_pairs<0>(c) * x + with_first_negated(of_pairs<1>(c)) * with_pairs_turned(x);
   }
 }
 
@@ -200,24 +186,28 @@ template <class S>
 using Last = std::conditional_t<S::layout == ModeLayout::singles, double, Pair>;  // what is left behind full lanes
 
 template <class Verb, class S>
-SEICHE_MULTIVERSION void run(const Operands<S>& operands, Index begin, Index end) {
-  const Operands<S> o = operands;  // a copy that no store can change
-  Index slot = begin;
-  for (; slot + lane_count <= end; slot += lane_count) Verb::template at<S, Lanes>(o, slot);
-  for (; slot < end; slot += slots_per_mode(S::layout)) Verb::template at<S, Last<S>>(o, slot);
+void run(const Operands<S>& operands, Index begin, Index end) {
+  with_lanes([&]<class V>() __attribute__((always_inline)) {
+    const Operands<S> o = operands;  // a copy that no store can change
+    Index slot = begin;
+    for (; slot + lane_count <= end; slot += lane_count) Verb::template at<S, V>(o, slot);
+    for (; slot < end; slot += slots_per_mode(S::layout)) Verb::template at<S, Last<S>>(o, slot);
+  });
 }
 
 // What LanesOf adds up, over these slots.
 template <template <class, class> class LanesOf, class S>
-SEICHE_MULTIVERSION auto sums_of(const Operands<S>& operands, Index begin, Index end) {
-  const Operands<S> o = operands;
-  LanesOf<S, Lanes> lanes;
-  LanesOf<S, Last<S>> last;
-  Index slot = begin;
-  for (; slot + lane_count <= end; slot += lane_count) lanes.add(o, slot);
-  for (; slot < end; slot += slots_per_mode(S::layout)) last.add(o, slot);
-  auto sums = lanes.sums();
-  return sums += last.sums();
+auto sums_of(const Operands<S>& operands, Index begin, Index end) {
+  return with_lanes([&]<class V>() __attribute__((always_inline)) {
+    const Operands<S> o = operands;
+    LanesOf<S, V> lanes;
+    LanesOf<S, Last<S>> last;
+    Index slot = begin;
+    for (; slot + lane_count <= end; slot += lane_count) lanes.add(o, slot);
+    for (; slot < end; slot += slots_per_mode(S::layout)) last.add(o, slot);
+    auto sums = lanes.sums();
+    return sums += last.sums();
+  });
 }
 
 }  // namespace seiche::mode_kernels

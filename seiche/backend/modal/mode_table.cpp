@@ -2,6 +2,7 @@
 #include <seiche/backend/modal/mode_table.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/simd/parallel.hpp>
+#include <seiche/core/simd/with_lanes.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,18 +18,18 @@ constexpr std::size_t max_forms = 4;
 
 // The first `count` lanes from memory, 0 < count < lane_count, and zeros. Copies of a size known to the compiler are no
 // calls.
-template <int count = lane_count - 1>
-[[gnu::always_inline]] inline void load_some(const double* from, Index wanted, Lanes& x) {
+template <int count = lane_count - 1, class V>
+[[gnu::always_inline]] inline void load_some(const double* from, Index wanted, V& x) {
   if (wanted == count) {
-    x = Lanes{};
+    x = V{};
     std::memcpy(&x, from, count * sizeof(double));
   } else if constexpr (count > 1) {
     load_some<count - 1>(from, wanted, x);
   }
 }
 
-template <int count = lane_count - 1>
-[[gnu::always_inline]] inline void store_some(double* to, Index wanted, const Lanes& x) {
+template <int count = lane_count - 1, class V>
+[[gnu::always_inline]] inline void store_some(double* to, Index wanted, const V& x) {
   if (wanted == count)
     std::memcpy(to, &x, count * sizeof(double));
   else if constexpr (count > 1)
@@ -36,12 +37,12 @@ template <int count = lane_count - 1>
 }
 
 // The inputs of eight slots. `known` of them, or, for 0, any number up to max_columns.
-template <ModeLayout layout, int known>
+template <class V, ModeLayout layout, int known>
 struct Inputs {
   static constexpr bool are_turned = layout == ModeLayout::complex_pairs;
   static constexpr std::size_t capacity = known == 0 ? max_columns : known;
-  std::array<Lanes, capacity> x;
-  std::array<Lanes, are_turned ? capacity : 0> turned;  // ix, once for all rows
+  std::array<V, capacity> x;
+  std::array<V, are_turned ? capacity : 0> turned;  // ix, once for all rows
   int count;
 
   [[gnu::always_inline]] inline explicit Inputs(std::span<const double* const> in)
@@ -50,70 +51,67 @@ struct Inputs {
   // `left`: slots from `begin` to the end of a field
   [[gnu::always_inline]] inline void load_from(const double* const* in, Index begin, Index left) {
     if (left >= lane_count) {
-      for (int j = 0; j < size(); ++j) x[j] = load<Lanes>(in[j] + begin);
+      for (int j = 0; j < size(); ++j) x[j] = load<V>(in[j] + begin);
     } else {
       for (int j = 0; j < size(); ++j) load_some(in[j] + begin, left, x[j]);
     }
-    if constexpr (are_turned) {
-      constexpr Lanes sign = {-1, 1, -1, 1, -1, 1, -1, 1};
-      for (int j = 0; j < size(); ++j) turned[j] = sign * __builtin_shufflevector(x[j], x[j], 1, 0, 3, 2, 5, 4, 7, 6);
-    }
+    if constexpr (are_turned)
+      for (int j = 0; j < size(); ++j) turned[j] = with_first_negated(with_pairs_turned(x[j]));
   }
   // factors of the modes of these slots × input j
-  [[gnu::always_inline]] inline Lanes times(const double* factors, int j) const {
+  [[gnu::always_inline]] inline V times(const double* factors, int j) const {
     if constexpr (are_turned) {
-      const Lanes c = load<Lanes>(factors);
-      return __builtin_shufflevector(c, c, 0, 0, 2, 2, 4, 4, 6, 6) * x[j] +
-             __builtin_shufflevector(c, c, 1, 1, 3, 3, 5, 5, 7, 7) * turned[j];
+      const V c = load<V>(factors);
+      return of_pairs<0>(c) * x[j] + of_pairs<1>(c) * turned[j];
     } else {
-      return mode_kernels::times<layout, Lanes>(factors, 0, x[j]);
+      return mode_kernels::times<layout, V>(factors, 0, x[j]);
     }
   }
   [[gnu::always_inline]] inline int size() const { return known == 0 ? count : known; }
 };
 
-template <ModeLayout layout, int known>
-SEICHE_MULTIVERSION void sum_rows(const ModeFactors& factors, std::span<const double* const> in,
-                                  std::span<double* const> out, Index first, Index last) {
+template <class V, ModeLayout layout, int known>
+[[gnu::always_inline]] inline void sum_rows(const ModeFactors& factors, std::span<const double* const> in,
+                                            std::span<double* const> out, Index first, Index last) {
   constexpr Index stride = lane_count / slots_per_mode(layout) * factors_per_mode(layout);
   const Index slots = factors.slots();
   const double* factor = factors.of_chunk(first);
   const double* const* const inputs = in.data();
   double* const* const rows = out.data();
   const std::size_t row_count = out.size();
-  Inputs<layout, known> x(in);
+  Inputs<V, layout, known> x(in);
   for (Index chunk = first; chunk < last; ++chunk) {
     const Index begin = chunk * lane_count;
     const Index left = slots - begin;
     x.load_from(inputs, begin, left);
     for (std::size_t i = 0; i < row_count; ++i) {
-      Lanes sum = x.times(factor, 0);
+      V sum = x.times(factor, 0);
       for (int j = 1; j < x.size(); ++j) sum += x.times(factor + j * stride, j);
       factor += x.size() * stride;
       if (left >= lane_count)
-        store<Lanes>(rows[i] + begin, sum);
+        store<V>(rows[i] + begin, sum);
       else
         store_some(rows[i] + begin, left, sum);
     }
   }
 }
 
-template <ModeLayout layout, int known>
-SEICHE_MULTIVERSION void sum_forms(const ModeFactors& factors, std::span<const double* const> in, Index first,
-                                   Index last, std::span<double> values) {
+template <class V, ModeLayout layout, int known>
+[[gnu::always_inline]] inline void sum_forms(const ModeFactors& factors, std::span<const double* const> in, Index first,
+                                             Index last, std::span<double> values) {
   constexpr Index stride = lane_count / slots_per_mode(layout) * factors_per_mode(layout);
   const Index slots = factors.slots();
   const double* factor = factors.of_chunk(first);
   const double* const* const inputs = in.data();
   const std::size_t forms = values.size();
-  Inputs<layout, known> x(in);
-  std::array<Lanes, max_forms> totals{};
+  Inputs<V, layout, known> x(in);
+  std::array<V, max_forms> totals{};
   for (Index chunk = first; chunk < last; ++chunk) {
     x.load_from(inputs, chunk * lane_count, slots - chunk * lane_count);
     for (std::size_t l = 0; l < forms; ++l) {
-      Lanes total = totals[l];
+      V total = totals[l];
       for (int i = 0; i < x.size(); ++i) {
-        Lanes row = x.times(factor, i);
+        V row = x.times(factor, i);
         factor += stride;
         for (int j = i + 1; j < x.size(); ++j, factor += stride) row += x.times(factor, j);
         total += x.x[i] * row;
@@ -188,7 +186,10 @@ void ModeTable::apply(std::span<const double* const> in, std::span<double* const
     return;
   }
   over_blocks(factors_, threads, [&]<ModeLayout layout>(Index first, Index last) {
-    with_columns(columns_, [&]<int known>() { sum_rows<layout, known>(factors_, in, out, first, last); });
+    with_columns(columns_, [&]<int known>() {
+      with_lanes([&]<class V>()
+                     __attribute__((always_inline)) { sum_rows<V, layout, known>(factors_, in, out, first, last); });
+    });
   });
 }
 
@@ -212,8 +213,11 @@ void ModeForms::apply(std::span<const double* const> in, std::span<double> value
               [&](Index begin, Index end, std::span<double> sums) {
                 const Index first = begin / lane_count, last = (end + lane_count - 1) / lane_count;
                 with_layout(factors_.layout(), [&]<ModeLayout layout>() {
-                  with_columns(columns_,
-                               [&]<int known>() { sum_forms<layout, known>(factors_, in, first, last, sums); });
+                  with_columns(columns_, [&]<int known>() {
+                    with_lanes([&]<class V>() __attribute__((always_inline)) {
+                      sum_forms<V, layout, known>(factors_, in, first, last, sums);
+                    });
+                  });
                 });
               });
 }

@@ -1,7 +1,6 @@
 #include <seiche/backend/sparse/equal_rows.hpp>
-#include <seiche/core/simd/lanes.hpp>
 #include <seiche/core/simd/long_sum.hpp>
-#include <seiche/core/simd/multiversion.hpp>
+#include <seiche/core/simd/with_lanes.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +15,10 @@ using KickAndDrift = Kicks::KickAndDrift;
 
 template <class V>
 [[gnu::always_inline]] inline V absolute(const V& x) {
-  return x < 0 ? -x : x;
+  if constexpr (is_in_parts<V>)
+    return {absolute(x.low), absolute(x.high)};
+  else
+    return x < 0 ? -x : x;
 }
 
 // Row j of x, or rows j … j + 7.
@@ -41,7 +43,7 @@ template <std::size_t taps, class Visit>
   Index j = run.begin;
   if (run.end - run.begin >= few)
     for (; j % lane_count != 0; ++j) visit_row<double>(offsets, a, x, j, visit);
-  for (; j + lane_count <= run.end; j += lane_count) visit_row<Lanes>(offsets, a, x, j, visit);
+  for (; j + lane_count <= run.end; j += lane_count) visit_row<typename Visit::EightRows>(offsets, a, x, j, visit);
   for (; j < run.end; ++j) visit_row<double>(offsets, a, x, j, visit);
   all = visit;
 }
@@ -78,8 +80,9 @@ template <class Visit>
   }
 }
 
+template <class L>
 struct Sums {
-  Lanes lanes{};
+  L lanes{};
   double rest = 0;
   Sums() = default;
   // One by one: a whole register read from where a single number has just been written would wait for the memory.
@@ -90,19 +93,22 @@ struct Sums {
     rest = other.rest;
     return *this;
   }
-  [[gnu::always_inline]] inline void add(const Lanes& x) { lanes += x; }
+  [[gnu::always_inline]] inline void add(const L& x) { lanes += x; }
   [[gnu::always_inline]] inline void add(double x) { rest += x; }
   [[gnu::always_inline]] inline double total() const { return sum(lanes) + rest; }
 };
 
+template <class L>
 struct RowProduct {
+  using EightRows = L;
   template <class V>
   [[gnu::always_inline]] static inline void add(V& sum, V&, double a, const V& x) {
     sum += a * x;
   }
 };
 
-struct Store : RowProduct {
+template <class L>
+struct Store : RowProduct<L> {
   explicit Store(double* into) : out(into) {}
   double* out;
   template <class V>
@@ -111,19 +117,22 @@ struct Store : RowProduct {
   }
 };
 
-struct Form : RowProduct {
+template <class L>
+struct Form : RowProduct<L> {
   explicit Form(const double* of) : x(of) {}
   const double* x;
-  Sums total{};
+  Sums<L> total{};
   template <class V>
   [[gnu::always_inline]] inline void row(Index j, const V& sum, const V&) {
-    total.add(load<V>(x + j) * sum);
+    total.add(V(load<V>(x + j) * sum));
   }
 };
 
+template <class L>
 struct FormAndMagnitude {
+  using EightRows = L;
   const double* x;
-  Sums total{}, magnitude{};
+  Sums<L> total{}, magnitude{};
   template <class V>
   [[gnu::always_inline]] static inline void add(V& sum, V& size, double a, const V& x) {
     sum += a * x;
@@ -132,13 +141,13 @@ struct FormAndMagnitude {
   template <class V>
   [[gnu::always_inline]] inline void row(Index j, const V& sum, const V& size) {
     const V here = load<V>(x + j);
-    total.add(here * sum);
-    magnitude.add(absolute(here) * size);
+    total.add(V(here * sum));
+    magnitude.add(V(absolute(here) * size));
   }
 };
 
-template <bool has_g>
-struct Subtract : RowProduct {
+template <class L, bool has_g>
+struct Subtract : RowProduct<L> {
   Subtract(double factor, const Operands& in, double* into)
       : c(factor), g(in.g), y(in.y), g_begin(in.g_begin), out(into) {}
   double c;
@@ -157,11 +166,11 @@ struct Subtract : RowProduct {
   }
 };
 
-template <bool has_g>
-struct SubtractAndDrift : Subtract<has_g> {
+template <class L, bool has_g>
+struct SubtractAndDrift : Subtract<L, has_g> {
   // NOLINTNEXTLINE(readability-non-const-parameter): the base writes to y_into
   SubtractAndDrift(const KickAndDrift& factors, const Operands& in, double* x_into, double* y_into)
-      : Subtract<has_g>(factors.kick, in, y_into),
+      : Subtract<L, has_g>(factors.kick, in, y_into),
         x(in.x),
         x_after(x_into),
         length(factors.length),
@@ -169,7 +178,7 @@ struct SubtractAndDrift : Subtract<has_g> {
   const double* x;
   double* x_after;
   double length, decay;
-  Sums squares{};
+  Sums<L> squares{};
   template <class V>
   [[gnu::always_inline]] inline void row(Index j, const V& sum, const V&) {
     const V p = this->after(j, sum);
@@ -179,9 +188,11 @@ struct SubtractAndDrift : Subtract<has_g> {
   }
 };
 
-SEICHE_MULTIVERSION void apply_rows(std::span<const Run> runs, const double* x, double* out) {
-  Store visit(out);
-  visit_runs(runs, x, visit);
+void apply_rows(std::span<const Run> runs, const double* x, double* out) {
+  with_lanes([&]<class L>() __attribute__((always_inline)) {
+    Store<L> visit(out);
+    visit_runs(runs, x, visit);
+  });
 }
 
 // visit(part) for parts of runs, each a block of a long sum.
@@ -197,56 +208,64 @@ template <class Visit>
   }
 }
 
-SEICHE_MULTIVERSION double form_of_rows(std::span<const Run> runs, const double* x) {
-  LongSum total;
-  for_blocks(
-      runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
-        Form visit(x);
-        visit_runs(part, x, visit);
-        total.add(visit.total.total());
-      });
-  return total.total();
+double form_of_rows(std::span<const Run> runs, const double* x) {
+  return with_lanes([&]<class L>() __attribute__((always_inline)) {
+    LongSum total;
+    for_blocks(
+        runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
+          Form<L> visit(x);
+          visit_runs(part, x, visit);
+          total.add(visit.total.total());
+        });
+    return total.total();
+  });
 }
 
-SEICHE_MULTIVERSION ValueAndMagnitude form_and_magnitude_of_rows(std::span<const Run> runs, const double* x) {
-  LongSum total, magnitude;
-  for_blocks(
-      runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
-        FormAndMagnitude visit{.x = x};
-        visit_runs(part, x, visit);
-        total.add(visit.total.total());
-        magnitude.add(visit.magnitude.total());
-      });
-  return {total.total(), magnitude.total()};
+ValueAndMagnitude form_and_magnitude_of_rows(std::span<const Run> runs, const double* x) {
+  return with_lanes([&]<class L>() __attribute__((always_inline)) {
+    LongSum total, magnitude;
+    for_blocks(
+        runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
+          FormAndMagnitude<L> visit{.x = x};
+          visit_runs(part, x, visit);
+          total.add(visit.total.total());
+          magnitude.add(visit.magnitude.total());
+        });
+    return ValueAndMagnitude{total.total(), magnitude.total()};
+  });
 }
 
 }  // namespace
 
-SEICHE_MULTIVERSION void subtract_rows(std::span<const Run> runs, double c, const Operands& in, double* out) {
-  if (in.g != nullptr) {
-    Subtract<true> visit(c, in, out);
-    visit_runs(runs, in.x, visit);
-  } else {
-    Subtract<false> visit(c, in, out);
-    visit_runs(runs, in.x, visit);
-  }
+void subtract_rows(std::span<const Run> runs, double c, const Operands& in, double* out) {
+  with_lanes([&]<class L>() __attribute__((always_inline)) {
+    if (in.g != nullptr) {
+      Subtract<L, true> visit(c, in, out);
+      visit_runs(runs, in.x, visit);
+    } else {
+      Subtract<L, false> visit(c, in, out);
+      visit_runs(runs, in.x, visit);
+    }
+  });
 }
 
-SEICHE_MULTIVERSION double kick_and_drift(std::span<const Run> runs, const KickAndDrift& factors, const Operands& in,
-                                          double* x_after, double* y_after) {
-  LongSum squares;
-  for_blocks(
-      runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
-        const auto add = [&](auto visit) __attribute__((always_inline)) {
-          visit_runs(part, in.x, visit);
-          squares.add(visit.squares.total());
-        };
-        if (in.g != nullptr)
-          add(SubtractAndDrift<true>(factors, in, x_after, y_after));
-        else
-          add(SubtractAndDrift<false>(factors, in, x_after, y_after));
-      });
-  return squares.total();
+double kick_and_drift(std::span<const Run> runs, const KickAndDrift& factors, const Operands& in, double* x_after,
+                      double* y_after) {
+  return with_lanes([&]<class L>() __attribute__((always_inline)) {
+    LongSum squares;
+    for_blocks(
+        runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
+          const auto add = [&](auto visit) __attribute__((always_inline)) {
+            visit_runs(part, in.x, visit);
+            squares.add(visit.squares.total());
+          };
+          if (in.g != nullptr)
+            add(SubtractAndDrift<L, true>(factors, in, x_after, y_after));
+          else
+            add(SubtractAndDrift<L, false>(factors, in, x_after, y_after));
+        });
+    return squares.total();
+  });
 }
 
 std::optional<EqualRows> EqualRows::of(const SparseMatrix& A, Limit limit) {

@@ -1,5 +1,4 @@
-// Eight numbers that are computed together: one AVX-512 register, two of AVX2, four of SSE2. Plain C++ of GCC and
-// Clang.
+// Eight numbers that are computed together, in the widest registers of an instruction set. Plain C++ of GCC and Clang.
 #pragma once
 
 #include <cstring>
@@ -17,24 +16,150 @@ using HalfLanes = double __attribute__((vector_size(32)));
 using Pair = double __attribute__((vector_size(16)));
 inline constexpr int lane_count = 8;
 
-// Always inlined, so that they are compiled for the instruction set of the loop around them.
+// A vector that is wider than the registers there are is computed through the stack: 3 to 5 times as many instructions.
+// Hence it is two of half its width, down to those that fit.
+template <class Half>
+struct TwoOf {
+  Half low, high;
+
+  [[gnu::always_inline]] friend inline TwoOf operator+(const TwoOf& x, const TwoOf& y) {
+    return {x.low + y.low, x.high + y.high};
+  }
+  [[gnu::always_inline]] friend inline TwoOf operator-(const TwoOf& x, const TwoOf& y) {
+    return {x.low - y.low, x.high - y.high};
+  }
+  [[gnu::always_inline]] friend inline TwoOf operator*(const TwoOf& x, const TwoOf& y) {
+    return {x.low * y.low, x.high * y.high};
+  }
+  [[gnu::always_inline]] friend inline TwoOf operator/(const TwoOf& x, const TwoOf& y) {
+    return {x.low / y.low, x.high / y.high};
+  }
+  [[gnu::always_inline]] friend inline TwoOf operator+(const TwoOf& x, double y) { return {x.low + y, x.high + y}; }
+  [[gnu::always_inline]] friend inline TwoOf operator*(double x, const TwoOf& y) { return {x * y.low, x * y.high}; }
+  [[gnu::always_inline]] friend inline TwoOf operator/(double x, const TwoOf& y) { return {x / y.low, x / y.high}; }
+  [[gnu::always_inline]] inline TwoOf& operator+=(const TwoOf& y) { return *this = *this + y; }
+};
+
+using LanesInQuarters = TwoOf<TwoOf<Pair>>;
+using LanesInHalves = TwoOf<HalfLanes>;
+
+template <class V>
+inline constexpr bool is_in_parts = false;
+template <class Half>
+inline constexpr bool is_in_parts<TwoOf<Half>> = true;
+
+// Always inlined, so that they are compiled for the instruction set of the loop around them. Part by part: what is
+// copied as a whole goes through the stack.
 template <class V>
 [[gnu::always_inline]] inline V load(const double* p) {
-  V v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
+  if constexpr (is_in_parts<V>) {
+    using Half = decltype(V::low);
+    return {load<Half>(p), load<Half>(p + sizeof(Half) / sizeof(double))};
+  } else {
+    V v;
+    std::memcpy(&v, p, sizeof v);
+    return v;
+  }
 }
 
 template <class V>
 [[gnu::always_inline]] inline void store(double* p, const V& v) {
-  std::memcpy(p, &v, sizeof v);
+  if constexpr (is_in_parts<V>) {
+    store(p, v.low);
+    store(p + sizeof(v.low) / sizeof(double), v.high);
+  } else {
+    std::memcpy(p, &v, sizeof v);
+  }
+}
+
+// x₁ x₀ x₃ x₂ …
+template <class V>
+[[gnu::always_inline]] inline V with_pairs_turned(const V& x) {
+  if constexpr (is_in_parts<V>)
+    return {with_pairs_turned(x.low), with_pairs_turned(x.high)};
+  else if constexpr (sizeof(V) == sizeof(Lanes))
+    return __builtin_shufflevector(x, x, 1, 0, 3, 2, 5, 4, 7, 6);
+  else if constexpr (sizeof(V) == sizeof(HalfLanes))
+    return __builtin_shufflevector(x, x, 1, 0, 3, 2);
+  else
+    return __builtin_shufflevector(x, x, 1, 0);
+}
+
+// x₀ x₀ x₂ x₂ …, or x₁ x₁ x₃ x₃ …
+template <int which, class V>
+[[gnu::always_inline]] inline V of_pairs(const V& x) {
+  if constexpr (is_in_parts<V>)
+    return {of_pairs<which>(x.low), of_pairs<which>(x.high)};
+  else if constexpr (sizeof(V) == sizeof(Lanes))
+    return __builtin_shufflevector(x, x, which, which, 2 + which, 2 + which, 4 + which, 4 + which, 6 + which,
+                                   6 + which);
+  else if constexpr (sizeof(V) == sizeof(HalfLanes))
+    return __builtin_shufflevector(x, x, which, which, 2 + which, 2 + which);
+  else
+    return __builtin_shufflevector(x, x, which, which);
+}
+
+// p₀ p₀ p₁ p₁ … from memory
+template <class V>
+[[gnu::always_inline]] inline V load_twice(const double* p) {
+  if constexpr (is_in_parts<V>) {
+    using Half = decltype(V::low);
+    return {load_twice<Half>(p), load_twice<Half>(p + sizeof(Half) / sizeof(Pair))};
+  } else if constexpr (sizeof(V) == sizeof(Lanes)) {
+    const auto c = load<HalfLanes>(p);
+    return __builtin_shufflevector(c, c, 0, 0, 1, 1, 2, 2, 3, 3);
+  } else if constexpr (sizeof(V) == sizeof(HalfLanes)) {
+    const auto c = load<Pair>(p);
+    return __builtin_shufflevector(c, c, 0, 0, 1, 1);
+  } else {
+    return Pair{p[0], p[0]};
+  }
+}
+
+// −x₀ x₁ −x₂ x₃ …
+template <class V>
+[[gnu::always_inline]] inline V with_first_negated(const V& x) {
+  if constexpr (is_in_parts<V>)
+    return {with_first_negated(x.low), with_first_negated(x.high)};
+  else if constexpr (sizeof(V) == sizeof(Lanes))
+    return x * V{-1, 1, -1, 1, -1, 1, -1, 1};
+  else if constexpr (sizeof(V) == sizeof(HalfLanes))
+    return x * V{-1, 1, -1, 1};
+  else
+    return x * V{-1, 1};
+}
+
+template <class V>
+[[gnu::always_inline]] inline double last_of(const V& x) {
+  if constexpr (is_in_parts<V>)
+    return last_of(x.high);
+  else
+    return x[sizeof(V) / sizeof(double) - 1];
+}
+
+// The last of `before`, and then x but for its last.
+template <class V>
+[[gnu::always_inline]] inline V shifted(const V& before, const V& x) {
+  if constexpr (is_in_parts<V>)
+    return {shifted(before.high, x.low), shifted(x.low, x.high)};
+  else if constexpr (sizeof(V) == sizeof(Lanes))
+    return __builtin_shufflevector(before, x, 7, 8, 9, 10, 11, 12, 13, 14);
+  else if constexpr (sizeof(V) == sizeof(HalfLanes))
+    return __builtin_shufflevector(before, x, 3, 4, 5, 6);
+  else
+    return __builtin_shufflevector(before, x, 1, 2);
 }
 
 // In one fixed order, whatever the instruction set.
 [[gnu::always_inline]] inline double sum(const Lanes& v) {
   return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
 }
+[[gnu::always_inline]] inline double sum(const HalfLanes& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
 [[gnu::always_inline]] inline double sum(const Pair& v) { return v[0] + v[1]; }
 [[gnu::always_inline]] inline double sum(double v) { return v; }
+template <class Half>
+[[gnu::always_inline]] inline double sum(const TwoOf<Half>& v) {
+  return sum(v.low) + sum(v.high);
+}
 
 }  // namespace seiche

@@ -5,14 +5,25 @@ namespace seiche {
 #ifdef SEICHE_MULTIVERSION_IS_ON
 namespace {
 // Chosen by the same rule as the loops.
-[[gnu::target("arch=x86-64-v4")]] const char* name() { return "x86-64-v4"; }
-[[gnu::target("arch=x86-64-v3")]] const char* name() { return "x86-64-v3"; }
-[[gnu::target("default")]] const char* name() { return "baseline"; }
+[[gnu::target("arch=x86-64-v4")]] int bits() { return 512; }
+[[gnu::target("arch=x86-64-v3")]] int bits() { return 256; }
+[[gnu::target("default")]] int bits() { return 128; }
 }  // namespace
 
-const char* instruction_set() { return name(); }
+int register_bits() {
+  static const int known = bits();
+  return known;
+}
+#elif defined(__AVX512F__)
+int register_bits() { return 512; }
+#elif defined(__AVX__)
+int register_bits() { return 256; }
 #else
-const char* instruction_set() { return "baseline"; }
+int register_bits() { return 128; }
 #endif
+
+const char* instruction_set() {
+  return register_bits() == 512 ? "x86-64-v4" : register_bits() == 256 ? "x86-64-v3" : "baseline";
+}
 
 }  // namespace seiche

@@ -22,5 +22,6 @@ namespace seiche {
 
 // Which of the versions runs here: "x86-64-v4", "x86-64-v3" or "baseline".
 const char* instruction_set();
+int register_bits();  // of its vectors: 512, 256 or 128
 
 }  // namespace seiche

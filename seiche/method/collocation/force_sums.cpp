@@ -1,5 +1,4 @@
-#include <seiche/core/simd/lanes.hpp>
-#include <seiche/core/simd/multiversion.hpp>
+#include <seiche/core/simd/with_lanes.hpp>
 #include <seiche/method/collocation/force_sums.hpp>
 
 #include <algorithm>
@@ -10,20 +9,21 @@ namespace seiche {
 namespace {
 
 // `count` outputs at a time, whose sums the registers hold; squares[i] += ‖out[i]‖² of this part.
-template <int count>
-SEICHE_MULTIVERSION void combine_some(const double* weights, Index weight_stride, const double* const* in, Index inputs,
-                                      Index begin, Index end, double* const* out, double* squares) {
-  std::array<Lanes, count> lanes{};
+template <class V, int count>
+[[gnu::always_inline]] inline void combine_some(const double* weights, Index weight_stride, const double* const* in,
+                                                Index inputs, Index begin, Index end, double* const* out,
+                                                double* squares) {
+  std::array<V, count> lanes{};
   std::array<double, count> rest{};
   Index k = begin;
   for (; k + lane_count <= end; k += lane_count) {
-    std::array<Lanes, count> sums{};
+    std::array<V, count> sums{};
     for (Index j = 0; j < inputs; ++j) {
-      const Lanes x = load<Lanes>(in[j] + k);
+      const V x = load<V>(in[j] + k);
       for (int i = 0; i < count; ++i) sums[i] += weights[i + j * weight_stride] * x;
     }
     for (int i = 0; i < count; ++i) {
-      store<Lanes>(out[i] + k, sums[i]);
+      store<V>(out[i] + k, sums[i]);
       lanes[i] += sums[i] * sums[i];
     }
   }
@@ -38,12 +38,13 @@ SEICHE_MULTIVERSION void combine_some(const double* weights, Index weight_stride
   for (int i = 0; i < count; ++i) squares[i] += sum(lanes[i]) + rest[i];
 }
 
-SEICHE_MULTIVERSION double squared_distance(const double* a, const double* b, Index size) {
-  Lanes lanes{};
+template <class V>
+[[gnu::always_inline]] inline double squared_distance(const double* a, const double* b, Index size) {
+  V lanes{};
   double rest = 0;
   Index k = 0;
   for (; k + lane_count <= size; k += lane_count) {
-    const Lanes d = load<Lanes>(a + k) - load<Lanes>(b + k);
+    const V d = load<V>(a + k) - load<V>(b + k);
     lanes += d * d;
   }
   for (; k < size; ++k) rest += (a[k] - b[k]) * (a[k] - b[k]);
@@ -71,8 +72,10 @@ double combine(const Space& space, const Eigen::MatrixXd& weights, std::span<con
       const auto of_unit = [&](Index unit, std::span<double> sums) {
         std::fill(sums.begin(), sums.end(), 0.0);
         field.for_parts(size, unit, [&](Index at, Index length) {
-          combine_some<known>(weights.data() + first, weights.rows(), from.data(), weights.cols(), at, at + length,
-                              to.data(), sums.data());
+          with_lanes([&]<class V>() __attribute__((always_inline)) {
+            combine_some<V, known>(weights.data() + first, weights.rows(), from.data(), weights.cols(), at, at + length,
+                                   to.data(), sums.data());
+          });
         });
       };
       space.add(field.units, of_unit, std::span(squares).first(known));
@@ -96,7 +99,9 @@ double distance(const Space& space, const Vector& whole, Index begin, const Vect
   return std::sqrt(space.total(field.units, [&](Index unit) {
     double sum = 0;
     field.for_parts(b.size(), unit, [&](Index at, Index length) {
-      sum += squared_distance(whole.data() + begin + at, b.data() + at, length);
+      sum += with_lanes([&]<class V>() __attribute__((always_inline)) {
+        return squared_distance<V>(whole.data() + begin + at, b.data() + at, length);
+      });
     });
     return sum;
   }));

@@ -83,8 +83,8 @@ EnergyProjection::Outcome EnergyProjection::project(Vector& z, const EnergyTarge
   return outcome;
 }
 
-// True where the sizes of the terms of H(ẑ) are known without looking at V again: a homogeneous V is one term, and
-// others stay of their size until the energies have fallen far below it.
+// True where the sizes of the terms of H(ẑ) are known well enough without looking at V again: of a homogeneous V the
+// line knows |V| alone anyway, and others are taken to stay of their size until the energies have fallen far below it.
 bool EnergyProjection::knows_sizes(const EnergyTarget& aim) const {
   constexpr double far = 0.25;
   return system_.potential->homogeneity() > 0 || start_.size >= far * aim.terms;

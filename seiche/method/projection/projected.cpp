@@ -38,7 +38,8 @@ void Projected::read_energy(State& s) const {
 void Projected::begin(State& s) {
   read_energy(s);
   if (law_ == EnergyLaw::interval && base_.dissipation_kind() != StepDissipation::Kind::none)
-    rate_.largest(s.t, 0, s.z, s.z);  // allocates now
+    rate_.largest(s.t, 0, s.z, s.z);                            // allocates now
+  if (law_ != EnergyLaw::none) phi_.without_casimirs(s.z, z_);  // so may this
   if (!std::isfinite(s.energy))
     throw Error("the energy of the initial state is not a finite number (H = {})", number_text(s.energy));
 }

@@ -93,6 +93,10 @@ class ProjectedStepper final : public Stepper {
     projected_.begin(s);
     base_->remember_nothing(s);
   }
+  void restart(State& s) override {
+    projected_.restart(s);
+    base_->remember_nothing(s);
+  }
   StepReport step(State& s, double h) override { return projected_.step(s, h); }
   StepReport attempt(State& s, double h) { return projected_.attempt(s, h); }
   double blur() const { return projected_.last().blur; }

@@ -59,11 +59,13 @@ class KickFlowKick final : public StrangExact {
       : StrangExact(system, phi), kick_(system, form), has_law_(law != EnergyLaw::none) {}
 
   bool compute(const State& s, double t, double h, Vector& z) override {
-    kick(t, h, end().at_start(s), s.z, middle());
+    const Vector& first = end().at_start(s);
+    const double size = has_law_ ? 0 : space().norm(s.z) + h * kick_.length(first);
+    kick(t, h, first, s.z, middle());
     flow(h).apply(middle(), {}, {&z, 1});
     kick(t, h, end().take(z), z, z);
     // Terms of H that have grown beyond reason tell the same of ẑ, and a law asks for them anyway.
-    return has_law_ || may_be_solution(space(), z, space().norm(s.z) + h * kick_.length(end().last()));
+    return has_law_ || may_be_solution(space(), z, size);
   }
 
   std::optional<double> potential_energy(const Vector&) override { return end().V(); }

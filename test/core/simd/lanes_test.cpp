@@ -1,0 +1,83 @@
+// Eight lanes in registers of any width do the same.
+#include <gtest/gtest.h>
+#include <seiche/core/simd/with_lanes.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace seiche::test {
+namespace TEST_FILE {
+
+using Eight = std::array<double, lane_count>;
+
+constexpr Eight a = {1, -2, 3, -4, 5, -6, 7, -8};
+constexpr Eight b = {0.5, 0.25, 2, 4, -0.5, -0.25, -2, -4};
+
+template <class V>
+Eight numbers(const V& x) {
+  Eight out{};
+  store<V>(out.data(), x);
+  return out;
+}
+
+template <class Of>
+Eight each(const Of& of) {
+  Eight out{};
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = of(i);
+  return out;
+}
+
+template <class V>
+class LanesOf : public testing::Test {};
+
+// The sign of a zero is lost to ==, and no result here is one.
+using Widths = testing::Types<Lanes, LanesInHalves, LanesInQuarters>;
+TYPED_TEST_SUITE(LanesOf, Widths, );
+
+TYPED_TEST(LanesOf, ArithmeticActsOnEachNumber) {
+  const auto x = load<TypeParam>(a.data()), y = load<TypeParam>(b.data());
+  EXPECT_EQ(numbers<TypeParam>(x + y), each([](std::size_t i) { return a[i] + b[i]; }));
+  EXPECT_EQ(numbers<TypeParam>(x - y), each([](std::size_t i) { return a[i] - b[i]; }));
+  EXPECT_EQ(numbers<TypeParam>(x * y), each([](std::size_t i) { return a[i] * b[i]; }));
+  EXPECT_EQ(numbers<TypeParam>(x / y), each([](std::size_t i) { return a[i] / b[i]; }));
+  EXPECT_EQ(numbers<TypeParam>(3 * x + 0.125), each([](std::size_t i) { return 3 * a[i] + 0.125; }));
+  EXPECT_EQ(numbers<TypeParam>(2 / y), each([](std::size_t i) { return 2 / b[i]; }));
+  TypeParam z = x;
+  z += y;
+  EXPECT_EQ(numbers<TypeParam>(z), each([](std::size_t i) { return a[i] + b[i]; }));
+}
+
+TYPED_TEST(LanesOf, PairsAreTurnedSpreadAndNegated) {
+  const auto x = load<TypeParam>(a.data());
+  EXPECT_EQ(numbers<TypeParam>(with_pairs_turned(x)), each([](std::size_t i) { return a[i ^ 1U]; }));
+  EXPECT_EQ(numbers<TypeParam>(of_pairs<0>(x)), each([](std::size_t i) { return a[i / 2 * 2]; }));
+  EXPECT_EQ(numbers<TypeParam>(of_pairs<1>(x)), each([](std::size_t i) { return a[i / 2 * 2 + 1]; }));
+  EXPECT_EQ(numbers<TypeParam>(load_twice<TypeParam>(a.data())), each([](std::size_t i) { return a[i / 2]; }));
+  EXPECT_EQ(numbers<TypeParam>(with_first_negated(x)), each([](std::size_t i) { return i % 2 == 0 ? -a[i] : a[i]; }));
+}
+
+TYPED_TEST(LanesOf, NumbersAreShiftedFromOneEightIntoTheNext) {
+  const auto x = load<TypeParam>(a.data()), y = load<TypeParam>(b.data());
+  EXPECT_EQ(numbers<TypeParam>(shifted(x, y)), each([](std::size_t i) { return i == 0 ? a[7] : b[i - 1]; }));
+  EXPECT_EQ(last_of(x), a[7]);
+}
+
+// To the bit, since sums over a grid must not depend on the processor more than its products do.
+TYPED_TEST(LanesOf, SumsAreTakenInOneOrder) {
+  const Eight rough = each([](std::size_t i) { return std::sin(1.0 + static_cast<double>(i)) * std::pow(10.0, i); });
+  const double expected =
+      ((rough[0] + rough[1]) + (rough[2] + rough[3])) + ((rough[4] + rough[5]) + (rough[6] + rough[7]));
+  EXPECT_EQ(sum(load<TypeParam>(rough.data())), expected);
+}
+
+TEST(WithLanes, ChoosesTheWidestRegistersAndHandsBackWhatTheBodyReturns) {
+  const double total = with_lanes([]<class V>() __attribute__((always_inline)) { return sum(load<V>(b.data())); });
+  EXPECT_EQ(total, 0);
+  const int parts = with_lanes([]<class V>() __attribute__((always_inline)) {
+    return is_in_parts<V> ? sizeof(V{}) == sizeof(LanesInHalves) && !std::is_same_v<V, LanesInQuarters> ? 2 : 4 : 1;
+  });
+  EXPECT_EQ(parts, 512 / register_bits());
+}
+
+}  // namespace TEST_FILE
+}  // namespace seiche::test
