@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace seiche {
 namespace {
@@ -48,19 +49,19 @@ ExpressionCode code_of(const ExpressionGraph& graph, std::size_t first, std::siz
 
 class FormulaPotential final : public PointwisePotential {
  public:
-  FormulaPotential(const PointFormula& w, const Grid& grid)
-      : w_(w),
-        graph_(graph_of(w)),
-        mean_graph_(mean_graph_of(w)),
-        fields_(w.gradient.size()),
+  FormulaPotential(PointFormula w, const Grid& grid)
+      : w_(std::move(w)),
+        graph_(graph_of(w_)),
+        mean_graph_(mean_graph_of(w_)),
+        fields_(w_.gradient.size()),
         value_(code_of(graph_, 0, 1)),
         slopes_(code_of(graph_, 1, fields_)),
         value_and_slopes_(code_of(graph_, 0, 1 + fields_)),
-        mean_rule_(gauss_rule((w.degree + 1) / 2)) {
+        mean_rule_(gauss_rule((w_.degree + 1) / 2)) {
     scratch_size_ = std::max({2 * graph_.table_size(), (2 + fields_) * mean_graph_.table_size(),
-                              2 * (fields_ + axes) + taylor_scratch_size(graph_, w.degree),
+                              2 * (fields_ + axes) + taylor_scratch_size(graph_, w_.degree),
                               value_and_slopes_.table_size(), slopes_.table_size(), value_.table_size()});
-    if (!w.uses_place) return;
+    if (!w_.uses_place) return;
     const Index n = grid.unknowns();
     for (Index a = 0; a < grid.dimension(); ++a) {
       places_.emplace_back(static_cast<std::size_t>(n));

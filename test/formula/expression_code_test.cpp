@@ -2,6 +2,7 @@
 #include <seiche/formula/expression_code.hpp>
 #include <seiche/formula/formula_compiler.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,7 +96,7 @@ TEST(ExpressionCode, SinesAndCosinesOfOneAngleAndOfItsHalfComeFromOneCall) {
 
 TEST(ExpressionCode, RowsTakeTurns) {
   std::string text = "u";
-  for (int k = 1; k < 40; ++k) text = "(" + text + "*v + " + std::to_string(k) + ")";
+  for (int k = 1; k < 40; ++k) text = fmt::format("({}*v + {})", text, k);
   const ExpressionCode code = Written({text}).code();
   EXPECT_GE(code.operations().size(), 39U);
   EXPECT_LE(code.table_size(), 4 * block);

@@ -131,7 +131,7 @@ struct Form : RowProduct<L> {
 template <class L>
 struct FormAndMagnitude {
   using EightRows = L;
-  const double* x;
+  const double* x = nullptr;
   Sums<L> total{}, magnitude{};
   template <class V>
   [[gnu::always_inline]] static inline void add(V& sum, V& size, double a, const V& x) {
@@ -188,12 +188,15 @@ struct SubtractAndDrift : Subtract<L, has_g> {
   }
 };
 
+// NOLINTBEGIN(readability-non-const-parameter): visits write there
 void apply_rows(std::span<const Run> runs, const double* x, double* out) {
   with_lanes([&]<class L>() __attribute__((always_inline)) {
     Store<L> visit(out);
     visit_runs(runs, x, visit);
   });
 }
+
+// NOLINTEND(readability-non-const-parameter)
 
 // visit(part) for parts of runs, each a block of a long sum.
 template <class Visit>
@@ -237,6 +240,7 @@ ValueAndMagnitude form_and_magnitude_of_rows(std::span<const Run> runs, const do
 
 }  // namespace
 
+// NOLINTBEGIN(readability-non-const-parameter): visits write there
 void subtract_rows(std::span<const Run> runs, double c, const Operands& in, double* out) {
   with_lanes([&]<class L>() __attribute__((always_inline)) {
     if (in.g != nullptr) {
@@ -267,6 +271,8 @@ double kick_and_drift(std::span<const Run> runs, const KickAndDrift& factors, co
     return squares.total();
   });
 }
+
+// NOLINTEND(readability-non-const-parameter)
 
 std::optional<EqualRows> EqualRows::of(const SparseMatrix& A, Limit limit) {
   constexpr std::size_t most_kinds =
