@@ -69,7 +69,7 @@ class FormulaPotential final : public PointwisePotential {
     }
   }
 
-  FormulaPotential(const FormulaPotential& all, Index first, Index count) : FormulaPotential(all) {
+  FormulaPotential(FormulaPotential all, Index first, Index count) : FormulaPotential(std::move(all)) {
     for (std::vector<double>& coordinates : places_)
       coordinates = {coordinates.begin() + first, coordinates.begin() + first + count};
   }
