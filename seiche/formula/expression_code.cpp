@@ -189,7 +189,10 @@ void fuse(std::vector<Operation>& code, std::vector<int> uses) {
     Operation& o = code[i];
     if (o.kind == Do::product && uses[static_cast<std::size_t>(o.out)] == 1) products[o.out] = i;
     if (o.kind != Do::linear && o.kind != Do::affine) continue;
-    if (o.kind == Do::linear && !products.contains(o.x)) std::swap(o.x, o.z), std::swap(o.a, o.b);
+    if (o.kind == Do::linear && !products.contains(o.x)) {
+      std::swap(o.x, o.z);
+      std::swap(o.a, o.b);
+    }
     const auto term = products.find(o.x);
     if (term == products.end()) continue;
     Operation& p = code[term->second];
@@ -201,15 +204,16 @@ void fuse(std::vector<Operation>& code, std::vector<int> uses) {
   std::erase_if(code, [](const Operation& o) { return o.out < 0; });
 }
 
+[[gnu::always_inline]] inline double* row_of(double* table, int place) {  // -1: not asked for
+  return table + static_cast<std::size_t>(std::max(place, 0)) * ExpressionCode::block;
+}
+
 template <class V>
 [[gnu::always_inline]] inline const Operation* run_arithmetic(const Operation* o, const Operation* end, double* table,
                                                               std::size_t points) {
   for (; o != end; ++o) {
-    const auto row = [table](int place) __attribute__((always_inline)) {  // -1: not asked for
-      return table + static_cast<std::size_t>(std::max(place, 0)) * ExpressionCode::block;
-    };
-    const double *const x = row(o->x), *const y = row(o->y), *const z = row(o->z);
-    double* const out = row(o->out);
+    const double *const x = row_of(table, o->x), *const y = row_of(table, o->y), *const z = row_of(table, o->z);
+    double* const out = row_of(table, o->out);
     const double a = o->a, b = o->b, c = o->c;
     switch (o->kind) {
       case Do::fill:
@@ -246,14 +250,11 @@ template <class V>
 }
 
 void run_call(const Operation& o, double* table, std::size_t points) {
-  const auto row = [table](int place) {
-    return table + static_cast<std::size_t>(std::max(place, 0)) * ExpressionCode::block;
-  };
-  const double *const x = row(o.x), *const y = row(o.y);
-  double* const out = row(o.out);
+  const double *const x = row_of(table, o.x), *const y = row_of(table, o.y);
+  double* const out = row_of(table, o.out);
   switch (o.kind) {
     case Do::power: return vector_functions().pow(x, y, out, points);
-    case Do::sine_and_cosine: return vector_functions().sincos(x, out, row(o.z), points);
+    case Do::sine_and_cosine: return vector_functions().sincos(x, out, row_of(table, o.z), points);
     case Do::whole_power:
       for (std::size_t j = 0; j < points; ++j) out[j] = std::pow(x[j], o.n);
       return;
@@ -285,13 +286,13 @@ ExpressionCode::ExpressionCode(const ExpressionGraph& graph, std::span<const std
   for (Operation& o : operations_) for_operands(o, [&](int place) { ++used(place); });
   for (const Builder::Term& term : terms)
     if (term.place >= 0) ++used(term.place);
-  std::vector<int> row_of(uses.size()), free;
-  for (int v = 0; v < variables_; ++v) row_of[static_cast<std::size_t>(v)] = v;
+  std::vector<int> rows(uses.size()), free;
+  for (int v = 0; v < variables_; ++v) rows[static_cast<std::size_t>(v)] = v;
   rows_ = static_cast<std::size_t>(variables_);
   for (Operation& o : operations_) {
     std::vector<int> released;
     for_operands(o, [&](int& place) {
-      const int row = row_of[static_cast<std::size_t>(place)];
+      const int row = rows[static_cast<std::size_t>(place)];
       if (--used(place) == 0 && place >= variables_) released.push_back(row);
       place = row;
     });
@@ -300,13 +301,13 @@ ExpressionCode::ExpressionCode(const ExpressionGraph& graph, std::span<const std
       const bool grows = free.empty();
       const int row = grows ? static_cast<int>(rows_++) : free.back();
       if (!grows) free.pop_back();
-      row_of[static_cast<std::size_t>(place)] = row;
+      rows[static_cast<std::size_t>(place)] = row;
       place = row;
     });
     if (!is_arithmetic(o)) free.insert(free.end(), released.begin(), released.end());
   }
   for (const auto& [factor, place] : terms)
-    values_.push_back({factor, place < 0 ? -1 : row_of[static_cast<std::size_t>(place)]});
+    values_.push_back({factor, place < 0 ? -1 : rows[static_cast<std::size_t>(place)]});
 }
 
 void ExpressionCode::run(double* table, std::size_t points) const {

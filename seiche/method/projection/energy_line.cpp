@@ -21,7 +21,7 @@ EnergyLineScratch::EnergyLineScratch(const System& system)
 }
 
 EnergyLine::EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLineScratch& scratch, const Vector& z,
-                       Direction direction, std::optional<double> V)
+                       Direction direction, const std::optional<Known>& known)
     : system_(system),
       scratch_(scratch),
       z_(z),
@@ -29,21 +29,21 @@ EnergyLine::EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLine
               (direction == Direction::casimir_free && !without_casimirs(system, phi, z, scratch.d))),
       polynomial_(system.potential->degree() > 0) {
   if (is_ray_)
-    prepare_ray(V);
+    prepare_ray(known);
   else if (direction == Direction::steepest)
     turn_downhill(phi);
 }
 
-void EnergyLine::prepare_ray(std::optional<double> V) {
+void EnergyLine::prepare_ray(const std::optional<Known>& known) {
   if (!polynomial_) {  // slope() takes the gradient, when it is called
     scratch_.d = z_;
     return;
   }
-  K_ = system_.linear->quadratic(z_);
+  K_ = known ? known->K : system_.linear->quadratic(z_);
   slope_ = Slope{2 * K_.value, std::abs(2 * K_.value)};
-  if (const int degree = system_.potential->homogeneity(); V && degree > 0) {
+  if (const int degree = system_.potential->homogeneity(); known && degree > 0) {
     std::fill(scratch_.V.begin(), scratch_.V.end(), 0.0);
-    scratch_.V[static_cast<std::size_t>(degree)] = *V;
+    scratch_.V[static_cast<std::size_t>(degree)] = known->V;
   } else {
     system_.potential->along_ray(z_, scratch_.V);
   }

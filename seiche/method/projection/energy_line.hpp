@@ -25,9 +25,13 @@ class EnergyLine {
     ray,           // d = z
     steepest,      // d ∝ ∇H(z) without its Casimir part, as long as z
   };
-  // All outlive the line; one line of a scratch at a time. V: V(z), where that is known.
+  struct Known {  // of z
+    ValueAndMagnitude K;
+    double V = 0;
+  };
+  // All outlive the line; one line of a scratch at a time.
   EnergyLine(const System& system, const PhiEvaluator& phi, EnergyLineScratch& scratch, const Vector& z,
-             Direction direction, std::optional<double> V = {});
+             Direction direction, const std::optional<Known>& known = {});
 
   struct Parts {  // of H at one point
     double lambda = 0;
@@ -51,7 +55,7 @@ class EnergyLine {
   const Vector& direction() const { return is_ray_ ? z_ : scratch_.d; }
 
  private:
-  void prepare_ray(std::optional<double> V);
+  void prepare_ray(const std::optional<Known>& known);
   void take_gradients();
   void turn_downhill(const PhiEvaluator& phi);
 

@@ -30,10 +30,10 @@ EnergyProjection::EnergyProjection(const System& system, const PhiEvaluator& phi
 
 double EnergyProjection::measure(const Vector& z, std::optional<double> V) {
   line_.reset();
-  V_ = V;
+  known_.reset();
   if (V) {
-    const ValueAndMagnitude K = system_.linear->quadratic(z);
-    start_ = {.K = K.value, .V = *V, .size = K.magnitude + std::abs(*V)};
+    known_ = EnergyLine::Known{system_.linear->quadratic(z), *V};
+    start_ = {.K = known_->K.value, .V = *V, .size = known_->K.magnitude + std::abs(*V)};
   } else {
     begin_line(z);
   }
@@ -41,7 +41,7 @@ double EnergyProjection::measure(const Vector& z, std::optional<double> V) {
 }
 
 void EnergyProjection::begin_line(const Vector& z) {
-  line_.emplace(system_, phi_, scratch_, z, EnergyLine::Direction::casimir_free, V_);
+  line_.emplace(system_, phi_, scratch_, z, EnergyLine::Direction::casimir_free, known_);
   start_ = line_->at(0);
 }
 

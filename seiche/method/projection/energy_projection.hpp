@@ -56,9 +56,9 @@ class EnergyProjection {
   const PhiEvaluator& phi_;
   double rest_;
   EnergyLineScratch scratch_;
-  std::optional<EnergyLine> line_;  // that z of the last `measure` moves along, once it has to
-  EnergyLine::Parts start_;         // H at that z
-  std::optional<double> V_;
+  std::optional<EnergyLine> line_;          // that z of the last `measure` moves along, once it has to
+  EnergyLine::Parts start_;                 // H at that z
+  std::optional<EnergyLine::Known> known_;  // of that z
 };
 
 }  // namespace seiche
