@@ -35,6 +35,7 @@ class Propagator {
   // ẑ − z⁻: squares of Euclidean norms of coordinates on the support. False, and nothing done, where it is not fused.
   struct Recalled {
     double missed = 0.0, moved = 0.0;
+    bool missed_is_rough = false;  // a bound, or an estimate where one product more would tell
   };
   struct Gradients {
     const Vector &g0, &g1, &g2;

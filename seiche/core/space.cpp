@@ -1,6 +1,7 @@
 #include <seiche/core/simd/long_sum.hpp>
 #include <seiche/core/space.hpp>
 
+#include <algorithm>
 #include <vector>
 
 namespace seiche {
@@ -12,6 +13,10 @@ Vector Space::physical(const Vector& z) const {
 }
 
 void Space::add_units(const Units&, std::span<const double> sums, std::span<double> totals) const {
+  if (sums.size() == totals.size()) {  // of one unit
+    std::copy(sums.begin(), sums.end(), totals.begin());
+    return;
+  }
   for (std::size_t i = 0; i < totals.size(); ++i) {
     LongSum total;
     for (std::size_t at = i; at < sums.size(); at += totals.size()) total.add(sums[at]);

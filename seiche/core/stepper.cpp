@@ -5,34 +5,36 @@
 
 namespace seiche {
 
-std::span<const LedgerPart> ledger_parts() {
-  using L = StepLedger;
-  static constexpr std::array parts = {
-      LedgerPart{"work", &L::work},
-      LedgerPart{"damping_left", &L::damping_left},
-      LedgerPart{"substep", &L::substep},
-      LedgerPart{"scalar", &L::scalar},
-      LedgerPart{"auxiliary", &L::auxiliary},
-      LedgerPart{"projection", &L::projection},
-      LedgerPart{"damping_right", &L::damping_right},
-      LedgerPart{"heat", &L::heat},
-  };
-  return parts;
-}
+namespace {
+
+constexpr std::array all_parts = {
+    LedgerPart{"work", &StepLedger::work},
+    LedgerPart{"damping_left", &StepLedger::damping_left},
+    LedgerPart{"substep", &StepLedger::substep},
+    LedgerPart{"scalar", &StepLedger::scalar},
+    LedgerPart{"auxiliary", &StepLedger::auxiliary},
+    LedgerPart{"projection", &StepLedger::projection},
+    LedgerPart{"damping_right", &StepLedger::damping_right},
+    LedgerPart{"heat", &StepLedger::heat},
+};
+
+}  // namespace
+
+std::span<const LedgerPart> ledger_parts() { return all_parts; }
 
 double StepLedger::sum() const {
   double sum = 0;
-  for (const LedgerPart& part : ledger_parts()) sum += this->*part.value;
+  for (const LedgerPart& part : all_parts) sum += this->*part.value;
   return sum;
 }
 
 StepLedger& StepLedger::operator+=(const StepLedger& other) {
-  for (const LedgerPart& part : ledger_parts()) this->*part.value += other.*part.value;
+  for (const LedgerPart& part : all_parts) this->*part.value += other.*part.value;
   return *this;
 }
 
 StepLedger& StepLedger::operator-=(const StepLedger& other) {
-  for (const LedgerPart& part : ledger_parts()) this->*part.value -= other.*part.value;
+  for (const LedgerPart& part : all_parts) this->*part.value -= other.*part.value;
   return *this;
 }
 

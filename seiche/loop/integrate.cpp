@@ -81,13 +81,15 @@ class FixedLoop {
     }
     state_.n = n;
     state_.t = grid_.time(k);
-    if (!options_.events.empty() && !recording_.check_finite()) return false;
-    const EventFinder::Found found = events_.find(state_, [this](double t, Vector& z) {
-      between_ = left_;
-      shorten(between_, t);
-      z = between_.z;
-    });
-    if (!found.empty()) return meet(found, step);
+    if (!options_.events.empty()) {
+      if (!recording_.check_finite()) return false;
+      const EventFinder::Found found = events_.find(state_, [this](double t, Vector& z) {
+        between_ = left_;
+        shorten(between_, t);
+        z = between_.z;
+      });
+      if (!found.empty()) return meet(found, step);
+    }
     recording_.enter(step);
     const bool last = k == grid_.steps;
     if (last || recording_.anyone_due()) return recording_.record(last);

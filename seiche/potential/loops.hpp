@@ -23,6 +23,12 @@ concept TakesLanes = requires(const W w, Lanes u) {
   { w.slope(u) } -> std::same_as<Lanes>;
 };
 
+// Its mean slopes too.
+template <class W>
+concept HasMeansOfLanes = TakesLanes<W> && requires(const W w, Lanes u) {
+  { w.mean_slope(u, u) } -> std::same_as<Lanes>;
+};
+
 // W is made of elementary functions, and evaluated at a block of points by vector functions.
 template <class W>
 concept TakesBlocks = requires(const W w, const double* u, double* out, std::size_t n) {
@@ -120,24 +126,20 @@ template <class W>
   return std::abs(value);
 }
 
-// Σ_j f(j) by f(j, V{}) for the eight numbers from j on, and f(j, 0.0) for one of the last few.
+// Σ_j f(j) by f(j, V{}) for the eight numbers from j on, and fewer of them for the last few.
 template <class W, class V, class F>
-[[gnu::always_inline]] inline double sum_lanes(std::size_t n, const F& f) {
+[[gnu::always_inline]] inline double sum_points_in_lanes(std::size_t n, const F& f) {
   if constexpr (TakesLanes<W>) {
+    if (n <= LongSum::block) return sum_lanes<V>(0, static_cast<Index>(n), f);
     LongSum all;
     for_blocks(
         n, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
-          V sums{};
-          std::size_t j = begin;
-          for (; j + lane_count <= end; j += lane_count) sums += f(j, V{});
-          std::array<double, lane_count> rest{};
-          for (std::size_t lane = 0; j < end; ++j, ++lane) rest[lane] = f(j, 0.0);
-          all.add(sum(V(sums + load<V>(rest.data()))));
+          all.add(sum_lanes<V>(static_cast<Index>(begin), static_cast<Index>(end), f));
         });
     return all.total();
   } else {
     return sum_points(
-        n, [&](std::size_t j) __attribute__((always_inline)) { return f(j, 0.0); });
+        n, [&](std::size_t j) __attribute__((always_inline)) { return f(static_cast<Index>(j), 0.0); });
   }
 }
 
@@ -158,15 +160,13 @@ template <class Compute>
 
 template <class W>
 double sum_values(const W& w, const double* u, std::size_t n) {
-  return with_lanes([&]<class V>() __attribute__((always_inline)) {
-    const W local = w;
+  return with_lanes([=]<class V>() __attribute__((always_inline)) {
     if constexpr (TakesBlocks<W>)
       return sum_blocks(
-          n, [&](std::size_t begin, std::size_t count, double* values)
-                 __attribute__((always_inline)) { local.values(u + begin, values, count); });
-    return sum_lanes<W, V>(
-        n, [&]<class X>(std::size_t j, const X&)
-               __attribute__((always_inline)) { return local.value(load<X>(u + j)); });
+          n, [=](std::size_t begin, std::size_t count, double* values)
+                 __attribute__((always_inline)) { w.values(u + begin, values, count); });
+    return sum_points_in_lanes<W, V>(
+        n, [=]<class X>(Index j, const X&) __attribute__((always_inline)) { return w.value(load<X>(u + j)); });
   });
 }
 
@@ -192,17 +192,16 @@ SEICHE_MULTIVERSION ValueAndMagnitude sum_values_and_magnitudes(const W& w, cons
 
 template <class W>
 double sum_values_and_slopes(const W& w, const double* u, double* slope, std::size_t n) {
-  return with_lanes([&]<class V>() __attribute__((always_inline)) {
-    const W local = w;
+  return with_lanes([=]<class V>() __attribute__((always_inline)) {
     if constexpr (TakesBlocks<W>)
       return sum_blocks(
-          n, [&](std::size_t begin, std::size_t count, double* values)
-                 __attribute__((always_inline)) { local.values_and_slopes(u + begin, values, slope + begin, count); });
-    return sum_lanes<W, V>(
-        n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
+          n, [=](std::size_t begin, std::size_t count, double* values)
+                 __attribute__((always_inline)) { w.values_and_slopes(u + begin, values, slope + begin, count); });
+    return sum_points_in_lanes<W, V>(
+        n, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
           const X x = load<X>(u + j);
-          store<X>(slope + j, local.slope(x));
-          return local.value(x);
+          store<X>(slope + j, w.slope(x));
+          return w.value(x);
         });
   });
 }
@@ -220,39 +219,44 @@ SEICHE_MULTIVERSION void slopes(const W& w, const double* u, double* slope, std:
 // With u = in · values: values ← out · W'(u).
 template <class W>
 double slopes_in_place(const W& w, double in, double out, double* values, std::size_t n) {
-  return with_lanes([&]<class V>() __attribute__((always_inline)) {
-    const W local = w;
+  return with_lanes([=]<class V>() __attribute__((always_inline)) {
     if constexpr (TakesBlocks<W>) {
       BlockOfPoints u;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read
       return sum_blocks(
           n, [&](std::size_t begin, std::size_t count, double* at) __attribute__((always_inline)) {
             double* const here = values + begin;
             for (std::size_t j = 0; j < count; ++j) u[j] = in * here[j];
-            local.values_and_slopes(u.data(), at, here, count);
+            w.values_and_slopes(u.data(), at, here, count);
             for (std::size_t j = 0; j < count; ++j) here[j] *= out;
           });
     }
-    return sum_lanes<W, V>(
-        n, [&]<class X>(std::size_t j, const X&) __attribute__((always_inline)) {
+    return sum_points_in_lanes<W, V>(
+        n, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
           const X x = in * load<X>(values + j);
-          store<X>(values + j, out * local.slope(x));
-          return local.value(x);
+          store<X>(values + j, out * w.slope(x));
+          return w.value(x);
         });
   });
 }
 
 template <class W>
-SEICHE_MULTIVERSION void mean_slopes(const W& w, const double* a, const double* b, double* mean, std::size_t n) {
-  const W local = w;
-  if constexpr (TakesBlocks<W>) {
-    std::array<double, 2 * LongSum::block> scratch;  // NOLINT(cppcoreguidelines-pro-type-member-init): as above
-    for_blocks(
-        n, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
-          local.mean_slopes(a + begin, b + begin, mean + begin, scratch.data(), end - begin);
-        });
-    return;
-  }
-  for (std::size_t j = 0; j < n; ++j) mean[j] = local.mean_slope(a[j], b[j]);
+void mean_slopes(const W& w, const double* a, const double* b, double* mean, std::size_t n) {
+  with_lanes([=]<class V>() __attribute__((always_inline)) {
+    if constexpr (TakesBlocks<W>) {
+      std::array<double, 2 * LongSum::block> scratch;  // NOLINT(cppcoreguidelines-pro-type-member-init): as above
+      for_blocks(
+          n, [&](std::size_t begin, std::size_t end) __attribute__((always_inline)) {
+            w.mean_slopes(a + begin, b + begin, mean + begin, scratch.data(), end - begin);
+          });
+    } else if constexpr (HasMeansOfLanes<W>) {
+      for_lanes<V>(
+          0, static_cast<Index>(n), [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
+            store<X>(mean + j, w.mean_slope(load<X>(a + j), load<X>(b + j)));
+          });
+    } else {
+      for (std::size_t j = 0; j < n; ++j) mean[j] = w.mean_slope(a[j], b[j]);
+    }
+  });
 }
 
 }  // namespace seiche

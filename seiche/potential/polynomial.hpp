@@ -19,12 +19,12 @@ concept PointPotential = requires(const W w, double u) {
   { w.grows_outward() } -> std::convertible_to<bool>;     // u W'(u) ≥ 0 for all u
 };
 
-// Of degree Most up to `most_exact`; above it of degree `last` ≤ Most, with zeros behind.
-template <int Most>
+// Of degree Most up to `most_exact`; above it of degree `last` ≤ Most, with zeros behind. Of Lanes: eight polynomials.
+template <int Most, class Number = double>
 struct Polynomial {
   static constexpr int most = Most;
   static constexpr int most_exact = 6;
-  std::array<double, Most + 1> c{};
+  std::array<Number, Most + 1> c{};
   int last = Most;  // the coefficients behind this one are zero
 
   int degree() const {
@@ -41,9 +41,10 @@ struct Polynomial {
   }
 
   // Σ|c_i uⁱ|: what round-off in the value is a fraction of, also where the terms cancel.
-  double size(double u) const {
-    double sum = std::abs(c[Most]);
-    for (std::size_t i = Most; i-- > 0;) sum = sum * std::abs(u) + std::abs(c[i]);
+  template <class X>
+  [[gnu::always_inline]] X size(const X& u) const {
+    X sum = X{} + absolute(c[Most]);
+    for (std::size_t i = Most; i-- > 0;) sum = sum * absolute(u) + absolute(c[i]);
     return sum;
   }
 
@@ -55,11 +56,12 @@ struct Polynomial {
   }
 
   // (W(b) − W(a)) / (b − a): divide by (u − a) with Horner's rule and evaluate the quotient at b.
-  double mean_slope(double a, double b) const {
-    double quotient = c[Most];
-    double sum = quotient;
+  template <class X>
+  [[gnu::always_inline]] X mean_slope(const X& a, const X& b) const {
+    X quotient = X{} + c[Most];
+    X sum = quotient;
     for (std::size_t i = Most; i-- > 1;) {
-      quotient = c[i] + a * quotient;
+      quotient = a * quotient + c[i];
       sum = sum * b + quotient;
     }
     return sum;

@@ -22,6 +22,7 @@ class Stack {
         y_(size + rows.forces * of_forces_.size) {}
 
   const double* of(const Vector& z, std::span<const Vector> forces) const {
+    if (forces.empty()) return z.data();
     y_.head(size_) = z;
     Index begin = size_;
     for (const Vector& f : forces) {
@@ -31,7 +32,6 @@ class Stack {
     return y_.data();
   }
   Index size() const { return y_.size(); }
-  const Vector& last() const { return y_; }
 
   // The blocks of a row side by side, with the columns that the stack has.
   Matrix joined(const std::vector<Matrix>& blocks) const {
@@ -64,7 +64,10 @@ class DensePhiMap final : public PhiMap {
   }
 
   void apply(const Vector& z, std::span<const Vector> forces, std::span<Vector> out) const override {
-    matrix_.apply(stack_.of(z, forces), result_.data());
+    const double* const y = stack_.of(z, forces);
+    if (double* const to = out[0].data() + out_.begin; matrix_.padded_rows() == out_.size && to != y + out_.begin)
+      return matrix_.apply(y, to);
+    matrix_.apply(y, result_.data());
     Index begin = 0;
     for (Vector& v : out) {
       v.segment(out_.begin, out_.size) = result_.segment(begin, out_.size);
@@ -113,7 +116,7 @@ class DensePhiForms final : public PhiForms {
     const double* y = stack_.of(z, forces);
     for (std::size_t l = 0; l < grams_.size(); ++l) {
       grams_[l].apply(y, image_.data());
-      values[l] = stack_.last().dot(image_.head(stack_.size()));
+      values[l] = image_.head(stack_.size()).dot(Eigen::Map<const Vector>(y, stack_.size()));
     }
   }
 

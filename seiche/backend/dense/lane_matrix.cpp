@@ -53,8 +53,9 @@ LaneMatrix::LaneMatrix(const Eigen::MatrixXd& a)
 }
 
 void LaneMatrix::apply(const double* x, double* y) const {
-  with_lanes([&]<class V>()
-                 __attribute__((always_inline)) { apply_all<V>(entries_.data(), padded_rows_, columns_, x, y); });
+  const double* const a = entries_.data();
+  with_lanes([ =, rows = padded_rows_, columns = columns_ ]<class V>()
+                 __attribute__((always_inline)) { apply_all<V>(a, rows, columns, x, y); });
 }
 
 }  // namespace seiche

@@ -1,11 +1,11 @@
 // Between the values of one field on its grid and its orthonormal coordinates in State::z.
 #pragma once
 
+#include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/grid/grid.hpp>
 #include <seiche/core/grid/ranks.hpp>
 #include <seiche/core/grid/units.hpp>
 
-#include <functional>
 #include <memory>
 #include <span>
 
@@ -36,7 +36,7 @@ class FieldTransform {
   // of these over each unit of values. f must treat every point alike and alone. Blocks of points pass through the
   // cache, on several threads. `from` has as many coordinates as `slots`, and is the same array or apart from it; then
   // it is kept.
-  using Pointwise = std::function<double(std::span<double> values)>;
+  using Pointwise = FunctionRef<double(std::span<double> values)>;
   virtual std::span<const double> through_values(std::span<const double> from, std::span<double> slots,
                                                  const Pointwise& f) const = 0;
 };

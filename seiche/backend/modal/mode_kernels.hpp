@@ -188,9 +188,14 @@ using Last = std::conditional_t<S::layout == ModeLayout::singles, double, Pair>;
 template <class Verb, class S>
 void run(const Operands<S>& operands, Index begin, Index end) {
   with_lanes([&]<class V>() __attribute__((always_inline)) {
+    using Half = typename HalfOf<V>::type;
     const Operands<S> o = operands;  // a copy that no store can change
     Index slot = begin;
     for (; slot + lane_count <= end; slot += lane_count) Verb::template at<S, V>(o, slot);
+    if (slot + lane_count / 2 <= end) {
+      Verb::template at<S, Half>(o, slot);
+      slot += lane_count / 2;
+    }
     for (; slot < end; slot += slots_per_mode(S::layout)) Verb::template at<S, Last<S>>(o, slot);
   });
 }
@@ -199,13 +204,20 @@ void run(const Operands<S>& operands, Index begin, Index end) {
 template <template <class, class> class LanesOf, class S>
 auto sums_of(const Operands<S>& operands, Index begin, Index end) {
   return with_lanes([&]<class V>() __attribute__((always_inline)) {
+    using Half = typename HalfOf<V>::type;
     const Operands<S> o = operands;
     LanesOf<S, V> lanes;
+    LanesOf<S, Half> half;
     LanesOf<S, Last<S>> last;
     Index slot = begin;
     for (; slot + lane_count <= end; slot += lane_count) lanes.add(o, slot);
+    if (slot + lane_count / 2 <= end) {
+      half.add(o, slot);
+      slot += lane_count / 2;
+    }
     for (; slot < end; slot += slots_per_mode(S::layout)) last.add(o, slot);
     auto sums = lanes.sums();
+    sums += half.sums();
     return sums += last.sums();
   });
 }

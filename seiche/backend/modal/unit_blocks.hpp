@@ -13,7 +13,8 @@ namespace seiche {
 class UnitBlocks {
  public:
   // Of `field`, in blocks of at most `most` slots.
-  UnitBlocks(const Space::Field& field, Index most) : units_(field.units) {
+  UnitBlocks(const Space::Field& field, Index most)
+      : units_(field.units), is_one_block_(field.units.whole().count() == 1 && field.of <= most) {
     for (Index unit = 0; unit < field.units.count(); ++unit) {
       for (Index begin = field.begin(unit); begin < field.end(unit); begin += most)
         append({unit, begin, std::min(begin + most, field.end(unit))}, most);
@@ -24,6 +25,11 @@ class UnitBlocks {
   // for every number of threads and processes.
   template <class Body>
   void add(const Space& space, int threads, std::span<double> totals, const Body& body) const {
+    if (is_one_block_) {  // which one process holds, and the others none
+      std::fill(totals.begin(), totals.end(), 0.0);
+      if (!blocks_.empty()) body(blocks_[0].begin, blocks_[0].end, totals);
+      return space.sum(totals);
+    }
     const std::size_t k = totals.size();
     parts_.resize(blocks_.size() * k);
     sums_.assign(static_cast<std::size_t>(units_.count()) * k, 0.0);
@@ -54,6 +60,7 @@ class UnitBlocks {
   }
 
   Units units_;
+  bool is_one_block_;  // the field as a whole, in all processes
   std::vector<Block> blocks_;
   std::vector<Share> shares_;                 // blocks of one call on a thread, up to `most` slots
   mutable std::vector<double> parts_, sums_;  // scratch

@@ -13,14 +13,6 @@ using Kind = EqualRows::Kind;
 using Operands = EqualRows::Operands;
 using KickAndDrift = Kicks::KickAndDrift;
 
-template <class V>
-[[gnu::always_inline]] inline V absolute(const V& x) {
-  if constexpr (is_in_parts<V>)
-    return {absolute(x.low), absolute(x.high)};
-  else
-    return x < 0 ? -x : x;
-}
-
 // Row j of x, or rows j … j + 7.
 template <class V, std::size_t taps, class Visit>
 [[gnu::always_inline]] inline void visit_row(const std::array<Index, taps>& offsets, const std::array<double, taps>& a,

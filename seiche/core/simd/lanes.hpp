@@ -1,7 +1,9 @@
 // Eight numbers that are computed together, in the widest registers of an instruction set. Plain C++ of GCC and Clang.
 #pragma once
 
+#include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 // Lanes never cross a call that is not inlined.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -16,8 +18,8 @@ using HalfLanes = double __attribute__((vector_size(32)));
 using Pair = double __attribute__((vector_size(16)));
 inline constexpr int lane_count = 8;
 
-// A vector that is wider than the registers there are is computed through the stack: 3 to 5 times as many instructions.
-// Hence it is two of half its width, down to those that fit.
+// A vector that is wider than the registers there are is computed through the stack, by up to four times as many
+// instructions. Hence it is two of half its width, down to those that fit.
 template <class Half>
 struct TwoOf {
   Half low, high;
@@ -48,6 +50,31 @@ inline constexpr bool is_in_parts = false;
 template <class Half>
 inline constexpr bool is_in_parts<TwoOf<Half>> = true;
 
+// Four of them.
+template <class V>
+struct HalfOf;
+template <>
+struct HalfOf<Lanes> {
+  using type = HalfLanes;
+};
+template <class Half>
+struct HalfOf<TwoOf<Half>> {
+  using type = Half;
+};
+
+// body(j, V{}) for eight numbers from j on at a time, then the same with HalfOf<V> for four, and with 0.0 for one.
+template <class V, class Body>
+[[gnu::always_inline]] inline void for_lanes(std::ptrdiff_t begin, std::ptrdiff_t end, const Body& body) {
+  using Half = typename HalfOf<V>::type;
+  std::ptrdiff_t j = begin;
+  for (; j + lane_count <= end; j += lane_count) body(j, V{});
+  if (j + lane_count / 2 <= end) {
+    body(j, Half{});
+    j += lane_count / 2;
+  }
+  for (; j < end; ++j) body(j, 0.0);
+}
+
 // Always inlined, so that they are compiled for the instruction set of the loop around them. Part by part: what is
 // copied as a whole goes through the stack.
 template <class V>
@@ -70,6 +97,15 @@ template <class V>
   } else {
     std::memcpy(p, &v, sizeof v);
   }
+}
+
+[[gnu::always_inline]] inline double absolute(double x) { return __builtin_fabs(x); }
+template <class V>
+[[gnu::always_inline]] inline V absolute(const V& x) {
+  if constexpr (is_in_parts<V>)
+    return {absolute(x.low), absolute(x.high)};
+  else
+    return x < 0.0 ? -x : x;
 }
 
 // x₁ x₀ x₃ x₂ …
@@ -160,6 +196,24 @@ template <class V>
 template <class Half>
 [[gnu::always_inline]] inline double sum(const TwoOf<Half>& v) {
   return sum(v.low) + sum(v.high);
+}
+
+// Σ_j f(j) over [begin, end), with f as the body of for_lanes.
+template <class V, class F>
+[[gnu::always_inline]] inline double sum_lanes(std::ptrdiff_t begin, std::ptrdiff_t end, const F& f) {
+  V sums{};
+  typename HalfOf<V>::type half{};
+  double rest = 0;
+  for_lanes<V>(
+      begin, end, [&]<class X>(std::ptrdiff_t j, const X& lanes) __attribute__((always_inline)) {
+        if constexpr (std::is_same_v<X, V>)
+          sums += f(j, lanes);
+        else if constexpr (std::is_same_v<X, double>)
+          rest += f(j, lanes);
+        else
+          half = f(j, lanes);
+      });
+  return sum(sums) + sum(half) + rest;
 }
 
 }  // namespace seiche

@@ -10,16 +10,13 @@ namespace {
 [[gnu::target("default")]] int bits() { return 128; }
 }  // namespace
 
-int register_bits() {
-  static const int known = bits();
-  return known;
-}
+int find_register_bits() { return bits(); }
 #elif defined(__AVX512F__)
-int register_bits() { return 512; }
+int find_register_bits() { return 512; }
 #elif defined(__AVX__)
-int register_bits() { return 256; }
+int find_register_bits() { return 256; }
 #else
-int register_bits() { return 128; }
+int find_register_bits() { return 128; }
 #endif
 
 const char* instruction_set() {

@@ -22,6 +22,11 @@ namespace seiche {
 
 // Which of the versions runs here: "x86-64-v4", "x86-64-v3" or "baseline".
 const char* instruction_set();
-int register_bits();  // of its vectors: 512, 256 or 128
+int find_register_bits();
+// Of its vectors: 512, 256 or 128.
+inline int register_bits() {
+  static const int known = find_register_bits();
+  return known;
+}
 
 }  // namespace seiche

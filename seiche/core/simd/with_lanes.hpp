@@ -7,21 +7,22 @@
 namespace seiche {
 
 // body.operator()<V>() with eight lanes V in the widest registers of this machine, as SEICHE_MULTIVERSION chooses. The
-// body must be inlined into its version.
+// body must be inlined into its version. What it captures by value stays in registers; what it captures by reference is
+// read again behind every store.
 #ifdef SEICHE_MULTIVERSION_IS_ON
 namespace lanes_detail {
 template <class Body>
-[[gnu::target("arch=x86-64-v4")]] auto in_512_bits(const Body& body) {
+[[gnu::target("arch=x86-64-v4")]] auto in_512_bits(Body body) {
   return body.template operator()<Lanes>();
 }
 template <class Body>
-[[gnu::target("arch=x86-64-v3")]] auto in_256_bits(const Body& body) {
+[[gnu::target("arch=x86-64-v3")]] auto in_256_bits(Body body) {
   return body.template operator()<LanesInHalves>();
 }
 }  // namespace lanes_detail
 
 template <class Body>
-auto with_lanes(const Body& body) {
+auto with_lanes(Body body) {
   switch (register_bits()) {
     case 512: return lanes_detail::in_512_bits(body);
     case 256: return lanes_detail::in_256_bits(body);
@@ -30,7 +31,7 @@ auto with_lanes(const Body& body) {
 }
 #else  // those that the compiler was told of
 template <class Body>
-auto with_lanes(const Body& body) {
+auto with_lanes(Body body) {
 #if defined(__AVX512F__)
   return body.template operator()<Lanes>();
 #elif defined(__AVX__)

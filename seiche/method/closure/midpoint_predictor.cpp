@@ -14,7 +14,7 @@ bool reaches(double weight) { return weight > 0 && weight <= 4; }
 
 bool predicts_well(double missed, double moved) {
   constexpr double share = 0.75, most_missed = 0.05;
-  return share * std::sqrt(missed) <= most_missed * std::sqrt(moved);
+  return square(share) * missed <= square(most_missed) * moved;
 }
 
 double resting(double before, bool has_missed) {
@@ -48,41 +48,48 @@ bool MidpointPredictor::recall(const State& s, const Propagator& propagator, dou
                                         midpoint_memory::ratio(memory.lengths)};
   Propagator::Recalled recalled;
   if (!propagator.recall(s.z, gradients, z_mid, before, recalled))
-    recall_unfused(s, propagator, gradients, h, z_mid, before, recalled);
+    recalled = recall_unfused(s, propagator, gradients, h, z_mid, before);
+  if (recalled.missed_is_rough && !midpoint_memory::predicts_well(recalled.missed, recalled.moved))
+    recalled.missed = missed(propagator, gradients);
   has_missed_ = !midpoint_memory::predicts_well(recalled.missed, recalled.moved);
   return !has_missed_;
 }
 
-// What is missed takes a solve of its own where nothing is fused, and mostly it is far too small for that to be
-// needed: F_t d = tSd + ∫₀ᵗ (t − s)e^{SMs}SMSd ds, with t² instead of t²/2 for Cayley's map. Of both terms it is the
-// part on the support that is measured: a bound where e^{SMs} keeps lengths and V depends on all of z, and else an
-// estimate.
-void MidpointPredictor::recall_unfused(const State& s, const Propagator& propagator,
-                                       const Propagator::Gradients& memory, double h, Vector& z_mid,
-                                       Propagator::FieldFactors before, Propagator::Recalled& recalled) {
-  const Potential::Support support = system_.potential->support();
-  const auto of_support = [&](auto& v) { return v.segment(support.begin, support.size); };
-  if (difference_.size() != s.z.size())
-    for (Vector* v : {&difference_, &pushed_, &product_, &at_rest_}) v->setZero(s.z.size());
+// |F_{h/2}d|² takes a solve or a product of its own, and mostly it is far too small for that to be needed.
+double MidpointPredictor::missed(const Propagator& propagator, const Propagator::Gradients& memory) {
+  take_difference(memory);
+  propagator.predict(at_rest_, difference_, pushed_);
+  return system_.space->squared_norm(of_support(pushed_));
+}
+
+// d = g₀ − g₁ − ratio·(g₁ − g₂)
+void MidpointPredictor::take_difference(const Propagator::Gradients& memory) {
+  if (difference_.size() != memory.g0.size())
+    for (Vector* v : {&difference_, &pushed_, &product_, &at_rest_}) v->setZero(memory.g0.size());
   of_support(difference_) =
       of_support(memory.g0) - of_support(memory.g1) - memory.ratio * (of_support(memory.g1) - of_support(memory.g2));
+}
+
+// F_t d = tSd + ∫₀ᵗ (t − s)e^{SMs}SMSd ds, with t² instead of t²/2 for Cayley's map. Of both terms it is the part on
+// the support that is measured: a bound where e^{SMs} keeps lengths and V depends on all of z, and else an estimate.
+Propagator::Recalled MidpointPredictor::recall_unfused(const State& s, const Propagator& propagator,
+                                                       const Propagator::Gradients& memory, double h, Vector& z_mid,
+                                                       Propagator::FieldFactors before) {
   of_support(z_mid) = of_support(memory.g0) + memory.weight * (of_support(memory.g0) - of_support(memory.g1));
   propagator.predict(s.z, z_mid, z_mid, before);
 
   const Space& space = *system_.space;
+  take_difference(memory);
   pushed_ = s.z;
   multiply_fields(before, pushed_);
-  recalled.moved = space.squared_norm(of_support(z_mid) - of_support(pushed_));
+  const double moved = space.squared_norm(of_support(z_mid) - of_support(pushed_));
   const double t = std::abs(h) / 2;
   system_.linear->apply_S(difference_, pushed_);
   const double first = t * std::sqrt(space.squared_norm(of_support(pushed_)));
   system_.linear->apply_M(pushed_, product_);
   system_.linear->apply_S(product_, pushed_);
   const double second = t * t * std::sqrt(space.squared_norm(of_support(pushed_)));
-  recalled.missed = (first + second) * (first + second);
-  if (midpoint_memory::predicts_well(recalled.missed, recalled.moved)) return;
-  propagator.predict(at_rest_, difference_, pushed_);
-  recalled.missed = space.squared_norm(of_support(pushed_));
+  return {.missed = (first + second) * (first + second), .moved = moved, .missed_is_rough = true};
 }
 
 void MidpointPredictor::keep(State& s, double h, Vector& g) const {
@@ -90,8 +97,10 @@ void MidpointPredictor::keep(State& s, double h, Vector& g) const {
   MidpointMemory& memory = s.midpoints;
   memory.known = discards_ ? 0 : std::min(memory.known + 1, MidpointMemory::depth);
   memory.resting = static_cast<int>(midpoint_memory::resting(memory.resting, has_missed_));
-  std::rotate(memory.gradients.begin(), memory.gradients.end() - 1, memory.gradients.end());
-  std::rotate(memory.lengths.begin(), memory.lengths.end() - 1, memory.lengths.end());
+  for (std::size_t i = MidpointMemory::depth; --i > 0;) {  // by one, the oldest to the front
+    memory.gradients[i].swap(memory.gradients[i - 1]);
+    memory.lengths[i] = memory.lengths[i - 1];
+  }
   memory.gradients.front().swap(g);
   memory.lengths.front() = h;
 }

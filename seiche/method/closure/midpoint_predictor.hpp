@@ -42,8 +42,15 @@ class MidpointPredictor {
 
  private:
   bool recall(const State& s, const Propagator& propagator, double h, Vector& z_mid, Propagator::FieldFactors before);
-  void recall_unfused(const State& s, const Propagator& propagator, const Propagator::Gradients& memory, double h,
-                      Vector& z_mid, Propagator::FieldFactors before, Propagator::Recalled& recalled);
+  Propagator::Recalled recall_unfused(const State& s, const Propagator& propagator, const Propagator::Gradients& memory,
+                                      double h, Vector& z_mid, Propagator::FieldFactors before);
+  double missed(const Propagator& propagator, const Propagator::Gradients& memory);
+  void take_difference(const Propagator::Gradients& memory);
+  template <class V>
+  auto of_support(V& v) const {
+    const Potential::Support support = system_.potential->support();
+    return v.segment(support.begin, support.size);
+  }
 
   const System& system_;
   Predictor kind_;

@@ -3,6 +3,7 @@
 #include <seiche/method/composition/compositions.hpp>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace seiche {
@@ -147,9 +148,7 @@ class Strang final : public Composed {
  private:
   StepReport compose(State& s, double h) override {
     const double middle = s.t + h / 2;
-    if (closure().takes_half_flows() && !has_force_ && damping_.field_factors(s.t, h / 2, before_) &&
-        damping_.field_factors(middle, h / 2, after_))
-      return fused(s, h, {before_, after_});
+    if (closure().takes_half_flows() && !has_force_ && find_factors(s.t, h)) return fused(s, h, {before_, after_});
     return or_restore(s, h, [&] {
       const std::int64_t corrections = damping_.corrections();
       const double pushed = impulse(s, s.t, h / 2);
@@ -166,6 +165,15 @@ class Strang final : public Composed {
     });
   }
 
+  // Of the half-flows in a step from t, where there are any: what does not depend on t is asked for once.
+  bool find_factors(double t, double h) {
+    if (factors_of_ == h) return true;
+    factors_of_.reset();
+    if (!damping_.field_factors(t, h / 2, before_) || !damping_.field_factors(t + h / 2, h / 2, after_)) return false;
+    if (damping_.is_constant()) factors_of_ = h;
+    return true;
+  }
+
   double damp(State& s, double t, double h) {
     return change(s, [&] { closure().damp(s, t, h); });
   }
@@ -176,6 +184,7 @@ class Strang final : public Composed {
   const Damping& damping_;
   bool has_force_;
   std::vector<double> before_, after_;  // of each field
+  std::optional<double> factors_of_;    // the h whose factors these are, at any t
 };
 
 }  // namespace

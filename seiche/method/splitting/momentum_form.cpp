@@ -1,5 +1,7 @@
+#include <seiche/core/simd/add_scaled.hpp>
 #include <seiche/method/splitting/momentum_form.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -114,8 +116,8 @@ MomentumKick::MomentumKick(const System& system, const MomentumForm& form)
 void MomentumKick::apply(double a, const Vector& g, const Vector& before, Vector& after) {
   if (is_canonical_) {
     const Index n = positions_.size;
-    if (&before != &after) after.head(n) = before.head(n);
-    after.tail(n) = before.tail(n) - a * g.head(n);
+    if (&before != &after) std::copy_n(before.data(), n, after.data());
+    add_scaled(before.data() + n, -a, g.data(), n, after.data() + n);
     return;
   }
   system_.linear->apply_S(g, kick_);

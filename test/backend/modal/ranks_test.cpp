@@ -155,6 +155,21 @@ TEST_P(OnRanks, StatesAndEnergiesHaveTheBitsOfOneProcess) {
   }
 }
 
+// Processes that hold nothing know of one that holds several blocks: they would wait for another sum else.
+TEST(OnRanks, OneUnitOfManyBlocksIsAddedUpTogether) {
+  for (const Index points : {1024, 4096}) {
+    const Problem problem = klein_gordon(
+        {.grid = {.points = {points, 4}, .length = {0.1 * static_cast<double>(points), 0.4}}, .alpha = 1.0});
+    for (const std::string method : {"seisav", "egc4"}) {
+      const SimulationOptions options{.method = method, .backend = "modal"};
+      Simulation alone(problem, options);
+      const std::vector<double> numbers = three_steps(alone);
+      const Outcome found = on_processes(3, problem, options, three_steps);
+      EXPECT_EQ(found.numbers, numbers) << method << " " << points;
+    }
+  }
+}
+
 // Whatever is decided on the way, all processes decide it: else one of them would wait for others for ever.
 TEST_P(OnRanks, StepsByToleranceHaveTheBitsOfOneProcess) {
   const Course run = [](Simulation& simulation) {

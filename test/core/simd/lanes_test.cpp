@@ -1,9 +1,12 @@
 // Eight lanes in registers of any width do the same.
 #include <gtest/gtest.h>
+#include <seiche/core/simd/add_scaled.hpp>
 #include <seiche/core/simd/with_lanes.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace seiche::test {
 namespace TEST_FILE {
@@ -68,6 +71,40 @@ TYPED_TEST(LanesOf, SumsAreTakenInOneOrder) {
   const double expected =
       ((rough[0] + rough[1]) + (rough[2] + rough[3])) + ((rough[4] + rough[5]) + (rough[6] + rough[7]));
   EXPECT_EQ(sum(load<TypeParam>(rough.data())), expected);
+}
+
+// Every number once, by as few bodies as there are: 8, 8, 4, 1, 1 of 22.
+TYPED_TEST(LanesOf, LoopsVisitEveryNumberOnce) {
+  std::vector<double> x;
+  for (std::ptrdiff_t n = 0; n <= 26; ++n) {
+    std::vector<int> visits(static_cast<std::size_t>(n));
+    int bodies = 0;
+    for_lanes<TypeParam>(0, n, [&]<class X>(std::ptrdiff_t j, const X&) {
+      ++bodies;
+      const std::ptrdiff_t width = std::is_same_v<X, double> ? 1 : std::is_same_v<X, TypeParam> ? lane_count : 4;
+      for (std::ptrdiff_t i = j; i < j + width; ++i) ++visits[static_cast<std::size_t>(i)];
+    });
+    EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), n);
+    EXPECT_EQ(bodies, n / 8 + n % 8 / 4 + n % 4);
+    double sum_of_all = 0;
+    for (const double number : x) sum_of_all += number;
+    const double sum_of_lanes =
+        sum_lanes<TypeParam>(0, n, [&]<class X>(std::ptrdiff_t j, const X&) { return load<X>(x.data() + j); });
+    EXPECT_EQ(sum_of_lanes, sum_of_all) << n;
+    x.push_back(static_cast<double>(n * n) - 40);
+  }
+}
+
+TEST(AddScaled, IsThatOfEveryNumberAlsoInPlace) {
+  for (Index n = 0; n <= 26; ++n) {
+    Vector x = Vector::LinSpaced(n, 1, 2), y = Vector::LinSpaced(n, -3, 5);
+    const Vector expected = x + 0.5 * y;
+    Vector out(n);
+    add_scaled(x.data(), 0.5, y.data(), n, out.data());
+    EXPECT_EQ(out, expected);
+    add_scaled(x.data(), 0.5, y.data(), n, y.data());
+    EXPECT_EQ(y, expected);
+  }
 }
 
 TEST(WithLanes, ChoosesTheWidestRegistersAndHandsBackWhatTheBodyReturns) {

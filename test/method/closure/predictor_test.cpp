@@ -184,6 +184,23 @@ TEST(Predictor, OfEveryBackendIsGuardedAtTheSameLongSteps) {
   }
 }
 
+// What a step keeps for the next one of its length belongs to that length: 0 too, and in any order.
+TEST(Predictor, StepsOfAnyLengthsInAnyOrderAreThoseOfNewSteppers) {
+  for (const NamedProblem& c : golden_cases()) {
+    Simulation one(c.problem, by("seisav", Predictor::gradient));
+    const Vector start = one.physical();
+    one.step(0);
+    EXPECT_LE((one.physical() - start).lpNorm<Eigen::Infinity>(), 1e-14) << c.name;
+    for (const double h : {0.1, 0.05, 0.1, 0.0, -0.05, 0.1}) {
+      Simulation other(c.problem, by("seisav", Predictor::gradient));
+      other.state() = one.state();
+      one.step(h);
+      other.step(h);
+      EXPECT_EQ(one.state().z, other.state().z) << c.name << " " << h;
+    }
+  }
+}
+
 TEST(Predictor, StartsAnewWithTheRun) {
   Simulation simulation(klein_gordon_case(), by("seisav", Predictor::remembered));
   Vector first;
