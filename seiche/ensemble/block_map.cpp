@@ -1,5 +1,5 @@
-#include <seiche/core/simd/pack.hpp>
 #include <seiche/ensemble/block_map.hpp>
+#include <seiche/ensemble/pack.hpp>
 
 #include <algorithm>
 #include <numeric>

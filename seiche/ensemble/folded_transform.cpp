@@ -1,5 +1,5 @@
-#include <seiche/core/simd/pack.hpp>
 #include <seiche/ensemble/folded_transform.hpp>
+#include <seiche/ensemble/pack.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -18,9 +18,7 @@ class PanelAvf final : public PanelStepper {
       : PanelStepper(std::move(from), method, options.predictor),
         linear_(system().size()),
         plus_(system().size()),
-        q_(system().size()),
-        other_values_(system().support_size()),
-        at_z_(system().support_size()) {}
+        q_(system().size()) {}
 
  private:
   void advance(PanelState& s, const PanelStep& maps, RowFactors after, PanelState& next, PanelReport& report) override;
@@ -28,7 +26,7 @@ class PanelAvf final : public PanelStepper {
   void sweep(PanelState& s, const PanelStep& maps, Panel& next);
 
   Panel linear_;  // z + FMz
-  Panel plus_, q_, other_values_, at_z_;
+  Panel plus_, q_;
   PanelValues update_{};
 };
 
@@ -36,16 +34,13 @@ void PanelAvf::sweep(PanelState& s, const PanelStep& maps, Panel& next) {
   const Index n = system().size();
   double* g = gradient_of(s);
   if (system().support_size() > 0) {
-    system().to_values(plus_.row(system().support_begin()), other_values_.row(0));
-    system().potential().mean_gradient(at_z_.row(0), other_values_.row(0), slopes());
+    system().to_values(plus_.row(system().support_begin()), values());
+    system().potential().mean_gradient(values(), slopes());
     system().to_coordinates(slopes(), g);
   }
   maps.all_forces.apply(g, q_.row(0));
-  maps.all_forces.add_to(linear_.row(0), g, next.row(0));
   PanelValues distance, size, force;
-  max_distance(next.row(0), plus_.row(0), n, distance);
-  max_norm(next.row(0), n, size);
-  max_norm(q_.row(0), n, force);
+  add_and_compare(linear_.row(0), q_.row(0), plus_.row(0), n, next.row(0), distance, size, force);
   for (std::size_t l = 0; l < update_.size(); ++l)
     update_[l] = distance[l] / std::max(4 * epsilon * (size[l] + force[l]), std::numeric_limits<double>::min());
 }
@@ -58,9 +53,11 @@ void PanelAvf::advance(PanelState& s, const PanelStep& maps, RowFactors after, P
   std::memset(g, 0, sizeof(double) * static_cast<std::size_t>(system().support_size() * panel_members));
   maps.step.add_to(z, z, linear_.row(0));  // with g = 0
   if (system().support_size() > 0) {
-    system().to_values(s.z.row(system().support_begin()), at_z_.row(0));
+    system().to_values(s.z.row(system().support_begin()), values());
+    system().potential().begin_means(values());
     predict(s, maps);  // ẑ
-    system().potential().gradient(values(), slopes());
+    PanelValues unused;
+    system().potential().value_and_gradient(values(), slopes(), unused);
     system().to_coordinates(slopes(), g);
     keep_gradient(s);
   }

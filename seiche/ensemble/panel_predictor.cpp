@@ -10,8 +10,9 @@ namespace seiche {
 PanelPredictor::PanelPredictor(const PanelSystem& system, Predictor kind)
     : system_(system), remembers_(kind == Predictor::remembered) {
   if (!remembers_) return;
-  for (Panel* panel : {&gradients_[0], &gradients_[1], &gradients_[2], &kept_, &difference_, &by_gradient_})
+  for (Panel* panel : {&gradients_[0], &gradients_[1], &gradients_[2], &kept_, &by_gradient_})
     *panel = Panel(system.support_size());
+  difference_ = Panel(system.size() + system.support_size());
 }
 
 void PanelPredictor::predict(const double* z, double* g, const PanelStep& maps, double h, double* z_mid,
@@ -26,9 +27,11 @@ void PanelPredictor::predict(const double* z, double* g, const PanelStep& maps, 
   find_unable(weight);
   if (std::none_of(unable_.begin(), unable_.end(), [](double member) { return member == 0; }))
     return by_gradient(z_mid);
-  extrapolate_rows(gradients_[0].row(0), gradients_[1].row(0), weight, system_.support_size(), g);
+  PanelValues second_difference;
+  extrapolate_rows(gradients_[0].row(0), gradients_[1].row(0), gradients_[2].row(0), weight,
+                   midpoint_memory::ratio(lengths_), system_.support_size(), g, second_difference);
   maps.predict.apply(z, z_mid);
-  find_missed(z, z_mid, maps);
+  find_missed(z, z_mid, maps, second_difference);
   if (!any_unable()) return;
   by_gradient(by_gradient_.row(0));
   copy_members(by_gradient_.row(0), unable_, system_.support_size(), z_mid);
@@ -43,17 +46,35 @@ void PanelPredictor::find_unable(double weight) {
     unable_[l] = known_[l] >= MidpointMemory::depth && resting_[l] == 0 && midpoint_memory::reaches(weight) ? 0.0 : 1.0;
 }
 
-void PanelPredictor::find_missed(const double* z, const double* z_mid, const PanelStep& maps) {
-  const Index rows = system_.support_size();
-  second_difference(gradients_[0].row(0), gradients_[1].row(0), gradients_[2].row(0), midpoint_memory::ratio(lengths_),
-                    rows, difference_.row(0));
-  PanelValues missed, moved;
-  maps.missed(difference_.row(0), missed);
-  sum_squared_distances(z_mid, z + system_.support_begin() * panel_members, rows, moved);
+void PanelPredictor::find_missed(const double* z, const double* z_mid, const PanelStep& maps,
+                                 const PanelValues& second_difference) {
+  PanelValues moved, missed;
+  sum_squared_distances(z_mid, z + system_.support_begin() * panel_members, system_.support_size(), moved);
+  const auto predicts_well = [&](std::size_t l) {
+    return unable_[l] != 0 || midpoint_memory::predicts_well(missed[l], moved[l]);
+  };
+  bool all = true;
   for (std::size_t l = 0; l < unable_.size(); ++l) {
-    if (unable_[l] != 0 || midpoint_memory::predicts_well(missed[l], moved[l])) continue;
-    unable_[l] = has_missed_[l] = 1;
+    missed[l] = maps.gradient_share[l] * second_difference[l];
+    all = all && predicts_well(l);
   }
+  if (all) return;
+  missed = measure_missed(maps);
+  for (std::size_t l = 0; l < unable_.size(); ++l)
+    if (!predicts_well(l)) unable_[l] = has_missed_[l] = 1;
+}
+
+PanelValues PanelPredictor::measure_missed(const PanelStep& maps) {
+  const Index n = system_.support_size();
+  const double ratio = midpoint_memory::ratio(lengths_);
+  const double *a = gradients_[0].row(0), *b = gradients_[1].row(0), *c = gradients_[2].row(0);
+  double* const d = difference_.row(system_.size());
+  for (Index i = 0; i < n * panel_members; ++i) d[i] = (a[i] - b[i]) - ratio * (b[i] - c[i]);
+  maps.predict.apply(difference_.row(0), by_gradient_.row(0));
+  PanelValues missed;
+  const double* const zeros = difference_.row(0);
+  sum_squared_distances(by_gradient_.row(0), zeros, n, missed);
+  return missed;
 }
 
 void PanelPredictor::keep(const double* g, double h) {

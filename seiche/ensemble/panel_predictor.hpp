@@ -29,14 +29,15 @@ class PanelPredictor {
  private:
   // Members that are to take ∇V(z): mask ≠ 0.
   void find_unable(double weight);
-  void find_missed(const double* z, const double* z_mid, const PanelStep& maps);
+  void find_missed(const double* z, const double* z_mid, const PanelStep& maps, const PanelValues& second_difference);
+  PanelValues measure_missed(const PanelStep& maps);  // |Qd|² of each member
   bool any_unable() const;
 
   const PanelSystem& system_;
   bool remembers_;
   std::array<Panel, MidpointMemory::depth> gradients_;  // the newest first
   std::array<double, MidpointMemory::depth> lengths_{};
-  Panel kept_, difference_, by_gradient_;
+  Panel kept_, difference_, by_gradient_;                            // difference_: (0, d), its rows of z are zero
   PanelValues known_{}, resting_{}, kept_known_{}, kept_resting_{};  // whole numbers
   PanelValues unable_{}, has_missed_{};
   double kept_length_ = 0;

@@ -32,7 +32,6 @@ PanelStepper::PanelStepper(std::unique_ptr<PanelSystem> system, const MethodEntr
   }
   values_ = Panel(system_->support_size());
   slopes_ = Panel(system_->support_size());
-  gradient_ = Panel(system_->support_size());
   none_.of_field.resize(static_cast<std::size_t>(system_->fields()));
   for (PanelValues& field : none_.of_field) field.fill(1);
   set_rows(none_);
@@ -55,8 +54,9 @@ void PanelStepper::predict(PanelState& s, const PanelStep& maps) {
   double* const g = gradient_of(s);
   predictor_.predict(s.z.row(0), g, maps, step_size_, slopes(), [&] {
     system_->to_values(s.z.row(system_->support_begin()), values());
-    system_->potential().gradient(values(), gradient_.row(0));
-    system_->to_coordinates(gradient_.row(0), g);
+    PanelValues unused;
+    system_->potential().value_and_gradient(values(), values(), unused);
+    system_->to_coordinates(values(), g);
   });
   system_->to_values(slopes(), values());
 }

@@ -89,7 +89,7 @@ class PanelStepper {
   PanelState first_, second_, work_;
   PanelState* state_ = &first_;  // before the step
   PanelState* next_ = &second_;  // after it
-  Panel values_, slopes_, gradient_, moved_;
+  Panel values_, slopes_, moved_;
 };
 
 // Null where the method is not written for panels, or the members do not allow it (PanelSystem::make).

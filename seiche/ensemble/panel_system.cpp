@@ -1,4 +1,5 @@
 #include <seiche/core/commuting_damping.hpp>
+#include <seiche/core/numerics/norm_bound.hpp>
 #include <seiche/ensemble/panel_system.hpp>
 #include <seiche/ensemble/row_loops.hpp>
 
@@ -159,7 +160,8 @@ const PanelStep& PanelSystem::at(double h) {
 }
 
 PanelStep PanelSystem::make_step(double h) const {
-  std::vector<Matrix> predict, missed, increment, force, step, all_forces, flow;
+  std::vector<Matrix> predict, increment, force, step, all_forces, flow;
+  std::vector<double> shares;
   const std::vector<Index> support(place_.begin() + support_begin_, place_.begin() + support_begin_ + support_size_);
   for (const Simulation* member : members_) {
     const System& system = member->system();
@@ -171,7 +173,7 @@ PanelStep PanelSystem::make_step(double h) const {
     predict.push_back(side_by_side(probe(n, support, place_,
                                          [&](const Vector& in, Vector& out) { propagator->predict(in, zero, out); }),
                                    Q));
-    missed.emplace_back(Q.transpose() * Q);
+    shares.push_back(squared_norm_bound(Q));
     const Matrix FM = probe(n, place_, place_, [&](const Vector& in, Vector& out) { propagator->increment(in, out); });
     const Matrix F = probe(n, place_, support, [&](const Vector& in, Vector& out) { propagator->force(in, out); });
     increment.emplace_back(FM.middleRows(support_begin_, support_size_));
@@ -180,13 +182,10 @@ PanelStep PanelSystem::make_step(double h) const {
     all_forces.push_back(F);
     if (has_constant_damping_) flow.push_back(constant_flow(*member, rates_commute_ ? h / 2 : h / 4, place_));
   }
-  PanelStep maps{BlockMap(predict),
-                 PanelQuadratic(missed),
-                 BlockMap(increment),
-                 PanelQuadratic(force),
-                 BlockMap(step),
-                 BlockMap(all_forces),
-                 {}};
+  PanelStep maps{BlockMap(predict),    {}, BlockMap(increment), PanelQuadratic(force), BlockMap(step),
+                 BlockMap(all_forces), {}};
+  for (std::size_t l = 0; l < maps.gradient_share.size(); ++l)
+    maps.gradient_share[l] = shares[shares.size() > 1 ? l : 0];
   if (!flow.empty()) maps.flow = BlockMap(flow);
   return maps;
 }

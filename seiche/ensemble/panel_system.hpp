@@ -30,12 +30,12 @@ class PanelQuadratic {
 
 // The maps of one step size. A panel that holds z and, below it, a gradient on the support of V is called (z, g).
 struct PanelStep {
-  BlockMap predict;       // (z, ∇V(z)) → ẑ, on the support
-  PanelQuadratic missed;  // g → |Qg|², with Q the part of `predict` that multiplies g
-  BlockMap increment;     // z → FMz, on the support
-  PanelQuadratic force;   // g → gᵀFg
-  BlockMap step;          // (z, g) → FMz + Fg
-  BlockMap all_forces;    // g → Fg
+  BlockMap predict;            // (z, ∇V(z)) → ẑ, on the support
+  PanelValues gradient_share;  // of each member ≥ |Qg|²/|g|², with Q the part of `predict` that multiplies g
+  BlockMap increment;          // z → FMz, on the support
+  PanelQuadratic force;        // g → gᵀFg
+  BlockMap step;               // (z, g) → FMz + Fg
+  BlockMap all_forces;         // g → Fg
   // The constant part of a half-flow, e^{−hD/2}; e^{−hD/4}, to be applied twice, where the rates do not commute with
   // it. No rows without a constant part.
   BlockMap flow;
@@ -54,7 +54,7 @@ class PanelSystem {
   Index support_begin() const { return support_begin_; }
   Index support_size() const { return support_size_; }
   Index field_size() const { return field_size_; }
-  const PanelPotential& potential() const { return *potential_; }
+  PanelPotential& potential() const { return *potential_; }
   const PanelQuadratic& metric() const { return metric_; }
   const PanelQuadratic& absolute_metric() const { return absolute_metric_; }
   bool damping_moves_potential() const { return damping_moves_potential_; }

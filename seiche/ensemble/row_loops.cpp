@@ -1,4 +1,4 @@
-#include <seiche/core/simd/pack.hpp>
+#include <seiche/ensemble/pack.hpp>
 #include <seiche/ensemble/row_loops.hpp>
 
 #include <cstdint>
@@ -18,7 +18,6 @@ template <class F>
 [[gnu::always_inline]] inline void keep_larger(const Pack& x, Pack& largest) {
   const Pack size = x < 0 ? -x : x;
   largest = size > largest ? size : largest;
-  largest = 0.0 * size == 0.0 ? largest : size;  // a NaN stays
 }
 
 [[gnu::always_inline]] inline void put(const Pack (&row)[packs], PanelValues& values) {
@@ -60,19 +59,17 @@ SEICHE_MULTIVERSION void measure(const double* in, const double* diagonal, Index
   put(total, sum);
 }
 
-SEICHE_MULTIVERSION void extrapolate_rows(const double* a, const double* b, double weight, Index rows, double* out) {
+SEICHE_MULTIVERSION void extrapolate_rows(const double* a, const double* b, const double* c, double weight,
+                                          double ratio, Index rows, double* out, PanelValues& second_difference) {
+  Pack total[packs] = {};
   for_packs(
-      rows, [&](Index i, int) __attribute__((always_inline)) {
-        packs_of(out)[i] = packs_of(a)[i] + weight * (packs_of(a)[i] - packs_of(b)[i]);
+      rows, [&](Index i, int q) __attribute__((always_inline)) {
+        const Pack last = packs_of(b)[i], change = packs_of(a)[i] - last;
+        const Pack second = change - ratio * (last - packs_of(c)[i]);
+        packs_of(out)[i] = packs_of(a)[i] + weight * change;
+        total[q] += second * second;
       });
-}
-
-SEICHE_MULTIVERSION void second_difference(const double* a, const double* b, const double* c, double ratio, Index rows,
-                                           double* out) {
-  for_packs(
-      rows, [&](Index i, int) __attribute__((always_inline)) {
-        packs_of(out)[i] = packs_of(a)[i] - packs_of(b)[i] - ratio * (packs_of(b)[i] - packs_of(c)[i]);
-      });
+  put(total, second_difference);
 }
 
 SEICHE_MULTIVERSION void sum_squared_distances(const double* a, const double* b, Index rows, PanelValues& sum) {
@@ -101,19 +98,20 @@ SEICHE_MULTIVERSION void find_not_finite(const double* in, Index rows, PanelValu
   put(total, flags);
 }
 
-SEICHE_MULTIVERSION void max_norm(const double* in, Index rows, PanelValues& norms) {
-  Pack largest[packs] = {};
+SEICHE_MULTIVERSION void add_and_compare(const double* a, const double* b, const double* other, Index rows, double* sum,
+                                         PanelValues& distance, PanelValues& size, PanelValues& added) {
+  Pack distances[packs] = {}, sizes[packs] = {}, of_b[packs] = {};
   for_packs(
-      rows, [&](Index i, int q) __attribute__((always_inline)) { keep_larger(packs_of(in)[i], largest[q]); });
-  put(largest, norms);
-}
-
-SEICHE_MULTIVERSION void max_distance(const double* a, const double* b, Index rows, PanelValues& norms) {
-  Pack largest[packs] = {};
-  for_packs(
-      rows, [&](Index i, int q)
-                __attribute__((always_inline)) { keep_larger(packs_of(a)[i] - packs_of(b)[i], largest[q]); });
-  put(largest, norms);
+      rows, [&](Index i, int q) __attribute__((always_inline)) {
+        const Pack adds = packs_of(b)[i], here = packs_of(a)[i] + adds;
+        keep_larger(here - packs_of(other)[i], distances[q]);
+        keep_larger(here, sizes[q]);
+        keep_larger(adds, of_b[q]);
+        packs_of(sum)[i] = here;
+      });
+  put(distances, distance);
+  put(sizes, size);
+  put(of_b, added);
 }
 
 SEICHE_MULTIVERSION void copy_members(const double* in, const PanelValues& mask, Index rows, double* out) {

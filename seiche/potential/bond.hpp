@@ -4,7 +4,6 @@
 #include <seiche/core/grid/grid.hpp>
 #include <seiche/core/potential.hpp>
 #include <seiche/potential/bond_loops.hpp>
-#include <seiche/potential/bond_panel.hpp>
 #include <seiche/potential/bond_terms.hpp>
 #include <seiche/potential/polynomial.hpp>
 
@@ -45,10 +44,7 @@ class BondPotential final : public PointwisePotential {
   }
 
   void mean_gradient(std::span<const double> a, std::span<const double> b, std::span<double> mean) const override {
-    std::fill(mean.begin(), mean.end(), 0.0);
-    for_bonds(a, [&](std::size_t left, std::size_t right, double d) {
-      pull(mean, left, right, w_.mean_slope(d, at(b, right) - at(b, left)));
-    });
+    bond_mean_gradient(w_, a.data(), b.data(), mean.data(), std::ssize(a), boundary_);
   }
 
   int degree() const override {
@@ -75,28 +71,10 @@ class BondPotential final : public PointwisePotential {
     return bond_terms(std::make_shared<const BondPotential>(w_, Boundary::neumann), boundary_, first, count, of);
   }
 
-  const W& w() const { return w_; }
-  std::unique_ptr<PanelPotential> for_members(PanelMembers members, Index rows) const override {
-    const std::vector<W> all = member_functions<BondPotential>(members);
-    if (all.empty()) return member_by_member(members, rows);
-    return std::make_unique<BondPanel<W>>(all, rows, boundary_);
-  }
-
  private:
   static constexpr std::size_t wall = static_cast<std::size_t>(-1);
 
   static double at(std::span<const double> u, std::size_t j) { return j == wall ? 0.0 : u[j]; }
-
-  static void pull(std::span<double> gradient, std::size_t left, std::size_t right, double slope) {
-    if (left != wall) gradient[left] -= slope;
-    if (right != wall) gradient[right] += slope;
-  }
-
-  template <class Visit>
-  void for_bonds(std::span<const double> u, const Visit& visit) const {
-    for (std::size_t j = 0; j + 1 < u.size(); ++j) visit(j, j + 1, u[j + 1] - u[j]);
-    for_ends(u, visit);
-  }
 
   // The one or two bonds that close the chain, or none.
   template <class Visit>

@@ -13,7 +13,7 @@ namespace seiche {
 template <PointPotential W>
 class NodalPotential final : public PointwisePotential {
  public:
-  explicit NodalPotential(W w) : w_(w) {}
+  explicit NodalPotential(W w) : w_(w), homogeneity_(homogeneity_of(w)) {}
 
   bool is_local() const override { return true; }
 
@@ -52,18 +52,22 @@ class NodalPotential final : public PointwisePotential {
     }
   }
 
-  int homogeneity() const override { return homogeneity_of(w_); }
+  int homogeneity() const override { return homogeneity_; }
   bool grows_outward() const override { return w_.grows_outward(); }
 
-  const W& w() const { return w_; }
   std::unique_ptr<PanelPotential> for_members(PanelMembers members, Index rows) const override {
-    const std::vector<W> all = member_functions<NodalPotential>(members);
-    if (all.empty()) return member_by_member(members, rows);
-    return std::make_unique<NodalPanel<W>>(all, rows);
+    if constexpr (requires(std::vector<W> w) { panel_of(w, rows); }) {
+      std::vector<W> w;
+      for (const auto& member : members)
+        if (const auto* same = dynamic_cast<const NodalPotential*>(member.get())) w.push_back(same->w_);
+      if (w.size() == members.size()) return panel_of(w, rows);
+    }
+    return member_by_member(members, rows);
   }
 
  private:
   W w_;
+  int homogeneity_;
 };
 
 }  // namespace seiche

@@ -1,4 +1,3 @@
-#include <seiche/potential/bond_panel.hpp>
 #include <seiche/potential/bond_terms.hpp>
 #include <seiche/potential/on_bonds.hpp>
 
@@ -7,6 +6,16 @@
 
 namespace seiche {
 namespace {
+
+// Bonds of a chain of so many points: as many on a ring, one more between ends where u = 0, one less between free ends.
+std::size_t bond_count(std::size_t points, Boundary boundary) {
+  switch (boundary) {
+    case Boundary::periodic: return points;
+    case Boundary::dirichlet: return points + 1;
+    case Boundary::neumann: break;
+  }
+  return points - 1;
+}
 
 // With B the differences, V = W(Bu): ∇V = Bᵀ∇W(Bu), and means and Taylor coefficients go the same way.
 class OnBonds final : public PointwisePotential {
@@ -61,7 +70,7 @@ class OnBonds final : public PointwisePotential {
   // From left to right; on a ring the first one ends at unknown 0.
   std::span<const double> differences(std::span<const double> u, std::size_t which) const {
     const std::size_t n = u.size();
-    const std::span<double> d = row(which, static_cast<std::size_t>(bond_count(static_cast<Index>(n), boundary_)));
+    const std::span<double> d = row(which, bond_count(n, boundary_));
     std::size_t bond = 0;
     if (boundary_ == Boundary::periodic) d[bond++] = u[0] - u[n - 1];
     if (boundary_ == Boundary::dirichlet) d[bond++] = u[0];

@@ -1,5 +1,5 @@
 #include <seiche/core/base/error.hpp>
-#include <seiche/potential/cosine_panel.hpp>
+#include <seiche/potential/cosine.hpp>
 #include <seiche/potential/nodal.hpp>
 #include <seiche/problem/common/problem_rows.hpp>
 #include <seiche/problem/common/wave.hpp>

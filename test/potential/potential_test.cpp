@@ -11,7 +11,7 @@
 #include <seiche/formula/formula_compiler.hpp>
 #include <seiche/potential/bars.hpp>
 #include <seiche/potential/bond.hpp>
-#include <seiche/potential/cosine_panel.hpp>
+#include <seiche/potential/cosine.hpp>
 #include <seiche/potential/formula_potential.hpp>
 #include <seiche/potential/modulus.hpp>
 #include <seiche/potential/nodal.hpp>
@@ -306,38 +306,6 @@ TEST(Potential, MeanSlopesOfCosinesKeepTheirDigitsHoweverNearTheEnds) {
   }
 }
 
-TEST(Potential, CosinesOfManyMembersAreThoseOfEach) {
-  constexpr Index rows = 77;  // more than a block, and no multiple of one
-  std::vector<std::shared_ptr<const PointwisePotential>> members;
-  for (Index l = 0; l < panel_members; ++l)
-    members.push_back(std::make_shared<NodalPotential<Cosine>>(Cosine{0.5 - 0.1 * static_cast<double>(l)}));
-  const auto panel = members.front()->for_members(members, rows);
-  Panel u(rows), b(rows), slopes(rows), means(rows);
-  for (Index j = 0; j < rows; ++j)
-    for (Index l = 0; l < panel_members; ++l) {
-      u(j, l) = std::sin(static_cast<double>(3 * j + 7 * l)) * static_cast<double>(1 + j);
-      b(j, l) = u(j, l) + 0.1 * static_cast<double>(l);
-    }
-  PanelValues values{}, again{}, sizes{};
-  panel->value_and_gradient(u.row(0), slopes.row(0), values);
-  panel->value_and_magnitude(u.row(0), again, sizes);
-  panel->mean_gradient(u.row(0), b.row(0), means.row(0));
-  for (Index l = 0; l < panel_members; ++l) {
-    const auto member = static_cast<std::size_t>(l);
-    std::vector<double> of_u, of_b, gradient(rows), mean(rows);
-    for (Index j = 0; j < rows; ++j) of_u.push_back(u(j, l)), of_b.push_back(b(j, l));
-    const double value = members[member]->value_and_gradient(of_u, gradient);
-    members[member]->mean_gradient(of_u, of_b, mean);
-    EXPECT_NEAR(values[member], value, 1e-14 * std::abs(value));
-    EXPECT_NEAR(again[member], value, 1e-14 * std::abs(value));
-    EXPECT_NEAR(sizes[member], members[member]->magnitude(of_u), 1e-14 * sizes[member]);
-    for (Index j = 0; j < rows; ++j) {
-      EXPECT_NEAR(slopes(j, l), gradient[static_cast<std::size_t>(j)], 2 * epsilon);
-      EXPECT_NEAR(means(j, l), mean[static_cast<std::size_t>(j)], 2 * epsilon);
-    }
-  }
-}
-
 TEST(Potential, OnlyTheSupportOfAGradientIsWritten) {
   for_every_potential([](const Potential& V, const Vector& z, const Vector&) {
     Vector g = Vector::Constant(z.size(), 7.0);
@@ -402,17 +370,6 @@ TEST(Potential, OfBondsIsTheSumOverBondsOnLinesOfAnyLength) {
       for (std::size_t j = 0; j < n; ++j) gradient[j] = u[j] / 2;
       EXPECT_NEAR(V->value_and_gradient_in_place(2, 3, gradient), sum, noise);
       is_expected(gradient, expected, 3);
-      const std::vector<std::shared_ptr<const PointwisePotential>> members(panel_members, V);
-      const auto rows = static_cast<Index>(n);
-      const auto panel = V->for_members(members, rows);
-      Panel states(rows), slopes(rows);
-      for (Index j = 0; j < rows; ++j)
-        for (Index l = 0; l < panel_members; ++l) states(j, l) = u[static_cast<std::size_t>(j)];
-      PanelValues values{};
-      panel->value_and_gradient(states.row(0), slopes.row(0), values);
-      EXPECT_NEAR(values[1], sum, noise);
-      for (Index j = 0; j < rows; ++j) gradient[static_cast<std::size_t>(j)] = slopes(j, 1);
-      is_expected(gradient, expected, 1);
     }
   }
 }
@@ -446,12 +403,6 @@ TEST(Potential, EveryDegreeIsToldAsItIsAndComputedByItsCoefficients) {
     V->gradient(u, gradient);
     V->mean_gradient(u, there, mean);
     V->value_and_gradient_in_place(1, 1, in_place);
-    const auto rows = static_cast<Index>(u.size());
-    Panel states(rows), slopes(rows);
-    for (Index j = 0; j < rows; ++j)
-      for (Index l = 0; l < panel_members; ++l) states(j, l) = u[static_cast<std::size_t>(j)];
-    const std::vector<std::shared_ptr<const PointwisePotential>> members(panel_members, V);
-    V->for_members(members, rows)->gradient(states.row(0), slopes.row(0));
     for (std::size_t j = 0; j < u.size(); ++j) {
       double slope = 0, mean_slope = 0;  // Σ i c_i uⁱ⁻¹, and that by Gauss's rule
       for (int i = 1; i <= degree; ++i) {
@@ -462,7 +413,6 @@ TEST(Potential, EveryDegreeIsToldAsItIsAndComputedByItsCoefficients) {
       }
       EXPECT_NEAR(gradient[j], slope, 1e-11) << degree;
       EXPECT_NEAR(in_place[j], slope, 1e-11) << degree;
-      EXPECT_NEAR(slopes(static_cast<Index>(j), 3), slope, 1e-11) << degree << ", of many states";
       EXPECT_NEAR(mean[j], mean_slope, 1e-11) << degree;
     }
     std::vector<double> taylor(static_cast<std::size_t>(degree) + 1);

@@ -3,7 +3,7 @@
 #include <test/support/convergence.hpp>
 
 #include <seiche/method/closure/multiplier.hpp>
-#include <seiche/potential/cosine_panel.hpp>
+#include <seiche/potential/cosine.hpp>
 #include <seiche/potential/nodal.hpp>
 
 #include <gtest/gtest.h>
