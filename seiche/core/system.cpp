@@ -21,24 +21,27 @@ System::Dissipation System::dissipation(double t, const Vector& z, const Vector&
   gradient_H += potential_gradient;
   damping->apply(t, z, scratch);
   Dissipation result;
-  result.rate = space->dot(gradient_H, scratch);
-  result.round_off = space->dot(gradient_H.cwiseAbs(), scratch.cwiseAbs());
-  linear->apply_S(gradient_H, scratch);
-  result.rate -= space->dot(gradient_H, scratch);
-  double sizes = space->dot(gradient_H.cwiseAbs(), scratch.cwiseAbs());
+  double sizes = 0;
+  const auto in_scratch = [&] {
+    sizes += space->absolute_dot(gradient_H, scratch);
+    return space->dot(gradient_H, scratch);
+  };
+  result.rate = in_scratch();
+  if (linear->apply_symmetric_S(gradient_H, scratch)) {
+    linear->apply_S(gradient_H, scratch);
+    result.rate -= in_scratch();
+  }
   if (structure && structure->dissipates()) {
     structure->apply(z, gradient_H, scratch);
-    result.rate -= space->dot(gradient_H, scratch);
-    sizes += space->dot(gradient_H.cwiseAbs(), scratch.cwiseAbs());
+    result.rate -= in_scratch();
   }
   if (force) {
     scratch.setZero();
     force->add(t, 1, scratch);
-    result.work = space->dot(gradient_H, scratch);
+    result.work = in_scratch();
     result.rate -= result.work;
-    sizes += space->dot(gradient_H.cwiseAbs(), scratch.cwiseAbs());
   }
-  result.round_off = 100 * epsilon * (result.round_off + sizes);
+  result.round_off = 100 * epsilon * sizes;
   return result;
 }
 

@@ -37,10 +37,13 @@ struct System {
   std::unique_ptr<Space> space;
   std::unique_ptr<LinearPart> linear;
   std::unique_ptr<Potential> potential;
-  std::unique_ptr<Damping> damping;                                  // D and R
-  std::unique_ptr<ExternalForce> force;                              // f; null: none
-  std::unique_ptr<Structure> structure;                              // S(z) − S; null: S is all
-  std::function<std::unique_ptr<Kicks>()> make_kicks;                // of z = (q, p), D = γ on p; or null
+  std::unique_ptr<Damping> damping;                    // D and R
+  std::unique_ptr<ExternalForce> force;                // f; null: none
+  std::unique_ptr<Structure> structure;                // S(z) − S; null: S is all
+  std::function<std::unique_ptr<Kicks>()> make_kicks;  // of z = (q, p), D = γ on p; or null
+  // S∇V from physical values to physical values, where that takes no transform; null, or makes null: elsewhere.
+  using NodalForce = std::function<void(const Vector& values, Vector& force)>;
+  std::function<NodalForce()> make_nodal_force;
   std::function<std::unique_ptr<PhiEvaluator>()> make_phi;           // of L = SM − D₀; closures have no use for it
   std::function<std::unique_ptr<PhiEvaluator>()> make_undamped_phi;  // of L = SM
   // B of the noise that balances what dissipates for the length h (seiche/noise/fluctuation.hpp). Throws Error where

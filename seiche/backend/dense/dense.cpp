@@ -32,13 +32,14 @@ class DenseLinear final : public LinearPart {
         M_(std::move(M)),
         metric_(M_),
         absolute_metric_(M_.cwiseAbs()),
-        absolute_(M_.rows()) {}
+        absolute_(M_.rows()) {
+    if (S_ != -S_.transpose()) symmetric_S_ = (S_ + S_.transpose()) / 2;
+  }
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = S_ * z; }
   bool apply_symmetric_S(const Vector& z, Vector& out) const override {
-    if (S_ == -S_.transpose()) return false;
-    out.noalias() = 0.5 * S_ * z;
-    out.noalias() += 0.5 * S_.transpose() * z;
+    if (symmetric_S_.size() == 0) return false;
+    out.noalias() = symmetric_S_ * z;
     return true;
   }
   void apply_M(const Vector& z, Vector& out) const override { out.noalias() = M_ * z; }
@@ -54,6 +55,7 @@ class DenseLinear final : public LinearPart {
  private:
   Potential::Support support_;
   Matrix S_, M_;
+  Matrix symmetric_S_;  // empty: S is skew
   DenseMetric metric_, absolute_metric_;
   mutable Vector absolute_;
 };

@@ -8,6 +8,7 @@
 #include <seiche/backend/modal/modal_phi.hpp>
 #include <seiche/backend/modal/mode_map.hpp>
 #include <seiche/backend/phi/force_map.hpp>
+#include <seiche/backend/sparse/equal_rows.hpp>
 #include <seiche/core/base/error.hpp>
 #include <seiche/core/truncated_potential.hpp>
 #include <seiche/noise/fluctuation.hpp>
@@ -66,6 +67,22 @@ std::unique_ptr<Potential> modal_potential(const Problem& problem,
   return std::make_unique<MaskedPotential>(on_grid(truncated->whole()), std::move(mask));
 }
 
+// S∇V by the differences of S, where it has few kinds of rows; else null. V is of the fields from `first` on, and
+// `potential`, which outlives the force, counts how often its slopes are taken.
+System::NodalForce nodal_force(const SparseMatrix& S, const std::shared_ptr<const PointwisePotential>& V, Index points,
+                               Index first, const Potential& potential) {
+  std::optional<EqualRows> rows = EqualRows::of(S);
+  if (!rows) return nullptr;
+  const Index begin = first * points;
+  const auto size = static_cast<std::size_t>(V->fields() * points);
+  return [rows = std::move(*rows), V, &potential, begin, size,
+          gradient = Vector(Vector::Zero(S.rows()))](const Vector& values, Vector& force) mutable {
+    potential.count_gradient();
+    V->gradient({values.data() + begin, size}, {gradient.data() + begin, size});
+    rows.apply(gradient, force);
+  };
+}
+
 }  // namespace
 
 System modal_system(const Problem& given, const BackendOptions& options) {
@@ -108,6 +125,14 @@ System modal_system(const Problem& given, const BackendOptions& options) {
     undamped.D0 = BlockStencil(undamped.S.fields());
     return modal_phi(undamped, space);
   };
+
+  const bool is_truncated = dynamic_cast<const TruncatedPotential*>(problem.potential.get()) != nullptr;
+  // Of one axis: several processes share other grids, and have the same bits as one.
+  if (problem.potential && !is_truncated && problem.grid.dimension() == 1 && problem.S.is_sparse())
+    system.make_nodal_force = [S = problem.S, grid = problem.grid, V = problem.potential,
+                               first = problem.potential_field, &potential = *system.potential] {
+      return nodal_force(S.sparse_matrix(grid), V, grid.unknowns(), first, potential);
+    };
 
   system.make_noise = [operators](double h) {
     const Modes modes(operators.grid);

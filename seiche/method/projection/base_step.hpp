@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 namespace seiche {
@@ -34,8 +33,9 @@ class BaseStep {
   // Where a step finds no solution, parts of it do: they are tried before e^{hL}z.
   virtual bool may_be_solved_in_parts() const { return false; }
 
-  // V(ẑ) of the step just computed, where that is known without looking for it.
-  virtual std::optional<double> potential_energy(const Vector& /*z*/) { return std::nullopt; }
+  // V(ẑ) of the step just computed, where that is known without looking for it; else null. Read it before the
+  // next step.
+  virtual const double* potential_energy(const Vector& /*z*/) { return nullptr; }
 
   // Of the step just computed, where a projection is a part of it: how often that found nothing better than bisection,
   // and whether it moved anything far.

@@ -15,7 +15,7 @@ constexpr double noticeable = 1e-3;  // a share of the dissipation
 // x/(1 − x): the share of the dissipation by which it may be wrong where damping acts so far in one step.
 double excess_of_strong(double damped) {
   constexpr double strong = 0.07;
-  const double x = std::pow(damped / strong, 6);
+  const double share = damped / strong, x = square(share * share * share);
   return x < 1 ? x / (1 - x) : std::numeric_limits<double>::infinity();
 }
 

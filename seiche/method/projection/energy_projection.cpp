@@ -28,10 +28,10 @@ EnergyProjection::EnergyProjection(const System& system, const PhiEvaluator& phi
       rest_(system.potential->value(Vector::Zero(system.space->size()))),
       scratch_(system) {}
 
-double EnergyProjection::measure(const Vector& z, std::optional<double> V) {
+double EnergyProjection::measure(const Vector& z, const double* V) {
   line_.reset();
   known_.reset();
-  if (V) {
+  if (V != nullptr) {
     known_ = EnergyLine::Known{system_.linear->quadratic(z), *V};
     start_ = {.K = known_->K.value, .V = *V, .size = known_->K.magnitude + std::abs(*V)};
   } else {

@@ -33,8 +33,8 @@ class EnergyProjection {
     double values = 0;        // |½ẑᵀMẑ| + |V(ẑ)|, of the z that was passed
     double terms = 0;         // the sizes of the terms of H, of the z that came out
   };
-  // Ĥ = H(z); each `project` follows a `measure` of the same z. V: its potential energy, where that is known.
-  double measure(const Vector& z, std::optional<double> V = {});
+  // Ĥ = H(z); each `project` follows a `measure` of the same z. V: its potential energy, null where that is not known.
+  double measure(const Vector& z, const double* V = nullptr);
   // H(z) = target to round-off by the secant method. Where H hardly changes along d the equation is ill-conditioned:
   // then z stays as it is if target < cap and H(z) ≤ cap, for the cap is the law; and otherwise it moves along ∇H. If
   // no iteration converges, to a point with H ≤ target between z and Πz, or z and 0. Fails, and leaves z anywhere, if

@@ -129,23 +129,28 @@ void Projected::fail(StepReport& report, const State& s, double h, Taken taken, 
 // One step; s stays as it was where it is not taken. t and n are the caller's.
 Projected::Taken Projected::take(State& s, double t, double h, bool strict, StepReport& report) {
   if (law_ == EnergyLaw::none) return take_without_law(s, t, h, report);
-  StepDissipation::Amount amount;
-  EnergyTarget target;
-  EnergyProjection::Outcome outcome;
-  bool resolved = base_.compute(s, t, h, z_);  // propose ẑ
+  const bool is_solution = base_.compute(s, t, h, z_);  // propose ẑ
   report.fallbacks += base_.fallbacks();
-  if (resolved) {
-    const double computed = projection_.measure(z_, base_.potential_energy(z_));  // Ĥ = H(ẑ)
-    amount = measure_dissipation(s, t, h, computed);                              // D and its doubt u: (E3)
-    target = choose_energy(s, t, h, computed, amount);                            // E*: (E4)
-    outcome = projection_.project(z_, target);  // zⁿ⁺¹ with H(zⁿ⁺¹) = E*: (E5)
-    resolved = std::isfinite(outcome.terms) && !has_grown_beyond_reason(outcome, s, t, h);
+  if (is_solution) {
+    const double computed = projection_.measure(z_, base_.potential_energy(z_));    // Ĥ = H(ẑ)
+    const StepDissipation::Amount amount = measure_dissipation(s, t, h, computed);  // D, its doubt u: (E3)
+    const EnergyTarget target = choose_energy(s, t, h, computed, amount);           // E*: (E4)
+    const EnergyProjection::Outcome outcome = projection_.project(z_, target);  // zⁿ⁺¹ with H(zⁿ⁺¹) = E*: (E5)
+    if (std::isfinite(outcome.terms) && !has_grown_beyond_reason(outcome, s, t, h))
+      return end_with(s, t, h, &target, amount, outcome, report);
   }
-  if (!resolved) {
-    if (strict || !flow_freely(s, h, outcome)) return Taken::unresolved;
-    amount = {};
-    ++report.fallbacks;
-  }
+  if (strict || !may_flow_freely_) return Taken::unresolved;
+  const std::optional<EnergyProjection::Outcome> outcome = flow_freely(s, h);
+  if (!outcome) return Taken::unresolved;
+  ++report.fallbacks;
+  return end_with(s, t, h, nullptr, {}, *outcome, report);
+}
+
+// With z_ in the place of s.z, where it has an energy that the law allows. target: of ẑ; null: z_ is another solution.
+Projected::Taken Projected::end_with(State& s, double t, double h, const EnergyTarget* target,
+                                     const StepDissipation::Amount& amount, const EnergyProjection::Outcome& outcome,
+                                     StepReport& report) {
+  const bool resolved = target != nullptr;
   report.scalar_iterations += outcome.iterations;
   report.fallbacks += outcome.by_bisection ? 1 : 0;
   if (!outcome.admissible || !std::isfinite(outcome.terms)) return Taken::inadmissible;
@@ -156,7 +161,7 @@ Projected::Taken Projected::take(State& s, double t, double h, bool strict, Step
         report, s,
         "what the scheme gave was moved by more than a tenth of its length to have an energy that the law allows");
   // Of a gradient flow that says nothing: what has come to rest dissipates less than round-off shows.
-  if (resolved && target.widened && !rests_) report.widened = 1;
+  if (resolved && target->widened && !rests_) report.widened = 1;
   commit(s, t, h, resolved, amount, outcome, report);
   return Taken::whole;
 }
@@ -172,8 +177,9 @@ void Projected::prepare(double h) {
 StepDissipation::Amount Projected::measure_dissipation(const State& s, double t, double h, double computed) {
   const StepDissipation::Kind kind = base_.dissipation_kind();
   const bool asked = law_ == EnergyLaw::interval || kind == StepDissipation::Kind::general || keeps_ledger_;
-  StepDissipation::Amount amount;
-  if (asked && kind != StepDissipation::Kind::none) amount = base_.dissipated(s, t, h, z_, computed);
+  StepDissipation::Amount amount = asked && kind != StepDissipation::Kind::none
+                                       ? base_.dissipated(s, t, h, z_, computed)
+                                       : StepDissipation::Amount();
   // What is looked at node by node may be missed where steps do not resolve the flow. Gains below round-off H cannot
   // show.
   amount.negative = feeds_ || (amount.negative && amount.gain > 16 * epsilon * s.energy_terms);
@@ -189,17 +195,15 @@ EnergyTarget Projected::choose_energy(const State& s, double t, double h, double
   return target;
 }
 
-// z_ ← e^{hL}z, with an energy of at most Hⁿ; false where that is not finite or leaves out more than ∇V.
-bool Projected::flow_freely(const State& s, double h, EnergyProjection::Outcome& outcome) {
-  if (!may_flow_freely_) return false;
+// z_ ← e^{hL}z, with an energy of at most Hⁿ; nothing where that is not finite.
+std::optional<EnergyProjection::Outcome> Projected::flow_freely(const State& s, double h) {
   free_map(h).apply(s.z, {}, {&z_, 1});
-  if (!system_.space->is_finite(z_)) return false;
+  if (!system_.space->is_finite(z_)) return std::nullopt;
   const bool conserves = base_.dissipation_kind() == StepDissipation::Kind::none;
   const double computed = projection_.measure(z_);
-  outcome = projection_.project(z_, {.H = conserves ? s.energy : std::min(computed, s.energy),
-                                     .cap = s.energy,
-                                     .terms = s.energy_terms});
-  return true;
+  return projection_.project(z_, {.H = conserves ? s.energy : std::min(computed, s.energy),
+                                  .cap = s.energy,
+                                  .terms = s.energy_terms});
 }
 
 const PhiMap& Projected::free_map(double h) {
@@ -250,12 +254,12 @@ void Projected::commit(State& s, double t, double h, bool resolved, const StepDi
   base_.accept(s, h, {.resolved = resolved, .factor = resolved ? outcome.factor : 0});
   const double asked = std::abs(outcome.computed - outcome.H);
   const double blurred = outcome.displacement > 0 ? std::min(1.0, outcome.loss / asked) : 0;
-  last_ = {.t = t,
-           .energy = s.energy,
-           .energy_terms = s.energy_terms,
-           .displacement = outcome.displacement,
-           .blur = blurred * outcome.displacement,
-           .gained = amount.negative};
+  last_.t = t;
+  last_.energy = s.energy;
+  last_.energy_terms = s.energy_terms;
+  last_.displacement = outcome.displacement;
+  last_.blur = blurred * outcome.displacement;
+  last_.gained = amount.negative;
   s.energy = outcome.H;
   s.energy_terms = outcome.terms;
   report.ledger += {.work = amount.work,

@@ -10,6 +10,7 @@
 #include <seiche/method/projection/energy_projection.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace seiche {
 
@@ -56,7 +57,9 @@ class Projected {
   StepDissipation::Amount measure_dissipation(const State& s, double t, double h, double computed);
   EnergyTarget choose_energy(const State& s, double t, double h, double computed,
                              const StepDissipation::Amount& amount);
-  bool flow_freely(const State& s, double h, EnergyProjection::Outcome& outcome);
+  std::optional<EnergyProjection::Outcome> flow_freely(const State& s, double h);
+  Taken end_with(State& s, double t, double h, const EnergyTarget* target, const StepDissipation::Amount& amount,
+                 const EnergyProjection::Outcome& outcome, StepReport& report);
   const PhiMap& free_map(double h);
   void commit(State& s, double t, double h, bool resolved, const StepDissipation::Amount& amount,
               const EnergyProjection::Outcome& outcome, StepReport& report);

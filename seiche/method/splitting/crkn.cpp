@@ -61,35 +61,48 @@ class OneByOne : public Nystrom {
   bool compute(const State& s, double, double h, Vector& z) override {
     z = s.z;
     prepare(h);
-    const std::vector<double>& b = scheme().b;
     const Vector& first = force(z, end_.at_start(s));
-    kick_.apply(b[0] * h, first, z, z);
     const double size = space().norm(s.z) + h * kick_.length(first);
-    double taken = 0;
-    for (std::size_t i = 0; i < scheme().flows(); ++i) {
-      taken += flow(i, z);
-      kick(b[i + 1] * h, z);
-    }
-    set_taken(taken);
+    set_taken(go_through(
+        h, first, [&]() -> const Vector& { return force_at(z); }, z));
     return may_be_solution(space(), z, size) || flow_alone(s, h, z);
   }
 
   void remember_nothing(State& s) override { end_.begin(s); }
-  std::optional<double> potential_energy(const Vector&) override { return end_.V(); }
+  const double* potential_energy(const Vector&) override { return &end_.V(); }
   void accept(State& s, double h, const Taken& taken) override { end_.accept(s, h, taken.factor); }
 
  protected:
+  // The kicks and flows of a step, the first by this force and the others by next(). What damping takes from H in them:
+  // of a sum that kicks and flows change, what it loses.
+  template <class Next>
+  double go_through(double h, const Vector& first, const Next& next, Vector& z) {
+    const std::vector<double>& b = scheme().b;
+    double sum = account(z);
+    sum += kick(b[0] * h, first, z);
+    for (std::size_t i = 0; i < scheme().flows(); ++i) {
+      sum += flow(i, z);
+      sum += kick(b[i + 1] * h, next(), z);
+    }
+    return sum - account(z);
+  }
+
   virtual void prepare(double h) = 0;
   // A solution that has faded: backward flows of its damping overflow in long steps, and kicks are nothing beside it.
   // Then all flows are one, forward. False where that is not so.
   virtual bool flow_alone(const State& /*s*/, double /*h*/, Vector& /*z*/) { return false; }
-  // The i-th A-flow of a step; returns what the damping takes from H in it, where it takes any.
+  // The i-th A-flow of a step, a kick and an energy of z. What damping takes from H in all flows is what the first two
+  // return and what the third falls by.
   virtual double flow(std::size_t i, Vector& z) = 0;
+  virtual double kick(double a, const Vector& force, Vector& z) {
+    kick_.apply(a, force, z, z);
+    return 0;
+  }
+  virtual double account(const Vector& /*z*/) { return 0; }
   // What z is kicked by, S before it, from ∇V(z); zero outside the positions.
   virtual const Vector& force(const Vector& /*z*/, const Vector& gradient) { return gradient; }
 
   const Vector& force_at(const Vector& z) { return force(z, end_.take(z)); }
-  void kick(double h, Vector& z) { kick_.apply(h, force_at(z), z, z); }
   EndGradient& end() { return end_; }
   MomentumKick& kicker() { return kick_; }
 
@@ -120,11 +133,8 @@ class ExactFlows final : public OneByOne {
     if (!exact_ || exact_->resolves(h)) return 0;
     pushed_ = s.z;
     const Vector& gradient = end().at_start(s);
-    double taken = 0;
-    for (std::size_t i = 0; i < scheme().flows(); ++i) {
-      kicker().apply(scheme().b[i] * h, gradient, pushed_, pushed_);
-      taken += flow(i, pushed_);
-    }
+    const double taken = go_through(
+        h, gradient, [&]() -> const Vector& { return gradient; }, pushed_);
     return taken + exact_->miss(h, s.z, gradient, s.energy_terms);  // of a rule of no weight: less all there is
   }
 
@@ -141,11 +151,15 @@ class ExactFlows final : public OneByOne {
   }
 
   double flow(std::size_t i, Vector& z) override {
-    const double before = dissipates() ? system().linear->quadratic_energy(z) : 0;
     (*flows_)[scheme().which(i)]->apply(z, {}, {&work_, 1});
     z.swap(work_);
-    return dissipates() ? before - system().linear->quadratic_energy(z) : 0;
+    return 0;
   }
+  // ½zᵀMz changes by kicks and by damping alone.
+  double kick(double a, const Vector& gradient, Vector& z) override {
+    return dissipates() ? kicker().lift(a, gradient, z) : OneByOne::kick(a, gradient, z);
+  }
+  double account(const Vector& z) override { return dissipates() ? system().linear->quadratic_energy(z) : 0; }
 
   // Every stage is a time inside the step, although some flows lead back.
   bool flow_alone(const State& s, double h, Vector& z) override {

@@ -15,7 +15,7 @@ class EndGradient {
   const Vector& at_start(const State& s);  // ∇V(s.z), zero outside the support of V; taken anew where it is not known
   const Vector& take(const Vector& z);     // ∇V(z)
   const Vector& last() const { return gradient_; }  // of the last `take`
-  double V() const { return V_; }                   // there
+  const double& V() const { return V_; }            // there
 
   // The step that looked last at ẑ is taken, from s to factor · ẑ; 0: to another state.
   void accept(State& s, double h, double factor);

@@ -110,7 +110,8 @@ MomentumForm momentum_form(const System& system) {
 
 MomentumKick::MomentumKick(const System& system, const MomentumForm& form)
     : system_(system), positions_(form.positions), is_canonical_(form.canonical) {
-  if (!is_canonical_) kick_.setZero(system.space->size());
+  if (is_canonical_) return;
+  for (Vector* v : {&kick_, &middle_, &product_}) v->setZero(system.space->size());
 }
 
 void MomentumKick::apply(double a, const Vector& g, const Vector& before, Vector& after) {
@@ -122,6 +123,18 @@ void MomentumKick::apply(double a, const Vector& g, const Vector& before, Vector
   }
   system_.linear->apply_S(g, kick_);
   after = before + a * kick_;
+}
+
+//   ½z⁺ᵀMz⁺ − ½zᵀMz = ½(z⁺ − z)ᵀM(z + z⁺),   and with momenta ½|p⁺|² − ½|p|² = −½a gᵀ(p + p⁺), p = p⁺ + ag
+double MomentumKick::lift(double a, const Vector& g, Vector& z) {
+  apply(a, g, z, z);
+  if (is_canonical_) {
+    const Index n = positions_.size;
+    return -a / 2 * system_.space->dot(g.head(n), 2 * z.tail(n) + a * g.head(n));
+  }
+  middle_ = z - a / 2 * kick_;
+  system_.linear->apply_M(middle_, product_);
+  return a * system_.space->dot(kick_, product_);
 }
 
 double MomentumKick::length(const Vector& g) {

@@ -25,13 +25,14 @@ class MomentumKick {
   MomentumKick(const System& system, const MomentumForm& form);  // the system outlives it
 
   void apply(double a, const Vector& g, const Vector& before, Vector& after);  // which may be one
-  double length(const Vector& g);                                              // |Sg|
+  double lift(double a, const Vector& g, Vector& z);  // the same of z alone; by how much that raises ½zᵀMz
+  double length(const Vector& g);                     // |Sg|
 
  private:
   const System& system_;
   Potential::Support positions_;
   bool is_canonical_;
-  Vector kick_;
+  Vector kick_, middle_, product_;  // where it is not
 };
 
 }  // namespace seiche

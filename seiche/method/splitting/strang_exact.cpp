@@ -1,3 +1,4 @@
+#include <seiche/core/simd/add_scaled.hpp>
 #include <seiche/core/step_cache.hpp>
 #include <seiche/method/common/nonlinear_force.hpp>
 #include <seiche/method/splitting/end_gradient.hpp>
@@ -68,7 +69,7 @@ class KickFlowKick final : public StrangExact {
     return has_law_ || may_be_solution(space(), z, size);
   }
 
-  std::optional<double> potential_energy(const Vector&) override { return end().V(); }
+  const double* potential_energy(const Vector&) override { return &end().V(); }
   void accept(State& s, double h, const Taken& taken) override { end().accept(s, h, taken.factor); }
 
  private:
@@ -89,32 +90,39 @@ class FlowForceFlow final : public StrangExact {
   FlowForceFlow(const System& system, const PhiEvaluator& phi)
       : StrangExact(system, phi),
         force_(system, PhiRows::Forces::states),
-        stages_(system.damping->is_constant() ? 4 : 2),
-        rate_(system.initial),
-        stage_(system.initial) {}
+        stages_(system.damping->is_constant() ? 4 : 2) {
+    const bool is_gradient_alone = stages_ == 4 && !system.force && !system.structure;
+    if (is_gradient_alone && system.make_nodal_force) nodal_force_ = system.make_nodal_force();
+    const Index size = nodal_force_ ? space().physical_size() : space().size();
+    for (Vector* v : {&rate_, &stage_, &sum_}) v->setZero(size);
+    if (nodal_force_) values_.setZero(size);
+  }
 
   bool compute(const State& s, double t, double h, Vector& z) override {
     looked_ = false;
     flow(h / 2).apply(s.z, {}, {&z, 1});
-    evaluate(t + h / 2, z);
-    const double size = space().norm(s.z) + h * space().norm(rate_);
-    middle() = z;
+    if (nodal_force_) space().to_physical(z, values_);
+    const Vector& y = nodal_force_ ? values_ : z;
+    evaluate(t + h / 2, y);
+    const double size = space().norm(s.z) + h * (nodal_force_ ? space().norm_of_values(rate_) : space().norm(rate_));
+    sum_ = y;
     for (int i = 1; i < stages_; ++i) {  // the classical scheme of order four, or the midpoint rule
       const double weight = stages_ == 2 ? 0 : i == 1 ? h / 6 : h / 3;
-      if (weight != 0) middle() += weight * rate_;
-      stage_ = z + (i < 3 ? h / 2 : h) * rate_;
+      if (weight != 0) add(sum_, weight, rate_, sum_);
+      add(y, i < 3 ? h / 2 : h, rate_, stage_);
       evaluate(t + h / 2, stage_);
     }
-    middle() += (stages_ == 2 ? h : h / 6) * rate_;
-    flow(h / 2).apply(middle(), {}, {&z, 1});
+    add(sum_, stages_ == 2 ? h : h / 6, rate_, sum_);
+    if (nodal_force_) space().from_physical(sum_, middle());
+    flow(h / 2).apply(nodal_force_ ? middle() : sum_, {}, {&z, 1});
     return may_be_solution(space(), z, size);
   }
 
   // Where `dissipated` asks for the gradient anyway.
-  std::optional<double> potential_energy(const Vector& z) override {
-    if (dissipation_kind() != StepDissipation::Kind::general) return std::nullopt;
+  const double* potential_energy(const Vector& z) override {
+    if (dissipation_kind() != StepDissipation::Kind::general) return nullptr;
     gradient_at(z);
-    return end().V();
+    return &end().V();
   }
   void accept(State& s, double h, const Taken& taken) override { end().accept(s, h, looked_ ? taken.factor : 0); }
 
@@ -125,15 +133,22 @@ class FlowForceFlow final : public StrangExact {
     return end().last();
   }
 
-  // rate_ ← N(z) at time t
+  static void add(const Vector& x, double a, const Vector& y, Vector& out) {  // out ← x + ay
+    add_scaled(x.data(), a, y.data(), x.size(), out.data());
+  }
+
+  // rate_ ← N(z) at time t, both in values where N is S∇V and that takes no transform
   void evaluate(double t, const Vector& z) {
+    if (nodal_force_) return nodal_force_(z, rate_);
     rate_ = z;
     force_.evaluate(t, rate_);
   }
 
   NonlinearForce force_;
   int stages_;
-  Vector rate_, stage_;
+  System::NodalForce nodal_force_;
+  Vector values_;  // with a nodal force
+  Vector rate_, stage_, sum_;
   bool looked_ = false;  // at ∇V(ẑ)
 };
 
