@@ -13,6 +13,7 @@ Vector Space::physical(const Vector& z) const {
 }
 
 void Space::add_units(const Units&, std::span<const double> sums, std::span<double> totals) const {
+  if (sums.data() == totals.data() && sums.size() == totals.size()) return;
   if (sums.size() == totals.size()) {  // of one unit
     std::copy(sums.begin(), sums.end(), totals.begin());
     return;
@@ -27,6 +28,10 @@ void Space::add_units(const Units&, std::span<const double> sums, std::span<doub
 void Space::add(const Units& units, FunctionRef<void(Index unit, std::span<double> sums)> of_unit,
                 std::span<double> totals) const {
   const std::size_t k = totals.size();
+  if (units.count() == 1) {
+    of_unit(0, totals);
+    return add_units(units, totals, totals);
+  }
   thread_local std::vector<double> sums;  // no step allocates
   sums.resize(static_cast<std::size_t>(units.count()) * k);
   for (Index unit = 0; unit < units.count(); ++unit)

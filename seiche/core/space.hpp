@@ -32,7 +32,7 @@ class Space {
   virtual Field slots() const { return {size()}; }
   virtual Field values() const { return {physical_size()}; }
   // Totals over all processes of sums over the units that this one holds, `totals.size()` side by side for each: added
-  // in the order of units, they do not depend on how many processes there are.
+  // in the order of units, they do not depend on how many processes there are. Of one unit both may be one array.
   virtual void add_units(const Units& units, std::span<const double> sums, std::span<double> totals) const;
   // The numbers of a vector in all processes, in the order that they have in one, piece by piece: on the first process.
   // What `take` throws is thrown there when all pieces have passed, since the other processes do not know of it.

@@ -25,6 +25,7 @@ class StepCache {
   // make(): a std::unique_ptr<T>, asked for where h is new.
   template <class Make>
   T& at(double h, const Make& make) {
+    if (!entries_.empty() && entries_.front().first == h) return *entries_.front().second;
     const auto found = std::find_if(entries_.begin(), entries_.end(), [h](const auto& e) { return e.first == h; });
     if (found == entries_.end()) {
       auto made = make();

@@ -18,6 +18,9 @@ constexpr std::array all_parts = {
     LedgerPart{"heat", &StepLedger::heat},
 };
 
+// StepLedger::operator+= names them one by one.
+static_assert(sizeof(StepLedger) == all_parts.size() * sizeof(double));
+
 }  // namespace
 
 std::span<const LedgerPart> ledger_parts() { return all_parts; }
@@ -26,11 +29,6 @@ double StepLedger::sum() const {
   double sum = 0;
   for (const LedgerPart& part : all_parts) sum += this->*part.value;
   return sum;
-}
-
-StepLedger& StepLedger::operator+=(const StepLedger& other) {
-  for (const LedgerPart& part : all_parts) this->*part.value += other.*part.value;
-  return *this;
 }
 
 StepLedger& StepLedger::operator-=(const StepLedger& other) {

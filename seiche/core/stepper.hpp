@@ -30,7 +30,12 @@ struct StepLedger {
   double heat = 0.0;           // of noise, beside the damping that it balances
 
   double sum() const;
-  StepLedger& operator+=(const StepLedger& other);
+  StepLedger& operator+=(const StepLedger& other) {  // every step does
+    work += other.work, damping_left += other.damping_left, substep += other.substep, scalar += other.scalar;
+    auxiliary += other.auxiliary, projection += other.projection;
+    damping_right += other.damping_right, heat += other.heat;
+    return *this;
+  }
   void archive(Archive& a) { a.numbers(*this); }
   StepLedger& operator-=(const StepLedger& other);
 };

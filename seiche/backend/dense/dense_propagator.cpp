@@ -3,8 +3,6 @@
 #include <seiche/core/simd/with_lanes.hpp>
 
 #include <algorithm>
-#include <tuple>
-#include <utility>
 
 namespace seiche {
 namespace {
@@ -15,7 +13,8 @@ using Matrix = Eigen::MatrixXd;
 template <class Visit>
 [[gnu::always_inline]] inline void for_fields(Propagator::FieldFactors factors, Index size, const Visit& visit) {
   if (factors.empty()) return visit(Index{0}, size, 1.0);
-  const Index fields = std::ssize(factors), slots = fields == 1 ? size : size / fields;
+  const Index fields = std::ssize(factors);
+  const Index slots = fields == 1 ? size : fields == 2 ? size / 2 : size / fields;  // divisions are slow
   for (Index f = 0; f < fields; ++f) visit(f * slots, (f + 1) * slots, factors[static_cast<std::size_t>(f)]);
 }
 
@@ -27,64 +26,75 @@ template <class V>
 }
 
 // z⁻ = Λz
-void damp_fields(Propagator::FieldFactors factors, const double* z, Index size, double* damped) {
-  with_lanes([=]<class V>() __attribute__((always_inline)) {
-    for_fields(
-        factors, size, [=](Index begin, Index end, double factor) __attribute__((always_inline)) {
-          for_lanes<V>(
-              begin, end, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
-                store<X>(damped + j, factor * load<X>(z + j));
-              });
-        });
-  });
+template <class V>
+[[gnu::always_inline]] inline void damp_fields(Propagator::FieldFactors factors, const double* z, Index size,
+                                               double* damped) {
+  for_fields(
+      factors, size, [=](Index begin, Index end, double factor) __attribute__((always_inline)) {
+        for_lanes<V>(
+            begin, end, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
+              store<X>(damped + j, factor * load<X>(z + j));
+            });
+      });
 }
 
 // Λ'(z + dz + c q)
-void add_and_damp(const double* z, const double* dz, double c, const double* q, Propagator::FieldFactors factors,
-                  Index size, double* out) {
-  with_lanes([=]<class V>() __attribute__((always_inline)) {
-    for_fields(
-        factors, size, [=](Index begin, Index end, double factor) __attribute__((always_inline)) {
-          for_lanes<V>(
-              begin, end, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
-                store<X>(out + j, factor * (load<X>(z + j) + load<X>(dz + j) + c * load<X>(q + j)));
-              });
-        });
-  });
-}
-
-// xᵀy and xᵀz
-std::pair<double, double> products(const double* x, const double* y, const double* z, Index n) {
-  return with_lanes([=]<class V>() __attribute__((always_inline)) {
-    return std::pair(product_of<V>(x, y, n), product_of<V>(x, z, n));
-  });
+template <class V>
+[[gnu::always_inline]] inline void add_and_damp(const double* z, const double* dz, double c, const double* q,
+                                                Propagator::FieldFactors factors, Index size, double* out) {
+  for_fields(
+      factors, size, [=](Index begin, Index end, double factor) __attribute__((always_inline)) {
+        for_lanes<V>(
+            begin, end, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
+              store<X>(out + j, factor * (load<X>(z + j) + load<X>(dz + j) + c * load<X>(q + j)));
+            });
+      });
 }
 
 // sum = a + b; |b|²
-double add_and_measure(const double* a, const double* b, Index n, double* sum) {
-  return with_lanes([=]<class V>() __attribute__((always_inline)) {
-    return sum_lanes<V>(
-        0, n, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
-          const X added = load<X>(b + j);
-          store<X>(sum + j, load<X>(a + j) + added);
-          return X(added * added);
-        });
-  });
+template <class V>
+[[gnu::always_inline]] inline double add_and_measure(const double* a, const double* b, Index n, double* sum) {
+  return sum_lanes<V>(
+      0, n, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
+        const X added = load<X>(b + j);
+        store<X>(sum + j, load<X>(a + j) + added);
+        return X(added * added);
+      });
 }
 
 // next = g₀ + weight·(g₀ − g₁); |g₀ − g₁ − ratio·(g₁ − g₂)|²
-double extrapolate(const double* g0, const double* g1, const double* g2, double weight, double ratio, Index n,
-                   double* next) {
-  return with_lanes([=]<class V>() __attribute__((always_inline)) {
-    return sum_lanes<V>(
-        0, n, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
-          const X newest = load<X>(g0 + j), last = load<X>(g1 + j), change = newest - last;
-          store<X>(next + j, newest + weight * change);
-          const X second = change - ratio * (last - load<X>(g2 + j));
-          return X(second * second);
-        });
-  });
+template <class V>
+[[gnu::always_inline]] inline double extrapolate(const double* g0, const double* g1, const double* g2, double weight,
+                                                 double ratio, Index n, double* next) {
+  return sum_lanes<V>(
+      0, n, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
+        const X newest = load<X>(g0 + j), last = load<X>(g1 + j), change = newest - last;
+        store<X>(next + j, newest + weight * change);
+        const X second = change - ratio * (last - load<X>(g2 + j));
+        return X(second * second);
+      });
 }
+
+// The two maps of a substep into the coordinates that a state has; T = 1 where the others lead there themselves.
+struct Substep {
+  LaneMatrix::View FM, F, T;
+  double *dz, *q, *in_energy;
+  Index size;
+
+  template <class V>
+  [[gnu::always_inline]] inline void apply(const double* z, const double* f) const {
+    FM.apply<V>(z, dz);
+    F.apply<V>(f, q);
+    if (T.rows == 0) return;
+    for (double* v : {dz, q}) {
+      T.apply<V>(v, in_energy);
+      for_lanes<V>(
+          0, size, [ =, from = in_energy ]<class X>(Index j, const X&) __attribute__((always_inline)) {
+            store<X>(v + j, load<X>(from + j));
+          });
+    }
+  }
+};
 
 class DensePropagator final : public Propagator {
  public:
@@ -112,18 +122,31 @@ class DensePropagator final : public Propagator {
 
   // ẑ = z⁻ + Q(Mz⁻ + ∇V), as one matrix times (z⁻, ∇V)
   void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
-    damp(z, before);
-    std::copy_n(gradient.data() + support_.begin, support_.size, z_and_gradient_.data() + size_);
-    move_to_midpoint(z_mid);
+    with_lanes([
+      =, size = size_, n = support_.size, from = z.data(), g = gradient.data() + support_.begin, mid = mid_.view(),
+      x = z_and_gradient_.data(), q = q_.data(), begin = support_.begin, out = z_mid.data() + support_.begin
+    ]<class V>() __attribute__((always_inline)) {
+      damp_fields<V>(before, from, size, x);
+      std::copy_n(g, n, x + size);
+      mid.template apply<V>(x, q);
+      add_and_measure<V>(x + begin, q, n, out);
+    });
   }
   bool recall(const Vector& z, const Gradients& g, Vector& z_mid, FieldFactors before,
               Recalled& recalled) const override {
-    damp(z, before);
-    const auto of_support = [this](const Vector& v) { return v.data() + support_.begin; };
-    recalled.missed = gradient_share_ * extrapolate(of_support(g.g0), of_support(g.g1), of_support(g.g2), g.weight,
-                                                    g.ratio, support_.size, z_and_gradient_.data() + size_);
+    with_lanes([
+      =, size = size_, n = support_.size, from = z.data(), g = &g, mid = mid_.view(), x = z_and_gradient_.data(),
+      q = q_.data(), begin = support_.begin, out = z_mid.data() + support_.begin, to = &recalled
+    ]<class V>() __attribute__((always_inline)) {
+      damp_fields<V>(before, from, size, x);
+      const double missed = extrapolate<V>(g->g0.data() + begin, g->g1.data() + begin, g->g2.data() + begin, g->weight,
+                                           g->ratio, n, x + size);
+      mid.template apply<V>(x, q);
+      to->moved = add_and_measure<V>(x + begin, q, n, out);
+      to->missed = missed;
+    });
+    recalled.missed *= gradient_share_;
     recalled.missed_is_rough = true;
-    recalled.moved = move_to_midpoint(z_mid);
     return true;
   }
   void increment(const Vector& z, Vector& dz) const override {
@@ -142,34 +165,24 @@ class DensePropagator final : public Propagator {
   }
 
   Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
-    damp(z, before);
-    const double* const of_support = f.data() + support_.begin;
-    FM_.apply(z_and_gradient_.data(), dz_.data());
-    F_.apply(of_support, q_.data());
-    to_state(dz_);
-    to_state(q_);
-    Powers powers{.quadratic_energy = metric_.energy(z_and_gradient_.data())};
-    std::tie(powers.of_increment, powers.of_force) =
-        products(of_support, dz_.data() + support_.begin, q_.data() + support_.begin, support_.size);
-    return powers;
+    return with_lanes([
+      =, size = size_, n = support_.size, from = z.data(), g = f.data() + support_.begin, x = z_and_gradient_.data(),
+      begin = support_.begin, metric = metric_.view(),
+      substep = Substep{FM_.view(), F_.view(), T_.view(), dz_.data(), q_.data(), y_.data(), size_}
+    ]<class V>() __attribute__((always_inline)) {
+      damp_fields<V>(before, from, size, x);
+      substep.template apply<V>(x, g);
+      return Powers{product_of<V>(g, substep.dz + begin, n), product_of<V>(g, substep.q + begin, n),
+                    metric.template energy<V>(x)};
+    });
   }
   void update(Vector& z, const Vector& /*f*/, double c, FieldFactors /*before*/, FieldFactors after) const override {
-    add_and_damp(z_and_gradient_.data(), dz_.data(), c, q_.data(), after, size_, z.data());
+    with_lanes(
+        [ =, size = size_, x = z_and_gradient_.data(), dz = dz_.data(), q = q_.data(), out = z.data() ]<class V>()
+            __attribute__((always_inline)) { add_and_damp<V>(x, dz, c, q, after, size, out); });
   }
 
  private:
-  // z⁻, in its place.
-  void damp(const Vector& z, FieldFactors before) const {
-    damp_fields(before, z.data(), size_, z_and_gradient_.data());
-  }
-
-  // ẑ from z⁻ and a gradient; |ẑ − z⁻|².
-  double move_to_midpoint(Vector& z_mid) const {
-    mid_.apply(z_and_gradient_.data(), q_.data());
-    return add_and_measure(z_and_gradient_.data() + support_.begin, q_.data(), support_.size,
-                           z_mid.data() + support_.begin);
-  }
-
   // From the coordinates of energy, if F and FM lead there.
   void to_state(Vector& v) const {
     if (!in_energy_) return;
@@ -199,12 +212,15 @@ DenseMetric::DenseMetric(const Matrix& M) : size_(M.rows()), leading_(M.rows()) 
   Mz_.resize(M_.padded_rows());
 }
 
+template <class V>
+[[gnu::always_inline]] inline double DenseMetric::View::energy(const double* z) const {
+  M.apply<V>(z, Mz);
+  return (product_of<V>(z, Mz, M.columns) + product_of<V>(z + M.columns, z + M.columns, size - M.columns)) / 2;
+}
+
 double DenseMetric::energy(const double* z) const {
-  M_.apply(z, Mz_.data());
-  const double *const rest = z + leading_, *const Mz = Mz_.data();
-  return with_lanes([ =, leading = leading_, others = size_ - leading_ ]<class V>() __attribute__((always_inline)) {
-    return (product_of<V>(z, Mz, leading) + product_of<V>(rest, rest, others)) / 2;
-  });
+  return with_lanes([ metric = view(), z ]<class V>()
+                        __attribute__((always_inline)) { return metric.template energy<V>(z); });
 }
 
 std::unique_ptr<Propagator> dense_propagator(const DenseForce& maps, const DenseMetric& metric,

@@ -16,6 +16,16 @@ class DenseMetric {
   explicit DenseMetric(const Eigen::MatrixXd& M);
   double energy(const double* z) const;
 
+  struct View {  // as that of a LaneMatrix
+    LaneMatrix::View M;
+    double* Mz;
+    Index size;
+
+    template <class V>
+    [[gnu::always_inline]] inline double energy(const double* z) const;  // for dense_propagator.cpp alone
+  };
+  View view() const { return {M_.view(), Mz_.data(), size_}; }
+
  private:
   Index size_, leading_;  // rows and columns from leading_ on are those of the identity
   LaneMatrix M_;

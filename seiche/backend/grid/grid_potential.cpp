@@ -13,6 +13,8 @@ GridPotential::GridPotential(std::shared_ptr<const PointwisePotential> pointwise
   support_ = {first_field * transform_->slots(), fields * transform_->slots()};
   for (Vector* scratch : {&a_, &b_, &slope_}) scratch->setZero(fields * transform_->unknowns());
   const Space::Field field = space_.values();
+  takes_values_as_they_are_ =
+      fields > 0 && transform_->is_identity() && pointwise_->is_local() && field.units.whole().count() == 1;
   is_gathered_ = fields > 0 && !pointwise_->is_local() && pointwise_->is_pointwise() && field.units.whole().count() > 1;
   for (Index unit = 0; is_gathered_ && unit < field.units.count(); ++unit) {
     auto there = pointwise_->at_points(field.begin(unit), field.end(unit) - field.begin(unit));
@@ -113,6 +115,10 @@ double GridPotential::value_and_gradient(const Vector& z, Vector& gradient) cons
   const auto slopes = [this](std::span<double> values) {
     return pointwise_->value_and_gradient_in_place(transform_->value_scale(), transform_->slot_scale(), values);
   };
+  if (takes_values_as_they_are_) {
+    if (&z != &gradient) gradient.segment(support_.begin, support_.size) = z.segment(support_.begin, support_.size);
+    return space_.sum(slopes(segment(gradient, support_.begin, support_.size)));
+  }
   if (pointwise_->is_local()) {
     double value = 0;
     space_.add_units(transform_->value_field().units,

@@ -43,6 +43,7 @@ class GridPotential final : public Potential {
   std::shared_ptr<const FieldTransform> transform_;
   const Space& space_;
   Support support_;
+  bool takes_values_as_they_are_ = false;  // at once: coordinates are values, in one unit
   // Where V is a sum over points of several fields, or of the place: V of the points of each unit, which are gathered.
   bool is_gathered_ = false;
   std::vector<std::shared_ptr<const PointwisePotential>> of_units_;

@@ -248,19 +248,12 @@ void subtract_rows(std::span<const Run> runs, double c, const Operands& in, doub
 double kick_and_drift(std::span<const Run> runs, const KickAndDrift& factors, const Operands& in, double* x_after,
                       double* y_after) {
   return with_lanes([&]<class L>() __attribute__((always_inline)) {
-    LongSum squares;
-    for_blocks(
-        runs, [&](std::span<const Run> part) __attribute__((always_inline)) {
-          const auto add = [&](auto visit) __attribute__((always_inline)) {
-            visit_runs(part, in.x, visit);
-            squares.add(visit.squares.total());
-          };
-          if (in.g != nullptr)
-            add(SubtractAndDrift<L, true>(factors, in, x_after, y_after));
-          else
-            add(SubtractAndDrift<L, false>(factors, in, x_after, y_after));
-        });
-    return squares.total();
+    const auto go = [&](auto visit) __attribute__((always_inline)) {
+      visit_runs(runs, in.x, visit);
+      return visit.squares.total();
+    };
+    if (in.g != nullptr) return go(SubtractAndDrift<L, true>(factors, in, x_after, y_after));
+    return go(SubtractAndDrift<L, false>(factors, in, x_after, y_after));
   });
 }
 

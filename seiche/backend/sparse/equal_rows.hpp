@@ -53,7 +53,7 @@ class EqualRows {
 void subtract_rows(std::span<const EqualRows::Run> runs, double c, const EqualRows::Operands& in, double* out);
 
 // y ← y − kick · F, then x_after ← x + length · y and y_after ← decay · y; returns |y|² from before the last. y_after
-// may be y, x_after is not x.
+// may be y, x_after is not x. The squares are added up one after the other: for runs of some hundreds of rows.
 double kick_and_drift(std::span<const EqualRows::Run> runs, const Kicks::KickAndDrift& factors,
                       const EqualRows::Operands& in, double* x_after, double* y_after);
 

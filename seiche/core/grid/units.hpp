@@ -16,7 +16,10 @@ struct Units {
   Index size = 2;     // ≥ 2
   Index of = planes;  // in all processes
 
-  Index count() const { return planes > 0 ? std::max<Index>(planes / size, 1) : 0; }
+  Index count() const {  // every sum asks, and mostly there is one: a division takes as long as twenty products
+    if (planes < 2 * size) return planes > 0 ? 1 : 0;
+    return planes / size;
+  }
   Index begin(Index unit) const { return size * unit; }  // the first plane
   Index end(Index unit) const { return unit + 1 == count() ? planes : size * (unit + 1); }
   Units whole() const { return {of, size, of}; }
@@ -52,7 +55,7 @@ struct FieldPart {
   Units units = {};
   Index first = 0, of = size;  // the number of the whole field that is the first here, and how many those are
 
-  Index plane() const { return of / units.of; }
+  Index plane() const { return of == units.of ? 1 : of / units.of; }
   Index begin(Index unit) const { return units.begin(unit) * plane(); }
   Index end(Index unit) const { return units.end(unit) * plane(); }
   // visit(begin, length) of the parts of a vector of so many numbers that belong to a unit.

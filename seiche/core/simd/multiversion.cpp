@@ -20,7 +20,7 @@ int find_register_bits() { return 128; }
 #endif
 
 const char* instruction_set() {
-  return register_bits() == 512 ? "x86-64-v4" : register_bits() == 256 ? "x86-64-v3" : "baseline";
+  return register_bits == 512 ? "x86-64-v4" : register_bits == 256 ? "x86-64-v3" : "baseline";
 }
 
 }  // namespace seiche

@@ -23,10 +23,7 @@ namespace seiche {
 // Which of the versions runs here: "x86-64-v4", "x86-64-v3" or "baseline".
 const char* instruction_set();
 int find_register_bits();
-// Of its vectors: 512, 256 or 128.
-inline int register_bits() {
-  static const int known = find_register_bits();
-  return known;
-}
+// Of its vectors: 512, 256 or 128. Before main begins it may still be 0.
+inline const int register_bits = find_register_bits();
 
 }  // namespace seiche

@@ -12,18 +12,20 @@ namespace seiche {
 #ifdef SEICHE_MULTIVERSION_IS_ON
 namespace lanes_detail {
 template <class Body>
-[[gnu::target("arch=x86-64-v4")]] auto in_512_bits(Body body) {
+[[gnu::target("arch=x86-64-v4")]] auto in_512_bits(const Body& given) {
+  const Body body = given;
   return body.template operator()<Lanes>();
 }
 template <class Body>
-[[gnu::target("arch=x86-64-v3")]] auto in_256_bits(Body body) {
+[[gnu::target("arch=x86-64-v3")]] auto in_256_bits(const Body& given) {
+  const Body body = given;
   return body.template operator()<LanesInHalves>();
 }
 }  // namespace lanes_detail
 
 template <class Body>
-auto with_lanes(Body body) {
-  switch (register_bits()) {
+auto with_lanes(const Body& body) {
+  switch (register_bits) {
     case 512: return lanes_detail::in_512_bits(body);
     case 256: return lanes_detail::in_256_bits(body);
     default: return body.template operator()<LanesInQuarters>();
@@ -31,7 +33,7 @@ auto with_lanes(Body body) {
 }
 #else  // those that the compiler was told of
 template <class Body>
-auto with_lanes(Body body) {
+auto with_lanes(const Body& body) {
 #if defined(__AVX512F__)
   return body.template operator()<Lanes>();
 #elif defined(__AVX__)

@@ -113,7 +113,7 @@ TEST(WithLanes, ChoosesTheWidestRegistersAndHandsBackWhatTheBodyReturns) {
   const int parts = with_lanes([]<class V>() __attribute__((always_inline)) {
     return is_in_parts<V> ? sizeof(V{}) == sizeof(LanesInHalves) && !std::is_same_v<V, LanesInQuarters> ? 2 : 4 : 1;
   });
-  EXPECT_EQ(parts, 512 / register_bits());
+  EXPECT_EQ(parts, 512 / register_bits);
 }
 
 }  // namespace TEST_FILE
