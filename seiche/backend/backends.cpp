@@ -74,7 +74,7 @@ const BackendEntry& find_backend(std::string_view name) {
 }
 
 const BackendEntry& automatic_backend(const Problem& problem, bool by_kicks) {
-  constexpr Index dense_up_to = 24;  // unknowns; docs/performance.md has the measurement
+  const Index dense_up_to = problem.matrices ? 48 : 24;  // unknowns; docs/performance.md has the measurement
   if (by_kicks && has_grid_kicks(problem)) return find_backend("sparse");
   if (problem.size() <= dense_up_to) return find_backend("dense");
   if (!problem.matrices && problem.grid.unknowns() == 1) return find_backend("dense");  // there are no modes

@@ -3,6 +3,8 @@
 #include <test/support/repetitions.hpp>
 #include <test/support/worst.hpp>
 
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/problem/variable_wave.hpp>
 #include <seiche/simulation/simulation.hpp>
 
 #include <gtest/gtest.h>
@@ -36,6 +38,23 @@ TEST(Agreement, EveryProblemRunsOnTheBackendsThatItShould) {
     for (const BackendEntry& backend : backends_for(problem)) found.emplace_back(backend.name);
     EXPECT_EQ(found, expected) << name;
   }
+}
+
+// docs/performance.md has the sizes from which the others are faster.
+TEST(Agreement, FewUnknownsHaveFullMatrices) {
+  const auto chosen = [](const Problem& problem) { return automatic_backend(problem).name; };
+  const auto on_grid = [](Index points) {
+    return klein_gordon({.grid = {.points = {points}, .length = {0.1 * static_cast<double>(points)}}});
+  };
+  const auto with_matrices = [](Index points) {
+    return variable_wave({.grid = {.points = {points}, .length = {2.0}}});
+  };
+  EXPECT_EQ(chosen(on_grid(12)), "dense");
+  EXPECT_EQ(chosen(on_grid(13)), "modal");
+  Index points = 4;
+  while (with_matrices(points + 1).size() <= 48) ++points;
+  EXPECT_EQ(chosen(with_matrices(points)), "dense");
+  EXPECT_EQ(chosen(with_matrices(points + 1)), "sparse");
 }
 
 class AgreementOf : public testing::TestWithParam<std::string> {};

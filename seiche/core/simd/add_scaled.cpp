@@ -12,4 +12,15 @@ void add_scaled(const double* x, double a, const double* y, Index n, double* out
   });
 }
 
+double add_scaled_and_weigh(double* x, double a, const double* y, Index n) {
+  return with_lanes([=]<class V>() __attribute__((always_inline)) {
+    return sum_lanes<V>(
+        0, n, [=]<class X>(Index j, const X&) __attribute__((always_inline)) {
+          const X before = load<X>(x + j), other = load<X>(y + j), after = before + a * other;
+          store<X>(x + j, after);
+          return X(other * (before + after));
+        });
+  });
+}
+
 }  // namespace seiche

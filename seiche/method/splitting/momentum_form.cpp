@@ -125,13 +125,20 @@ void MomentumKick::apply(double a, const Vector& g, const Vector& before, Vector
   after = before + a * kick_;
 }
 
-//   ½z⁺ᵀMz⁺ − ½zᵀMz = ½(z⁺ − z)ᵀM(z + z⁺),   and with momenta ½|p⁺|² − ½|p|² = −½a gᵀ(p + p⁺), p = p⁺ + ag
+//   ½z⁺ᵀMz⁺ − ½zᵀMz = ½(z⁺ − z)ᵀM(z + z⁺), which is −½a gᵀ(p + p⁺) where p⁺ = p − ag are momenta of mass one
 double MomentumKick::lift(double a, const Vector& g, Vector& z) {
-  apply(a, g, z, z);
   if (is_canonical_) {
     const Index n = positions_.size;
-    return -a / 2 * system_.space->dot(g.head(n), 2 * z.tail(n) + a * g.head(n));
+    const Space::Field field = system_.space->slots();
+    return -a / 2 * system_.space->total(field.units, [&](Index unit) {
+      double sum = 0;
+      field.for_parts(n, unit, [&](Index begin, Index length) {
+        sum += add_scaled_and_weigh(z.data() + n + begin, -a, g.data() + begin, length);
+      });
+      return sum;
+    });
   }
+  apply(a, g, z, z);
   middle_ = z - a / 2 * kick_;
   system_.linear->apply_M(middle_, product_);
   return a * system_.space->dot(kick_, product_);
