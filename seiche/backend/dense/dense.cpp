@@ -33,8 +33,7 @@ class DenseLinear final : public LinearPart {
         metric_(M_),
         absolute_metric_(M_.cwiseAbs()),
         absolute_(M_.rows()) {
-    const Matrix symmetric = (S_ + S_.transpose()) / 2;
-    if (symmetric.cwiseAbs().maxCoeff() > 2 * epsilon * S_.cwiseAbs().maxCoeff()) symmetric_S_ = symmetric;
+    if (S_ != -S_.transpose()) symmetric_S_ = (S_ + S_.transpose()) / 2;
   }
 
   void apply_S(const Vector& z, Vector& out) const override { out.noalias() = S_ * z; }
@@ -56,7 +55,7 @@ class DenseLinear final : public LinearPart {
  private:
   Potential::Support support_;
   Matrix S_, M_;
-  Matrix symmetric_S_;  // empty: S is skew, up to the round-off of its entries
+  Matrix symmetric_S_;  // empty: S is skew
   DenseMetric metric_, absolute_metric_;
   mutable Vector absolute_;
 };

@@ -62,9 +62,7 @@ class SparseLinear final : public LinearPart {
   bool apply_symmetric_S(const Vector& z, Vector& out) const override {
     if (!symmetric_S_) {
       symmetric_S_ = 0.5 * (operators_.S + SparseMatrix(operators_.S.transpose()));
-      const Vector ones = Vector::Ones(operators_.S.cols());
-      const double largest = ones.size() > 0 ? Vector(operators_.S.cwiseAbs() * ones).maxCoeff() : 0;
-      symmetric_S_->prune(largest, epsilon);  // what is left of a skew S by the round-off of its entries
+      symmetric_S_->prune(0.0);
     }
     if (symmetric_S_->nonZeros() == 0) return false;
     out.noalias() = *symmetric_S_ * z;
