@@ -13,9 +13,8 @@ Vector Space::physical(const Vector& z) const {
 }
 
 void Space::add_units(const Units&, std::span<const double> sums, std::span<double> totals) const {
-  if (sums.data() == totals.data() && sums.size() == totals.size()) return;
   if (sums.size() == totals.size()) {  // of one unit
-    std::copy(sums.begin(), sums.end(), totals.begin());
+    if (sums.data() != totals.data()) std::copy(sums.begin(), sums.end(), totals.begin());
     return;
   }
   for (std::size_t i = 0; i < totals.size(); ++i) {

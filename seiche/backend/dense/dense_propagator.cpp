@@ -85,14 +85,28 @@ struct Substep {
   [[gnu::always_inline]] inline void apply(const double* z, const double* f) const {
     FM.apply<V>(z, dz);
     F.apply<V>(f, q);
+    for (double* v : {dz, q}) to_state<V>(v);
+  }
+  template <class V>
+  [[gnu::always_inline]] inline void to_state(double* v) const {
     if (T.rows == 0) return;
-    for (double* v : {dz, q}) {
-      T.apply<V>(v, in_energy);
-      for_lanes<V>(
-          0, size, [ =, from = in_energy ]<class X>(Index j, const X&) __attribute__((always_inline)) {
-            store<X>(v + j, load<X>(from + j));
-          });
-    }
+    T.apply<V>(v, in_energy);
+    std::copy_n(in_energy, size, v);
+  }
+};
+
+// ẑ = z⁻ + Q(Mz⁻ + ∇V) on the support, as one matrix times (z⁻, ∇V).
+struct Midpoint {
+  LaneMatrix::View map;
+  double *z, *gradient, *move;  // the gradient behind z⁻
+  Index size;
+  Potential::Support support;
+
+  // |ẑ − z⁻|²
+  template <class V>
+  [[gnu::always_inline]] inline double apply(double* z_mid) const {
+    map.apply<V>(z, move);
+    return add_and_measure<V>(z + support.begin, move, support.size, z_mid);
   }
 };
 
@@ -120,30 +134,23 @@ class DensePropagator final : public Propagator {
     for (Vector* v : {&dz_, &q_}) v->resize(std::max(FM_.padded_rows(), mid_.padded_rows()));
   }
 
-  // ẑ = z⁻ + Q(Mz⁻ + ∇V), as one matrix times (z⁻, ∇V)
   void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
-    with_lanes([
-      =, size = size_, n = support_.size, from = z.data(), g = gradient.data() + support_.begin, mid = mid_.view(),
-      x = z_and_gradient_.data(), q = q_.data(), begin = support_.begin, out = z_mid.data() + support_.begin
-    ]<class V>() __attribute__((always_inline)) {
-      damp_fields<V>(before, from, size, x);
-      std::copy_n(g, n, x + size);
-      mid.template apply<V>(x, q);
-      add_and_measure<V>(x + begin, q, n, out);
+    with_lanes([ =, mid = midpoint(), from = z.data(), g = of_support(gradient),
+                 out = z_mid.data() + support_.begin ]<class V>() __attribute__((always_inline)) {
+      damp_fields<V>(before, from, mid.size, mid.z);
+      std::copy_n(g, mid.support.size, mid.gradient);
+      mid.template apply<V>(out);
     });
   }
   bool recall(const Vector& z, const Gradients& g, Vector& z_mid, FieldFactors before,
               Recalled& recalled) const override {
     with_lanes([
-      =, size = size_, n = support_.size, from = z.data(), g = &g, mid = mid_.view(), x = z_and_gradient_.data(),
-      q = q_.data(), begin = support_.begin, out = z_mid.data() + support_.begin, to = &recalled
+      =, mid = midpoint(), from = z.data(), g0 = of_support(g.g0), g1 = of_support(g.g1), g2 = of_support(g.g2), g = &g,
+      out = z_mid.data() + support_.begin, to = &recalled
     ]<class V>() __attribute__((always_inline)) {
-      damp_fields<V>(before, from, size, x);
-      const double missed = extrapolate<V>(g->g0.data() + begin, g->g1.data() + begin, g->g2.data() + begin, g->weight,
-                                           g->ratio, n, x + size);
-      mid.template apply<V>(x, q);
-      to->moved = add_and_measure<V>(x + begin, q, n, out);
-      to->missed = missed;
+      damp_fields<V>(before, from, mid.size, mid.z);
+      to->missed = extrapolate<V>(g0, g1, g2, g->weight, g->ratio, mid.support.size, mid.gradient);
+      to->moved = mid.template apply<V>(out);
     });
     recalled.missed *= gradient_share_;
     recalled.missed_is_rough = true;
@@ -166,11 +173,10 @@ class DensePropagator final : public Propagator {
 
   Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
     return with_lanes([
-      =, size = size_, n = support_.size, from = z.data(), g = f.data() + support_.begin, x = z_and_gradient_.data(),
-      begin = support_.begin, metric = metric_.view(),
-      substep = Substep{FM_.view(), F_.view(), T_.view(), dz_.data(), q_.data(), y_.data(), size_}
+      =, n = support_.size, begin = support_.begin, from = z.data(), g = of_support(f), x = z_and_gradient_.data(),
+      metric = metric_.view(), substep = substep()
     ]<class V>() __attribute__((always_inline)) {
-      damp_fields<V>(before, from, size, x);
+      damp_fields<V>(before, from, substep.size, x);
       substep.template apply<V>(x, g);
       return Powers{product_of<V>(g, substep.dz + begin, n), product_of<V>(g, substep.q + begin, n),
                     metric.template energy<V>(x)};
@@ -183,11 +189,17 @@ class DensePropagator final : public Propagator {
   }
 
  private:
+  const double* of_support(const Vector& v) const { return v.data() + support_.begin; }
+  Midpoint midpoint() const {
+    double* const z = z_and_gradient_.data();
+    return {mid_.view(), z, z + size_, q_.data(), size_, support_};
+  }
+  Substep substep() const { return {FM_.view(), F_.view(), T_.view(), dz_.data(), q_.data(), y_.data(), size_}; }
+
   // From the coordinates of energy, if F and FM lead there.
   void to_state(Vector& v) const {
-    if (!in_energy_) return;
-    T_.apply(v.data(), y_.data());
-    v.head(size_) = y_.head(size_);
+    with_lanes([ substep = substep(), v = v.data() ]<class V>()
+                   __attribute__((always_inline)) { substep.template to_state<V>(v); });
   }
 
   Index size_;

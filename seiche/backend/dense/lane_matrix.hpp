@@ -37,8 +37,8 @@ class LaneMatrix {
 
 namespace lane_matrix {
 
-// 8 · count rows from `a` on; columns lie `stride` apart. Few rows have two sums each, so that additions need not wait
-// for one another.
+// 8 · count rows from `a` on; columns lie `stride` apart. Few rows have several sums each, so that additions need not
+// wait for one another.
 template <class V, int count>
 [[gnu::always_inline]] inline void apply_rows(const double* a, Index stride, Index columns, const double* x,
                                               double* y) {
