@@ -61,6 +61,11 @@ const std::map<std::string, Folders> may_include = {
       "simulation", "config", "study", "figure", "ensemble", "driver"}},
 };
 
+// Written by CMake, of no room.
+bool is_configured(const std::string& header) {
+  return header == "seiche/version.hpp" || header == "seiche/allocation.hpp";
+}
+
 // Which folders may include a third-party header; the longest prefix decides. fmt is for all folders.
 struct ThirdParty {
   std::string prefix;
@@ -125,7 +130,7 @@ std::string broken_rule(const Include& include) {
   if (ours) {
     const fs::path target =
         include.quoted && !include.target.starts_with("seiche/") ? beside : fs::path(include.target);
-    if (target == fs::path("seiche/version.hpp") || umbrella) return "";
+    if (is_configured(include.target) || umbrella) return "";
     if (target == fs::path("seiche/seiche.hpp")) return folder == "cli" ? "" : "only cli includes the umbrella header";
     const auto rule = may_include.find(folder);
     if (rule == may_include.end()) return "folder '" + folder + "' is not in the layering table";
@@ -232,7 +237,7 @@ TEST(Layering, InstalledHeadersNeedOnlyEigenAndFmt) {
 
 TEST(Layering, EveryHeaderThatIsIncludedIsThere) {
   for (const Include& include : all_includes()) {
-    if (!include.target.starts_with("seiche/") || include.target == "seiche/version.hpp") continue;
+    if (!include.target.starts_with("seiche/") || is_configured(include.target)) continue;
     EXPECT_TRUE(fs::exists(root / include.target)) << description(include, "there is no such file");
   }
 }

@@ -22,20 +22,35 @@ execute_process(COMMAND "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${work}/consumer" --config "${config}" COMMAND_ERROR_IS_FATAL ANY)
 
-# The same by pkg-config alone, as in a Makefile.
+# The same by pkg-config alone, as in a Makefile, and under a sanitizer, which would allocate vectors in another way.
 find_program(bash bash REQUIRED)
 file(GLOB_RECURSE pc "${prefix}/*/seiche.pc")
 cmake_path(GET pc PARENT_PATH pc_folder)
 set(ENV{PKG_CONFIG_PATH} "${pc_folder}:$ENV{PKG_CONFIG_PATH}")
-execute_process(COMMAND "${bash}" -c
-  "'${compiler}' '${CMAKE_CURRENT_LIST_DIR}/main.cpp' -o '${work}/plain' $(pkg-config --cflags --libs seiche)"
-  COMMAND_ERROR_IS_FATAL ANY)
+foreach(variant IN ITEMS "plain" "checked;-fsanitize=address")
+  list(POP_FRONT variant name)
+  execute_process(COMMAND "${bash}" -c
+    "'${compiler}' ${variant} '${CMAKE_CURRENT_LIST_DIR}/main.cpp' -o '${work}/${name}' $(pkg-config --cflags --libs seiche)"
+    COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+# Other instructions change how Eigen frees what the library has allocated: that is said before anything runs.
+if(CMAKE_HOST_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  foreach(instructions IN ITEMS sse3 avx512f)
+    execute_process(COMMAND "${bash}" -c
+      "'${compiler}' -m${instructions} -fsyntax-only '${CMAKE_CURRENT_LIST_DIR}/main.cpp' $(pkg-config --cflags seiche)"
+      RESULT_VARIABLE result_${instructions} ERROR_VARIABLE errors)
+    string(FIND "${errors}" "would free vectors of Eigen in another way than the Seiche library" said_${instructions})
+  endforeach()
+  if(result_sse3 EQUAL result_avx512f OR said_sse3 EQUAL said_avx512f)
+    message(FATAL_ERROR "a program for AVX-512 and one for SSE3 are both accepted, or both refused")
+  endif()
+endif()
 cmake_path(GET pc_folder PARENT_PATH library_folder)
 set(ENV{LD_LIBRARY_PATH} "${library_folder}:$ENV{LD_LIBRARY_PATH}")  # of a shared library
 
 find_program(consumer consumer PATHS "${work}/consumer" "${work}/consumer/${config}" NO_DEFAULT_PATH REQUIRED)
 find_program(program seiche PATHS "${prefix}/bin" NO_DEFAULT_PATH REQUIRED)
-foreach(command IN ITEMS "${consumer}" "${work}/plain" "${program};--version")
+foreach(command IN ITEMS "${consumer}" "${work}/plain" "${work}/checked" "${program};--version")
   execute_process(COMMAND ${command} OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
   string(FIND "${output}" "${version}" position)
   if(position EQUAL -1)
