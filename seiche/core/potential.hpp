@@ -1,6 +1,7 @@
 // The nonlinear part V of H(z) = ½zᵀMz + V(z).
 #pragma once
 
+#include <seiche/core/base/value_and_magnitude.hpp>
 #include <seiche/core/base/vector.hpp>
 
 #include <algorithm>
@@ -24,17 +25,6 @@ struct TermsOfPotential {
   std::shared_ptr<const PointwisePotential> potential;
   bool is_counted = true;  // where its value belongs
   Index first_field = 0;
-};
-
-struct ValueAndMagnitude {
-  double value = 0.0;
-  double magnitude = 0.0;  // the same sum with the sizes of its terms: the scale of round-off in the value
-
-  ValueAndMagnitude& operator+=(double term) {
-    value += term;
-    magnitude += std::abs(term);
-    return *this;
-  }
 };
 
 // V on the physical values u of one field, or of several: then u holds them one after the other. Contracts, tested for

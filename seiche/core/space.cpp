@@ -2,6 +2,7 @@
 #include <seiche/core/space.hpp>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace seiche {
@@ -10,6 +11,23 @@ Vector Space::physical(const Vector& z) const {
   Vector values(physical_size());
   to_physical(z, values);
   return values;
+}
+
+ValueAndMagnitude Space::dot_and_magnitude(const Vector& a, const Vector& b) const {
+  const Field field = slots();
+  std::array<double, 2> totals{};
+  add(
+      field.units,
+      [&](Index unit, std::span<double> sums) {
+        ValueAndMagnitude sum;
+        field.for_parts(a.size(), unit, [&](Index begin, Index size) {
+          sum += seiche::dot_and_magnitude(a.data() + begin, b.data() + begin, size);
+        });
+        sums[0] = sum.value;
+        sums[1] = sum.magnitude;
+      },
+      totals);
+  return {totals[0], totals[1]};
 }
 
 void Space::add_units(const Units&, std::span<const double> sums, std::span<double> totals) const {

@@ -4,10 +4,11 @@
 #include <seiche/core/base/function_ref.hpp>
 #include <seiche/core/base/vector.hpp>
 #include <seiche/core/grid/units.hpp>
-#include <seiche/core/simd/squared_norm.hpp>
+#include <seiche/core/simd/products.hpp>
 
 #include <cmath>
 #include <span>
+#include <type_traits>
 
 namespace seiche {
 
@@ -32,7 +33,8 @@ class Space {
   virtual Field slots() const { return {size()}; }
   virtual Field values() const { return {physical_size()}; }
   // Totals over all processes of sums over the units that this one holds, `totals.size()` side by side for each: added
-  // in the order of units, they do not depend on how many processes there are. Of one unit both may be one array.
+  // in the order of units, they do not depend on how many processes there are. Of one unit that is what `sum` does, and
+  // both may be one array.
   virtual void add_units(const Units& units, std::span<const double> sums, std::span<double> totals) const;
   // The numbers of a vector in all processes, in the order that they have in one, piece by piece: on the first process.
   // What `take` throws is thrown there when all pieces have passed, since the other processes do not know of it.
@@ -56,7 +58,9 @@ class Space {
   // Of what `of_unit` says of each unit, in as many numbers as there are totals; it adds up nothing itself.
   void add(const Units& units, FunctionRef<void(Index unit, std::span<double> sums)> of_unit,
            std::span<double> totals) const;
-  double total(const Units& units, FunctionRef<double(Index unit)> of_unit) const {
+  template <class OfUnit>
+  double total(const Units& units, const OfUnit& of_unit) const {
+    if (units.whole().count() == 1) return sum(units.count() == 1 ? of_unit(Index{0}) : 0.0);
     double total = 0;
     add(units, [&](Index unit, std::span<double> sum) { sum[0] = of_unit(unit); }, {&total, 1});
     return total;
@@ -65,9 +69,14 @@ class Space {
   // Of vectors, parts of them that are whole fields, and expressions, in the coordinates of z.
   template <class A, class B>
   double dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) const {
-    return over(slots(), a.size(),
-                [&](Index begin, Index size) { return a.segment(begin, size).dot(b.segment(begin, size)); });
+    return over(slots(), a.size(), [&](Index begin, Index size) {
+      if constexpr (std::is_same_v<A, Vector> && std::is_same_v<B, Vector>)
+        return seiche::dot(a.derived().data() + begin, b.derived().data() + begin, size);
+      else
+        return a.segment(begin, size).dot(b.segment(begin, size));
+    });
   }
+  ValueAndMagnitude dot_and_magnitude(const Vector& a, const Vector& b) const;
   template <class A, class B>
   double absolute_dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) const {
     return over(slots(), a.size(), [&](Index begin, Index size) {
@@ -77,10 +86,6 @@ class Space {
   template <class A>
   double squared_norm(const Eigen::MatrixBase<A>& a) const {
     return squared_norm(slots(), a);
-  }
-  double squared_norm(const Vector& z) const {
-    return over(slots(), z.size(),
-                [&](Index begin, Index size) { return seiche::squared_norm(z.data() + begin, size); });
   }
   template <class A>
   double norm(const Eigen::MatrixBase<A>& a) const {
@@ -111,7 +116,12 @@ class Space {
  private:
   template <class A>
   double squared_norm(const Field& field, const Eigen::MatrixBase<A>& a) const {
-    return over(field, a.size(), [&](Index begin, Index size) { return a.segment(begin, size).squaredNorm(); });
+    return over(field, a.size(), [&](Index begin, Index size) {
+      if constexpr (std::is_same_v<A, Vector>)
+        return seiche::squared_norm(a.derived().data() + begin, size);
+      else
+        return a.segment(begin, size).squaredNorm();
+    });
   }
   template <class OfPart>
   double over(const Field& field, Index size, const OfPart& of_part) const {

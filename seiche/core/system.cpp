@@ -23,8 +23,9 @@ System::Dissipation System::dissipation(double t, const Vector& z, const Vector&
   Dissipation result;
   double sizes = 0;
   const auto in_scratch = [&] {
-    sizes += space->absolute_dot(gradient_H, scratch);
-    return space->dot(gradient_H, scratch);
+    const ValueAndMagnitude product = space->dot_and_magnitude(gradient_H, scratch);
+    sizes += product.magnitude;
+    return product.value;
   };
   result.rate = in_scratch();
   linear->apply_S(gradient_H, scratch);  // a skew S too: the sizes of its terms tell what the rate may be off by

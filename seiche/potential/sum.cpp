@@ -53,9 +53,7 @@ class Sum final : public PointwisePotential {
   ValueAndMagnitude value_and_magnitude(std::span<const double> u) const override {
     ValueAndMagnitude sum;
     for (const PlacedPotential& part : parts_) {
-      const ValueAndMagnitude of_part = part.potential->value_and_magnitude(read_by(part, u));
-      sum.value += of_part.value;
-      sum.magnitude += of_part.magnitude;
+      sum += part.potential->value_and_magnitude(read_by(part, u));
     }
     return sum;
   }

@@ -81,7 +81,8 @@ Hypothesis hypothesis_of_mobility(const Problem& problem, const System& system) 
     system.structure->apply(z, w, out);
     system.linear->apply_S(w, linear);
     out += linear;
-    largest = std::max(largest, system.space->dot(w, out) / std::max(system.space->absolute_dot(w, out), 1e-300));
+    const ValueAndMagnitude form = system.space->dot_and_magnitude(w, out);
+    largest = std::max(largest, form.value / std::max(form.magnitude, 1e-300));
   }
   return {"sym S(z) ⪯ 0", largest <= 1e3 * epsilon ? Grade::sampled : Grade::violated,
           fmt::format("{}, with 0 where the coefficient is negative", problem.structure->text()), -largest};
@@ -99,7 +100,8 @@ Hypothesis hypothesis_of_structure(const Problem& problem, const System& system)
     z = random_state(*system.space, random);
     w = random_state(*system.space, random);
     system.structure->apply(z, w, out);
-    worst = std::max(worst, std::abs(system.space->dot(w, out)) / std::max(system.space->absolute_dot(w, out), 1e-300));
+    const ValueAndMagnitude form = system.space->dot_and_magnitude(w, out);
+    worst = std::max(worst, std::abs(form.value) / std::max(form.magnitude, 1e-300));
   }
   const bool skew = worst <= 1e3 * epsilon;
   return {name, skew ? Grade::sampled : Grade::violated,

@@ -39,6 +39,8 @@ TEST(Space, LengthsAreThoseOfAllParts) {
   const Vector a{{3, 0, -4}}, b{{1, 2, 0.5}};
   EXPECT_EQ(space.dot(a, b), 2.0);
   EXPECT_EQ(space.absolute_dot(a, b), 10.0);
+  EXPECT_EQ(space.dot_and_magnitude(a, b).value, 2.0);
+  EXPECT_EQ(space.dot_and_magnitude(a, b).magnitude, 10.0);
   EXPECT_EQ(space.squared_norm(a.head(1)), 18.0);
   EXPECT_DOUBLE_EQ(space.norm(a), std::sqrt(50.0));
   EXPECT_DOUBLE_EQ(space.stable_norm(1e-200 * a), 1e-200 * std::sqrt(50.0));
@@ -66,7 +68,7 @@ TEST(Space, SumsAreTakenUnitByUnitOfAllFields) {
     return (part(a, b, 0, 6) + part(a, b, 15, 6)) + (part(a, b, 6, 9) + part(a, b, 21, 9));
   };
   EXPECT_EQ(space.dot(a, b), of_units([](const Vector& x, const Vector& y, Index at, Index n) {
-              return x.segment(at, n).dot(y.segment(at, n));
+              return dot(x.data() + at, y.data() + at, n);
             }));
   EXPECT_EQ(space.squared_norm(a + b), of_units([](const Vector& x, const Vector& y, Index at, Index n) {
               return (x + y).segment(at, n).squaredNorm();

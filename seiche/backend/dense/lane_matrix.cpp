@@ -5,8 +5,9 @@ namespace seiche {
 
 LaneMatrix::LaneMatrix(const Eigen::MatrixXd& a)
     : columns_(a.cols()), padded_rows_((a.rows() + lane_count - 1) / lane_count * lane_count) {
-  entries_.setZero(padded_rows_ * columns_);
-  for (Index j = 0; j < columns_; ++j) entries_.segment(j * padded_rows_, a.rows()) = a.col(j);
+  entries_ = CacheLines(static_cast<std::size_t>(padded_rows_ * columns_));
+  for (Index j = 0; j < columns_; ++j)
+    for (Index i = 0; i < a.rows(); ++i) entries_.data()[j * padded_rows_ + i] = a(i, j);
 }
 
 void LaneMatrix::apply(const double* x, double* y) const {

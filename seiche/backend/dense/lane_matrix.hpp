@@ -2,6 +2,7 @@
 #pragma once
 
 #include <seiche/core/base/vector.hpp>
+#include <seiche/core/simd/cache_lines.hpp>
 #include <seiche/core/simd/lanes.hpp>
 
 #include <Eigen/Dense>
@@ -32,7 +33,7 @@ class LaneMatrix {
 
  private:
   Index columns_ = 0, padded_rows_ = 0;
-  Vector entries_;  // column after column, each filled up with zeros to a multiple of the lanes
+  CacheLines entries_;  // column after column, each filled up with zeros to a multiple of the lanes
 };
 
 namespace lane_matrix {

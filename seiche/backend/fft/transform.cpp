@@ -4,6 +4,7 @@
 #include <seiche/backend/fft/grid_rows.hpp>
 #include <seiche/backend/fft/line_kinds.hpp>
 #include <seiche/backend/fft/transform.hpp>
+#include <seiche/core/simd/add_scaled.hpp>
 #include <seiche/core/simd/parallel.hpp>
 
 #include <algorithm>
@@ -119,6 +120,7 @@ class ModalTransform final : public FieldTransform {
 
   std::span<const double> through_values(std::span<const double> from, std::span<double> slots,
                                          const Pointwise& f) const override {
+    if (row_count_ == 1 && !turned_) return through_one_row(from, slots, f);
     const bool is_kept = turned_ && pairs_;  // by the transform that is read from it
     if (from.data() != slots.data() && !is_kept) copy(from.data(), slots.data());
     double* const rows = columns_to_values(is_kept ? const_cast<double*>(from.data()) : slots.data());
@@ -135,6 +137,16 @@ class ModalTransform final : public FieldTransform {
   }
 
  private:
+  std::span<const double> through_one_row(std::span<const double> from, std::span<double> slots,
+                                          const Pointwise& f) const {
+    if (from.data() != slots.data()) copy(from.data(), slots.data());
+    double* const values = values_.front().get();
+    rows_->to_values(slots.data(), values, 1);
+    sums_.front() = f({values, static_cast<std::size_t>(n_)});
+    rows_->to_slots(values, slots.data(), 1);
+    return sums_;
+  }
+
   Index row(Index batch) const {
     if (rows_of_plane_ == 1) return batches_.begin(batch);
     return batch / batches_.count() * rows_of_plane_ + batches_.begin(batch % batches_.count());
@@ -218,16 +230,13 @@ class ModalTransform final : public FieldTransform {
 
 void FieldTransform::forward(std::span<const double> values, std::span<double> slots) const {
   to_slots(values, slots);
-  const double scale = slot_scale();
-  if (scale != 1)
-    for (double& slot : slots) slot *= scale;
+  if (const double factor = slot_scale(); factor != 1) scale(slots.data(), factor, std::ssize(slots), slots.data());
 }
 
 void FieldTransform::inverse(std::span<const double> slots, std::span<double> values) const {
-  const double scale = value_scale();
   thread_local std::vector<double> scaled;  // to_values overwrites what it is given
   scaled.resize(slots.size());
-  for (std::size_t i = 0; i < slots.size(); ++i) scaled[i] = scale * slots[i];
+  scale(slots.data(), value_scale(), std::ssize(slots), scaled.data());
   to_values(scaled, values);
 }
 

@@ -2,6 +2,7 @@
 #include <seiche/backend/grid/segment.hpp>
 #include <seiche/core/commuting_damping.hpp>
 #include <seiche/core/numerics/end_extrapolation.hpp>
+#include <seiche/core/simd/add_scaled.hpp>
 #include <seiche/core/spectral_radius.hpp>
 
 #include <algorithm>
@@ -143,7 +144,7 @@ void GridDamping::add_rates(double gamma, const Vector* at_points, const Vector&
   for (std::size_t f = 0; f < rate_fields_.size(); ++f) {
     const Index begin = static_cast<Index>(f) * slots_;
     if (!rate_fields_[f]) continue;
-    out.segment(begin, slots_) += gamma * z.segment(begin, slots_);
+    add_scaled(out.data() + begin, gamma, z.data() + begin, slots_, out.data() + begin);
     if (at_points == nullptr) continue;
     scratch_.head(slots_) = z.segment(begin, slots_);
     field_rate_->multiply(*at_points, segment(scratch_, 0, slots_));

@@ -6,7 +6,11 @@
 namespace seiche {
 
 GridSpace::GridSpace(Index fields, std::shared_ptr<const FieldTransform> transform, const Ranks* ranks)
-    : fields_(fields), transform_(std::move(transform)), ranks_(ranks) {}
+    : fields_(fields),
+      transform_(std::move(transform)),
+      ranks_(ranks),
+      slots_(transform_->slot_field()),
+      values_(transform_->value_field()) {}
 
 void GridSpace::sum(std::span<double> local) const {
   if (ranks_ != nullptr) ranks_->sum(local);

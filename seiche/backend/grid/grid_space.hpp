@@ -21,8 +21,8 @@ class GridSpace final : public Space {
   Index physical_size() const override { return fields_ * transform_->unknowns(); }
   void join(const Field& field, std::span<const double> mine,
             FunctionRef<void(std::span<const double> piece)> take) const override;
-  Field slots() const override { return transform_->slot_field(); }
-  Field values() const override { return transform_->value_field(); }
+  Field slots() const override { return slots_; }
+  Field values() const override { return values_; }
   void to_physical(const Vector& z, Vector& values) const override;
   void from_physical(const Vector& values, Vector& z) const override;
 
@@ -30,6 +30,7 @@ class GridSpace final : public Space {
   Index fields_;
   std::shared_ptr<const FieldTransform> transform_;
   const Ranks* ranks_;  // null: this process alone
+  Field slots_, values_;
 };
 
 }  // namespace seiche

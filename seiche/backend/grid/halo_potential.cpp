@@ -89,9 +89,7 @@ class HaloPotential final : public PointwisePotential {
     ValueAndMagnitude sum;
     for (const Terms& terms : terms_) {
       if (!terms.is_counted) continue;
-      const ValueAndMagnitude v = terms.V->value_and_magnitude(terms.read(all, terms.u));
-      sum.value += v.value;
-      sum.magnitude += v.magnitude;
+      sum += terms.V->value_and_magnitude(terms.read(all, terms.u));
     }
     return sum;
   }

@@ -3,12 +3,12 @@
 
 #include <seiche/core/base/vector.hpp>
 #include <seiche/core/grid/modes.hpp>
+#include <seiche/core/simd/cache_lines.hpp>
 
 #include <Eigen/Dense>
 
 #include <complex>
 #include <functional>
-#include <vector>
 
 namespace seiche {
 
@@ -26,9 +26,10 @@ constexpr Index slots_per_mode(ModeLayout layout) { return layout == ModeLayout:
 class ModeArrays {
  public:
   ModeArrays(Index modes, Index rows, Index columns, ModeLayout layout)
-      : columns_(columns), stride_(modes * factors_per_mode(layout)), layout_(layout) {
-    factors_.resize(static_cast<std::size_t>(rows * columns * stride_));
-  }
+      : columns_(columns),
+        stride_((modes * factors_per_mode(layout) + lane_count - 1) / lane_count * lane_count),
+        layout_(layout),
+        factors_(static_cast<std::size_t>(rows * columns * stride_)) {}
 
   void set(Index mode, Index row, Index column, std::complex<double> c) {
     double* at = data(row, column) + mode * factors_per_mode(layout_);
@@ -46,7 +47,7 @@ class ModeArrays {
 
   Index columns_, stride_;
   ModeLayout layout_;
-  std::vector<double> factors_;
+  CacheLines factors_;
 };
 
 }  // namespace seiche

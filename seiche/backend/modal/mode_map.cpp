@@ -1,6 +1,24 @@
+#include <seiche/backend/modal/mode_kernels.hpp>
 #include <seiche/backend/modal/mode_map.hpp>
 
+#include <type_traits>
+
 namespace seiche {
+namespace {
+
+// y += cx
+template <ModeLayout layout, class V>
+[[gnu::always_inline]] inline void add_slots(const double* c, const double* x, Index slots, double* y) {
+  using LastV = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
+  const auto add = [=]<class X>(Index i, const X&) __attribute__((always_inline)) {
+    store<X>(y + i, load<X>(y + i) + mode_kernels::times<layout, X>(c, i, load<X>(x + i)));
+  };
+  Index i = 0;
+  for (; i + lane_count <= slots; i += lane_count) add(i, V{});
+  for (; i < slots; i += slots_per_mode(layout)) add(i, LastV{});
+}
+
+}  // namespace
 
 ModeMap::ModeMap(const Modes& modes, Index fields, const Block& block) : slots_(modes.slots()) {
   const bool paired = modes.are_pairs();
@@ -36,16 +54,14 @@ void ModeMap::add_entry(const Entry& entry, const Vector& in, Vector& out) const
   const double* c = entry.factors.data();
   const double* x = in.data() + entry.column * slots_;
   double* y = out.data() + entry.row * slots_;
-  if (entry.real) {
-    for (Index i = 0; i < slots_; ++i) y[i] += c[i] * x[i];
-    return;
-  }
-  for (Index i = 0; i < slots_; i += 2) {
-    const double re = c[i] * x[i] - c[i + 1] * x[i + 1];
-    const double im = c[i] * x[i + 1] + c[i + 1] * x[i];
-    y[i] += re;
-    y[i + 1] += im;
-  }
+  with_lanes(
+      [ c, x, y, slots = slots_, layout = entry.real ? ModeLayout::singles : ModeLayout::complex_pairs ]<class V>()
+          __attribute__((always_inline)) {
+            if (layout == ModeLayout::singles)
+              add_slots<ModeLayout::singles, V>(c, x, slots, y);
+            else
+              add_slots<ModeLayout::complex_pairs, V>(c, x, slots, y);
+          });
 }
 
 void ModeMap::add(const Vector& in, Vector& out) const {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <type_traits>
 
 namespace seiche {
 namespace {
@@ -16,24 +16,32 @@ constexpr Index max_columns = 40;         // the inputs of eight slots wait in t
 constexpr int unrolled_columns = 8;
 constexpr std::size_t max_forms = 4;
 
-// The first `count` lanes from memory, 0 < count < lane_count, and zeros. Copies of a size known to the compiler are no
-// calls.
-template <int count = lane_count - 1, class V>
-[[gnu::always_inline]] inline void load_some(const double* from, Index wanted, V& x) {
-  if (wanted == count) {
-    x = V{};
-    std::memcpy(&x, from, count * sizeof(double));
-  } else if constexpr (count > 1) {
-    load_some<count - 1>(from, wanted, x);
+// The first `count` lanes, 0 < count < those of V, from memory, and zeros; and into memory. By halves, which stay in
+// registers.
+template <class V>
+[[gnu::always_inline]] inline V load_first(const double* from, Index count) {
+  if constexpr (std::is_same_v<V, Pair>) {
+    return Pair{from[0], 0};
+  } else {
+    using Half = typename HalfOf<V>::type;
+    constexpr Index half = sizeof(Half) / sizeof(double);
+    if (count == half) return joined<V>(load<Half>(from), Half{});
+    if (count < half) return joined<V>(load_first<Half>(from, count), Half{});
+    return joined<V>(load<Half>(from), load_first<Half>(from + half, count - half));
   }
 }
 
-template <int count = lane_count - 1, class V>
-[[gnu::always_inline]] inline void store_some(double* to, Index wanted, const V& x) {
-  if (wanted == count)
-    std::memcpy(to, &x, count * sizeof(double));
-  else if constexpr (count > 1)
-    store_some<count - 1>(to, wanted, x);
+template <class V>
+[[gnu::always_inline]] inline void store_first(double* to, Index count, const V& x) {
+  if constexpr (std::is_same_v<V, Pair>) {
+    *to = x[0];
+  } else {
+    using Half = typename HalfOf<V>::type;
+    constexpr Index half = sizeof(Half) / sizeof(double);
+    if (count < half) return store_first<Half>(to, count, low_half(x));
+    store<Half>(to, low_half(x));
+    if (count > half) store_first<Half>(to + half, count - half, high_half(x));
+  }
 }
 
 // The inputs of eight slots. `known` of them, or, for 0, any number up to max_columns.
@@ -53,7 +61,7 @@ struct Inputs {
     if (left >= lane_count) {
       for (int j = 0; j < size(); ++j) x[j] = load<V>(in[j] + begin);
     } else {
-      for (int j = 0; j < size(); ++j) load_some(in[j] + begin, left, x[j]);
+      for (int j = 0; j < size(); ++j) x[j] = load_first<V>(in[j] + begin, left);
     }
     if constexpr (are_turned)
       for (int j = 0; j < size(); ++j) turned[j] = with_first_negated(with_pairs_turned(x[j]));
@@ -91,7 +99,7 @@ template <class V, ModeLayout layout, int known>
       if (left >= lane_count)
         store<V>(rows[i] + begin, sum);
       else
-        store_some(rows[i] + begin, left, sum);
+        store_first<V>(rows[i] + begin, left, sum);
     }
   }
 }
@@ -144,14 +152,11 @@ void with_columns(Index columns, const Body& body) {
     body.template operator()<0>();
 }
 
-// body<layout>(first chunk, last chunk)
-template <class Body>
-void over_blocks(const ModeFactors& factors, int threads, const Body& body) {
-  for_blocks(blocks_of(factors), threads, [&](Index block) {
-    const Index first = block * chunks_per_block;
-    const Index last = std::min(factors.chunks(), first + chunks_per_block);
-    with_layout(factors.layout(), [&]<ModeLayout layout>() { body.template operator()<layout>(first, last); });
-  });
+template <ModeLayout layout, int known>
+void sum_rows_in_lanes(const ModeFactors& factors, std::span<const double* const> in, std::span<double* const> out,
+                       Index first, Index last) {
+  with_lanes([&]<class V>()
+                 __attribute__((always_inline)) { sum_rows<V, layout, known>(factors, in, out, first, last); });
 }
 
 Index checked_columns(Index columns) {
@@ -165,7 +170,7 @@ Index checked_columns(Index columns) {
 
 ModeFactors::ModeFactors(ModeLayout layout, Index modes, Index per_mode)
     : layout_(layout), slots_(modes * slots_per_mode(layout)), per_mode_(per_mode) {
-  factors_.resize(static_cast<std::size_t>(chunks() * per_mode * stride()));
+  factors_ = CacheLines(static_cast<std::size_t>(chunks() * per_mode * stride()));
 }
 
 void ModeFactors::set(Index mode, Index which, std::complex<double> factor) {
@@ -178,18 +183,20 @@ void ModeFactors::set(Index mode, Index which, std::complex<double> factor) {
 }
 
 ModeTable::ModeTable(ModeLayout layout, Index modes, Index rows, Index columns)
-    : columns_(checked_columns(columns)), factors_(layout, modes, rows * columns) {}
+    : columns_(checked_columns(columns)), factors_(layout, modes, rows * columns) {
+  with_layout(layout, [&]<ModeLayout of>() {
+    with_columns(columns, [&]<int known>() { sum_rows_ = sum_rows_in_lanes<of, known>; });
+  });
+}
 
 void ModeTable::apply(std::span<const double* const> in, std::span<double* const> out, int threads) const {
   if (columns_ == 0) {  // of forces alone, where V = 0
     for (double* const row : out) std::fill_n(row, factors_.slots(), 0.0);
     return;
   }
-  over_blocks(factors_, threads, [&]<ModeLayout layout>(Index first, Index last) {
-    with_columns(columns_, [&]<int known>() {
-      with_lanes([&]<class V>()
-                     __attribute__((always_inline)) { sum_rows<V, layout, known>(factors_, in, out, first, last); });
-    });
+  for_blocks(blocks_of(factors_), threads, [&](Index block) {
+    const Index first = block * chunks_per_block;
+    sum_rows_(factors_, in, out, first, std::min(factors_.chunks(), first + chunks_per_block));
   });
 }
 

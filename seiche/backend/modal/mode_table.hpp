@@ -3,11 +3,11 @@
 
 #include <seiche/backend/modal/mode_arrays.hpp>
 #include <seiche/backend/modal/unit_blocks.hpp>
+#include <seiche/core/simd/cache_lines.hpp>
 #include <seiche/core/simd/lanes.hpp>
 
 #include <complex>
 #include <span>
-#include <vector>
 
 namespace seiche {
 
@@ -30,7 +30,7 @@ class ModeFactors {
  private:
   ModeLayout layout_;
   Index slots_, per_mode_;
-  std::vector<double> factors_;
+  CacheLines factors_;
 };
 
 void ModeFactors::set_eight(Index first, Index which, const Lanes& re, const Lanes& im) {
@@ -67,6 +67,9 @@ class ModeTable {
  private:
   Index columns_;
   ModeFactors factors_;
+  // apply for the chunks first … last − 1, by the loop for this layout and number of columns.
+  void (*sum_rows_)(const ModeFactors& factors, std::span<const double* const> in, std::span<double* const> out,
+                    Index first, Index last) = nullptr;
 };
 
 // Hermitian forms, several of the same inputs.

@@ -50,7 +50,7 @@ inline constexpr bool is_in_parts = false;
 template <class Half>
 inline constexpr bool is_in_parts<TwoOf<Half>> = true;
 
-// Four of them.
+// What is half as wide.
 template <class V>
 struct HalfOf;
 template <>
@@ -60,6 +60,10 @@ struct HalfOf<Lanes> {
 template <class Half>
 struct HalfOf<TwoOf<Half>> {
   using type = Half;
+};
+template <>
+struct HalfOf<HalfLanes> {
+  using type = Pair;
 };
 
 // body(j, V{}) for eight numbers from j on at a time, then the same with HalfOf<V> for four, and with 0.0 for one.
@@ -97,6 +101,35 @@ template <class V>
   } else {
     std::memcpy(p, &v, sizeof v);
   }
+}
+
+// The halves of V, and V of them.
+template <class V>
+[[gnu::always_inline]] inline typename HalfOf<V>::type low_half(const V& x) {
+  if constexpr (is_in_parts<V>)
+    return x.low;
+  else if constexpr (sizeof(V) == sizeof(Lanes))
+    return __builtin_shufflevector(x, x, 0, 1, 2, 3);
+  else
+    return __builtin_shufflevector(x, x, 0, 1);
+}
+template <class V>
+[[gnu::always_inline]] inline typename HalfOf<V>::type high_half(const V& x) {
+  if constexpr (is_in_parts<V>)
+    return x.high;
+  else if constexpr (sizeof(V) == sizeof(Lanes))
+    return __builtin_shufflevector(x, x, 4, 5, 6, 7);
+  else
+    return __builtin_shufflevector(x, x, 2, 3);
+}
+template <class V>
+[[gnu::always_inline]] inline V joined(const typename HalfOf<V>::type& low, const typename HalfOf<V>::type& high) {
+  if constexpr (is_in_parts<V>)
+    return {low, high};
+  else if constexpr (sizeof(V) == sizeof(Lanes))
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  else
+    return __builtin_shufflevector(low, high, 0, 1, 2, 3);
 }
 
 [[gnu::always_inline]] inline double absolute(double x) { return __builtin_fabs(x); }

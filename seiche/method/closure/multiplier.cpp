@@ -23,17 +23,18 @@ void MultiplierEquation::set(const Line& line, const MeasuredAt* measured_at) {
   potential_.mean_gradient(start, end, mean_);     // ḡ(0)
   gap_norm_ = space_.stable_norm(mean_ - line.g);  // squares of what has decayed would underflow
   mean_norm_ = space_.stable_norm(mean_);
-  gd_ = space_.dot(line.g, line.delta);
-  linear_ = space_.dot(line.g, line.q) + space_.dot(line.e, line.delta);
-  eq_ = space_.dot(line.e, line.q);
+  const ValueAndMagnitude gd = space_.dot_and_magnitude(line.g, line.delta),
+                          gq = space_.dot_and_magnitude(line.g, line.q),
+                          ed = space_.dot_and_magnitude(line.e, line.delta),
+                          eq = space_.dot_and_magnitude(line.e, line.q);
+  gd_ = gd.value;
+  linear_ = gq.value + ed.value;
+  eq_ = eq.value;
   const Potential::Support support = potential_.support();
   const double sizes = space_.norm(line.g) * space_.norm(line.delta.segment(support.begin, support.size));
   cosine_ = sizes > 0 ? gd_ / sizes : 0;
   const double work = measured_at ? space_.absolute_dot(mean_, end - start) : space_.absolute_dot(mean_, line.delta);
-  scales_ = {work + space_.absolute_dot(line.g, line.delta),
-             space_.absolute_dot(mean_, direction) + space_.absolute_dot(line.g, line.q) +
-                 space_.absolute_dot(line.e, line.delta),
-             space_.absolute_dot(line.e, line.q)};
+  scales_ = {work + gd.magnitude, space_.absolute_dot(mean_, direction) + gq.magnitude + ed.magnitude, eq.magnitude};
 
   delta_ = &line.delta;
   start_ = &start;

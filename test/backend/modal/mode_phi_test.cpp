@@ -130,7 +130,7 @@ TEST(ModePhi, ComplexFactorsTurnAndDecay) {
 // Fewer, as many and more columns than have loops of their own.
 TEST(ModePhi, SumsOfAnyNumberOfColumnsAreSums) {
   for (const ModeLayout layout : {ModeLayout::singles, ModeLayout::real_pairs, ModeLayout::complex_pairs}) {
-    for (const Index modes : {1, 3, 7, 8, 21}) {
+    for (const Index modes : {1, 2, 3, 4, 5, 6, 7, 8, 21}) {
       const Index slots = modes * slots_per_mode(layout);
       for (Index columns = 1; columns <= 12; ++columns) {
         const Eigen::MatrixXd in = Eigen::MatrixXd::Random(slots, columns);

@@ -1,6 +1,7 @@
 // Eight lanes in registers of any width do the same.
 #include <gtest/gtest.h>
 #include <seiche/core/simd/add_scaled.hpp>
+#include <seiche/core/simd/products.hpp>
 #include <seiche/core/simd/with_lanes.hpp>
 
 #include <algorithm>
@@ -65,6 +66,13 @@ TYPED_TEST(LanesOf, NumbersAreShiftedFromOneEightIntoTheNext) {
   EXPECT_EQ(last_of(x), a[7]);
 }
 
+TYPED_TEST(LanesOf, HalvesJoinToTheWhole) {
+  const auto x = load<TypeParam>(a.data());
+  const auto low = low_half(x), high = high_half(x);
+  EXPECT_EQ(numbers<TypeParam>(joined<TypeParam>(low, high)), a);
+  EXPECT_EQ(numbers<TypeParam>(joined<TypeParam>(high, low)), each([](std::size_t i) { return a[(i + 4) % 8]; }));
+}
+
 // To the bit, since sums over a grid must not depend on the processor more than its products do.
 TYPED_TEST(LanesOf, SumsAreTakenInOneOrder) {
   const Eight rough = each([](std::size_t i) { return std::sin(1.0 + static_cast<double>(i)) * std::pow(10.0, i); });
@@ -104,6 +112,32 @@ TEST(AddScaled, IsThatOfEveryNumberAlsoInPlace) {
     EXPECT_EQ(out, expected);
     add_scaled(x.data(), 0.5, y.data(), n, y.data());
     EXPECT_EQ(y, expected);
+    scale(x.data(), -3, n, y.data());
+    EXPECT_EQ(y, -3 * x);
+    scale(x.data(), -3, n, x.data());
+    EXPECT_EQ(x, y);
+  }
+}
+
+TEST(Products, AreThoseOfEveryLengthAndKnowTheSizesOfTheirTerms) {
+  for (Index n = 0; n <= 50; ++n) {
+    const Vector x = Vector::LinSpaced(n, -1, 2), y = Vector::LinSpaced(n, -3, 5.5);
+    const double size = x.cwiseAbs().dot(y.cwiseAbs());
+    EXPECT_NEAR(dot(x.data(), y.data(), n), x.dot(y), 10 * epsilon * size) << n;
+    EXPECT_NEAR(squared_norm(x.data(), n), x.squaredNorm(), 10 * epsilon * x.squaredNorm()) << n;
+    const ValueAndMagnitude both = dot_and_magnitude(x.data(), y.data(), n);
+    EXPECT_NEAR(both.value, x.dot(y), 10 * epsilon * size) << n;
+    EXPECT_NEAR(both.magnitude, size, 10 * epsilon * size) << n;
+    for (Index j = 0; j < n; ++j) {
+      Vector broken = x;
+      for (const double value : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+        broken[j] = value;
+        EXPECT_FALSE(std::isfinite(dot(broken.data(), y.data(), n)));
+        EXPECT_FALSE(std::isfinite(squared_norm(broken.data(), n)));
+        EXPECT_FALSE(std::isfinite(dot_and_magnitude(broken.data(), y.data(), n).value));
+        EXPECT_FALSE(std::isfinite(dot_and_magnitude(broken.data(), y.data(), n).magnitude));
+      }
+    }
   }
 }
 

@@ -1,0 +1,27 @@
+// Numbers whose first begins a line of the cache: eight of them are read at once wherever eight begin.
+#pragma once
+
+#include <seiche/core/simd/lanes.hpp>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace seiche {
+
+class CacheLines {
+ public:
+  CacheLines() = default;
+  explicit CacheLines(std::size_t numbers) : lines_((numbers + lane_count - 1) / lane_count) {}  // zeros
+
+  double* data() { return lines_.empty() ? nullptr : lines_.front().numbers.data(); }
+  const double* data() const { return lines_.empty() ? nullptr : lines_.front().numbers.data(); }
+
+ private:
+  struct alignas(64) Line {
+    std::array<double, lane_count> numbers{};
+  };
+  std::vector<Line> lines_;
+};
+
+}  // namespace seiche
