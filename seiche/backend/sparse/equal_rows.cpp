@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace seiche {
 namespace {
@@ -13,7 +14,7 @@ using Kind = EqualRows::Kind;
 using Operands = EqualRows::Operands;
 using KickAndDrift = Kicks::KickAndDrift;
 
-// Row j of x, or rows j … j + 7.
+// Row j of x, or rows j … j + 3 or j … j + 7.
 template <class V, std::size_t taps, class Visit>
 [[gnu::always_inline]] inline void visit_row(const std::array<Index, taps>& offsets, const std::array<double, taps>& a,
                                              const double* x, Index j, Visit& visit) {
@@ -22,8 +23,8 @@ template <class V, std::size_t taps, class Visit>
   visit.row(j, sum, size);
 }
 
-// The rows of a run, eight at a time, from a row on that begins a line of the cache where the vectors do, and otherwise
-// one at a time. Copies keep in registers what the stores of a visit might otherwise be thought to change.
+// The rows of a run, eight at a time, from a row on that begins a line of the cache where the vectors do; the rest four
+// at a time, and then one. Copies keep in registers what the stores of a visit might otherwise be thought to change.
 template <std::size_t taps, class Visit>
 [[gnu::always_inline]] inline void visit_rows(const Run& run, const double* x, Visit& all) {
   std::array<Index, taps> offsets{};
@@ -36,6 +37,10 @@ template <std::size_t taps, class Visit>
   if (run.end - run.begin >= few)
     for (; j % lane_count != 0; ++j) visit_row<double>(offsets, a, x, j, visit);
   for (; j + lane_count <= run.end; j += lane_count) visit_row<typename Visit::EightRows>(offsets, a, x, j, visit);
+  if (j + lane_count / 2 <= run.end) {
+    visit_row<typename HalfOf<typename Visit::EightRows>::type>(offsets, a, x, j, visit);
+    j += lane_count / 2;
+  }
   for (; j < run.end; ++j) visit_row<double>(offsets, a, x, j, visit);
   all = visit;
 }
@@ -74,20 +79,24 @@ template <class Visit>
 
 template <class L>
 struct Sums {
+  using Half = typename HalfOf<L>::type;
   L lanes{};
+  Half half{};
   double rest = 0;
   Sums() = default;
   // One by one: a whole register read from where a single number has just been written would wait for the memory.
   // NOLINTNEXTLINE(modernize-use-equals-default): that would copy all bytes in whole registers
-  [[gnu::always_inline]] inline Sums(const Sums& other) : lanes(other.lanes), rest(other.rest) {}
+  [[gnu::always_inline]] inline Sums(const Sums& other) : lanes(other.lanes), half(other.half), rest(other.rest) {}
   [[gnu::always_inline]] inline Sums& operator=(const Sums& other) {  // NOLINT(modernize-use-equals-default): likewise
     lanes = other.lanes;
+    half = other.half;
     rest = other.rest;
     return *this;
   }
   [[gnu::always_inline]] inline void add(const L& x) { lanes += x; }
+  [[gnu::always_inline]] inline void add(const Half& x) { half += x; }
   [[gnu::always_inline]] inline void add(double x) { rest += x; }
-  [[gnu::always_inline]] inline double total() const { return sum(lanes) + rest; }
+  [[gnu::always_inline]] inline double total() const { return sum(lanes) + sum(half) + rest; }
 };
 
 template <class L>
@@ -190,10 +199,11 @@ void apply_rows(std::span<const Run> runs, const double* x, double* out) {
 
 // NOLINTEND(readability-non-const-parameter)
 
-// visit(part) for parts of runs, each a block of a long sum.
+// visit(part) for parts of runs, each a block of a long sum: for all of them at once where they are one block.
 template <class Visit>
 [[gnu::always_inline]] inline void for_blocks(std::span<const Run> runs, const Visit& visit) {
   constexpr Index block = lane_count * 128;
+  if (runs.empty() || runs.back().end <= block) return visit(runs);
   for (Run part : runs) {
     const Index end = part.end;
     for (; part.begin < end; part.begin = part.end) {
@@ -293,6 +303,21 @@ std::optional<EqualRows> EqualRows::of(const SparseMatrix& A, Limit limit) {
   const std::size_t most_runs = few_runs + static_cast<std::size_t>(A.rows()) / lane_count;
   if (limit == Limit::of_gain && result.runs_.size() > most_runs) return std::nullopt;
   return result;
+}
+
+const EqualRows::Kind* EqualRows::ring() const {
+  if (runs_.empty()) return nullptr;
+  const Run& longest = *std::max_element(runs_.begin(), runs_.end(),
+                                         [](const Run& a, const Run& b) { return a.end - a.begin < b.end - b.begin; });
+  const auto around = [&](const Kind& kind) {
+    std::map<Index, double> row;
+    for (std::size_t k = 0; k < kind.offsets.size(); ++k)
+      row[(kind.offsets[k] + size_) % size_] += kind.coefficients[k];
+    return row;
+  };
+  const bool is_ring = std::all_of(kinds_.begin(), kinds_.end(),
+                                   [&](const auto& kind) { return around(*kind) == around(*longest.kind); });
+  return is_ring ? longest.kind : nullptr;
 }
 
 void EqualRows::cut_runs(Index length) {

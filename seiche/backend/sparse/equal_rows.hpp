@@ -37,6 +37,8 @@ class EqualRows {
 
   Index size() const { return size_; }
   std::span<const Run> runs() const { return runs_; }
+  // The row that all others are, shifted around a ring of all unknowns; null where they are not.
+  const Kind* ring() const;
   void cut_runs(Index length);  // at every multiple of it
 
   void apply(const Vector& x, Vector& out) const;               // out ← Ax, not x itself

@@ -11,6 +11,9 @@ namespace {
 
 constexpr Index block_length = 512;  // points whose slopes, where V is local, stay in the first cache until their kick
 
+// A ring takes two more copies of the state: nothing beside the ends of a short line, which are rows one by one.
+constexpr Index longest_ring = 64;
+
 class GridKicks final : public Kicks {
  public:
   GridKicks(EqualRows K, std::shared_ptr<const PointwisePotential> V, const Potential& potential)
@@ -20,7 +23,14 @@ class GridKicks final : public Kicks {
         slope_length_(!V_              ? 0
                       : V_->is_local() ? std::min(n(), block_length)
                                        : n()),
-        memory_(fftw_buffer(static_cast<std::size_t>(padded(slope_length_) + 3 * padded(n())))) {
+        ring_(n() <= longest_ring ? K_.ring() : nullptr),
+        ghosts_(ring_ ? reach_of(*ring_) : 0),
+        memory_(fftw_buffer(static_cast<std::size_t>(padded(slope_length_) + 3 * part_length()))) {
+    if (ring_) {
+      whole_ = {0, n(), ring_};
+      blocks_.push_back({0, n(), {&whole_, 1}});
+      return;
+    }
     K_.cut_runs(block_length);
     const std::span<const EqualRows::Run> runs = K_.runs();
     std::size_t next = 0;
@@ -35,22 +45,27 @@ class GridKicks final : public Kicks {
     double* const p = part(0);
     std::array<double*, 2> others = {part(1), part(2)};
     const double* q = z.data();
+    if (ring_) {
+      std::copy_n(q, n(), others[1]);
+      q = closed(others[1]);
+    }
     const double* p_before = z.data() + n();
     Report report;
     for (std::size_t i = 0; i < stages.size(); ++i) {
-      double* const q_after = i + 1 < stages.size() ? others[i % 2] : out.data();
+      double* const q_after = ring_ || i + 1 < stages.size() ? others[i % 2] : out.data();
       const double squares = for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
         return kick_and_drift(block.runs, stages[i], {q, g, p_before, g_begin}, q_after, p);
       });
       report.taken += squares * (1 - square(stages[i].decay)) / 2;
       if (i == 0) report.kicked = squares;
-      q = q_after;
+      q = ring_ ? closed(q_after) : q_after;
       p_before = p;
     }
     for_blocks(q, [&](const Block& block, const double* g, Index g_begin) {
       subtract_rows(block.runs, last_kick, {q, g, p_before, g_begin}, out.data() + n());
       return 0.0;
     });
+    if (ring_) std::copy_n(q, n(), out.data());
     return report;
   }
 
@@ -62,10 +77,24 @@ class GridKicks final : public Kicks {
 
   Index n() const { return K_.size(); }
 
-  // Slopes of V, and three arrays of a number per point.
+  // Slopes of V, and three arrays of a number per point, with room for the copies of a ring at both ends.
   static Index padded(Index length) { return (length + lane_count - 1) / lane_count * lane_count; }
   double* slope() const { return memory_.get(); }
-  double* part(Index i) const { return slope() + padded(slope_length_) + i * padded(n()); }
+  Index part_length() const { return padded(n()) + 2 * padded(ghosts_); }
+  double* part(Index i) const { return slope() + padded(slope_length_) + i * part_length() + padded(ghosts_); }
+
+  static Index reach_of(const EqualRows::Kind& row) {
+    return row.offsets.empty() ? 0 : std::max({Index{0}, -row.offsets.front(), row.offsets.back()});
+  }
+
+  // With copies of both ends beyond the other one, where the row of the ring then finds its neighbours.
+  const double* closed(double* q) const {
+    for (Index i = 0; i < ghosts_; ++i) {
+      q[n() + i] = q[i];
+      q[-1 - i] = q[n() - 1 - i];
+    }
+    return q;
+  }
 
   // Σ visit(block, slopes of V at q, the point that the first of them belongs to).
   template <class Visit>
@@ -89,6 +118,9 @@ class GridKicks final : public Kicks {
   std::shared_ptr<const PointwisePotential> V_;
   const Potential& potential_;
   Index slope_length_;
+  const EqualRows::Kind* ring_;  // the row of a short ring; null: rows differ
+  Index ghosts_;                 // points copied beyond each end of the ring
+  EqualRows::Run whole_ = {};
   std::vector<Block> blocks_;
   FftwBuffer memory_;  // every part begins a line of the cache
 };

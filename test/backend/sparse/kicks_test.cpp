@@ -90,6 +90,21 @@ TEST(EqualRows, GiveUpWhereEveryRowIsOfItsOwnKind) {
   EXPECT_FALSE(EqualRows::of(Stencil::laplacian(narrow).sparse_matrix(narrow)));
 }
 
+TEST(EqualRows, AreARingWhereOneAxisIsPeriodic) {
+  for (const Index points : {1, 2, 3, 4, 5, 20}) {
+    const Grid line = grid_of({points}, Boundary::periodic);
+    for (const Discretisation discretisation : {Discretisation::fd2, Discretisation::fd4})
+      EXPECT_NE(EqualRows::of(Stencil::laplacian(line, discretisation).sparse_matrix(line))->ring(), nullptr) << points;
+  }
+  for (const Grid& grid :
+       {grid_of({20}, Boundary::dirichlet), grid_of({20}, Boundary::neumann), grid_of({6, 5}, Boundary::periodic)})
+    EXPECT_EQ(EqualRows::of(Stencil::laplacian(grid).sparse_matrix(grid))->ring(), nullptr);
+  SparseMatrix A = identity_matrix(20);
+  EXPECT_NE(EqualRows::of(A)->ring(), nullptr);
+  A.coeffRef(19, 19) = 2;
+  EXPECT_EQ(EqualRows::of(A)->ring(), nullptr);
+}
+
 TEST(EqualRows, PassOnANumberThatIsNaN) {
   SparseMatrix A(20, 20);  // all zero: what M is where it is singular
   const std::optional<EqualRows> rows = EqualRows::of(A);
@@ -126,12 +141,19 @@ TEST(Kicks, EqualThoseByProductsWithTheMatrices) {
       {"small", klein_gordon_case()},
   };
   for (const Boundary boundary : {Boundary::periodic, Boundary::dirichlet, Boundary::neumann})
-    for (const std::vector<Index>& points : std::vector<std::vector<Index>>{{1537}, {40, 70}, {9, 12, 14}}) {
+    for (const std::vector<Index>& points :
+         std::vector<std::vector<Index>>{{4}, {20}, {64}, {65}, {1537}, {40, 70}, {9, 12, 14}}) {
       GridOptions grid{.points = points, .length = std::vector<double>(points.size(), 3.0)};
       grid.boundary.assign(points.size(), boundary);
       problems.push_back({"KG", klein_gordon({.grid = grid, .alpha = 1.0})});
       problems.back().problem.initial = random_vector(problems.back().problem.size());
     }
+  for (const Index points : {2, 3, 4, 5, 20, 61})
+    problems.push_back(
+        {"differences of order four",
+         klein_gordon({.grid = {.points = {points}, .length = {2.0}, .discretisation = Discretisation::fd4}})});
+  for (const Index count : {1, 3})
+    problems.push_back({"no forces", oscillator({.points = count, .omega_squared = 0.0})});
   Problem free = klein_gordon_case(0.0, 1.0);
   free.potential = nullptr;
   problems.push_back({"no potential", free});
