@@ -22,8 +22,9 @@ StepDissipation::Kind StepDissipation::kind_of(const System& system, const PhiEv
 }
 
 // Without damping S is all that dissipates.
-bool StepDissipation::follow_energies(const System& system) {
-  return !system.force && system.damping->factor_of_identity(0) && system.potential->homogeneity() > 0 &&
+bool StepDissipation::energies_tell(const System& system, const PhiEvaluator& phi) {
+  return kind_of(system, phi) == Kind::general && !(system.structure && system.structure->dissipates()) &&
+         !system.force && system.damping->factor_of_identity(0) && system.potential->homogeneity() > 0 &&
          system.make_undamped_phi()->dissipation().is_zero;
 }
 
@@ -37,7 +38,7 @@ StepDissipation::StepDissipation(const System& system, const PhiEvaluator& phi, 
       kind_(kind_of(system, phi)),
       needs_gradient_(!phi.dissipation().is_quadratic || system.damping->touches_potential() ||
                       (system.force && system.force->touches_potential())),
-      follows_energies_(kind_ == Kind::general && follow_energies(system)),
+      follows_energies_(energies_tell(system, phi)),
       cache_(cached_step_sizes(system.space->size_of_all())) {
   if (!needs_gradient_) coarse_output_ = output_;  // errors of z inside a step oscillate, and their sum is small
   if (kind_ == Kind::none) return;
@@ -148,9 +149,16 @@ double StepDissipation::flow_missed(double h, const State& s, std::span<const Ve
   return flow_->miss(h, s.z, start_, s.energy_terms);
 }
 
-StepDissipation::Energies StepDissipation::energies(const Vector& z, double H) const {
-  const double K = system_.linear->quadratic_energy(z);
+StepDissipation::Energies StepDissipation::energies(const System& system, const Vector& z, double H) {
+  const double K = system.linear->quadratic_energy(z);
   return {K, H - K};
+}
+
+System::Dissipation StepDissipation::of_energies(const System& system, double t, const Energies& e) {
+  const double gamma = *system.damping->factor_of_identity(t);
+  const double degree = system.potential->homogeneity();
+  return {.rate = gamma * (2 * e.K + degree * e.V),
+          .round_off = 100 * epsilon * std::abs(gamma) * (2 * std::abs(e.K) + degree * std::abs(e.V))};
 }
 
 StepDissipation::Amount StepDissipation::measure(double t, double h, const Vector& z, std::span<const Vector> forces,
@@ -168,15 +176,12 @@ StepDissipation::Amount StepDissipation::measure(double t, double h, const Vecto
       energies_[at_nodes.size() + i] = {system_.linear->quadratic_energy(node_[i]), system_.potential->value(node_[i])};
   }
 
-  const double degree = system_.potential->homogeneity();
   Amount amount;
   double coarse = 0;
   const auto rate = [&](double theta, const Energies& e) {
-    const double gamma = *system_.damping->factor_of_identity(t + theta * h);
-    const double Q = gamma * (2 * e.K + degree * e.V);
-    const double size = std::abs(gamma) * (2 * std::abs(e.K) + degree * std::abs(e.V));
-    amount.negative = amount.negative || Q < -100 * epsilon * size;
-    return h * Q;
+    const System::Dissipation q = of_energies(system_, t + theta * h, e);
+    amount.negative = amount.negative || q.rate < -q.round_off;
+    return h * q.rate;
   };
   amount.fine = rules.fine[0] * rate(0, before) + rules.fine[1] * rate(1, after);
   for (Index i = 0; i < between_.size(); ++i) {

@@ -69,10 +69,14 @@ class StepDissipation {
   // Of kind `general`, but Q follows from K = ½zᵀMz and V: with D = γI, S skew and V homogeneous of degree d, it is
   // γ(2K + dV): the ends of a step then cost no gradient and no transform, and the nodes between no gradient.
   bool follows_energies() const { return follows_energies_; }
+  static bool energies_tell(const System& system, const PhiEvaluator& phi);
   struct Energies {
     double K = 0.0, V = 0.0;
   };
-  Energies energies(const Vector& z, double H) const;  // of a state with this H
+  static Energies energies(const System& system, const Vector& z, double H);  // of a state with this H
+  Energies energies(const Vector& z, double H) const { return energies(system_, z, H); }
+  // Q and its round-off, where energies tell them.
+  static System::Dissipation of_energies(const System& system, double t, const Energies& e);
   // As above, from the states at both ends and at the coarse nodes of the nested rules, where a method knows these:
   // always or never.
   Amount measure(double t, double h, const Vector& z, std::span<const Vector> forces, const Energies& before,
@@ -93,7 +97,6 @@ class StepDissipation {
   void add_nodes(double t, double h, const Vector& z, std::span<const Vector> forces, const StepOutput& output,
                  const GaussRule& rule, NodeMaps& maps, Sum& sum);
   Tables& tables(double h);
-  static bool follow_energies(const System& system);
 
   const System& system_;
   const PhiEvaluator& phi_;

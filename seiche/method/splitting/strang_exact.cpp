@@ -14,6 +14,7 @@ class StrangExact : public BaseStep {
       : system_(system),
         phi_(phi),
         kind_(StepDissipation::kind_of(system, phi)),
+        energies_tell_(StepDissipation::energies_tell(system, phi)),
         end_(system),
         flows_(cached_step_sizes(system.space->size_of_all())) {
     for (Vector* v : {&rest_, &middle_, &scratch_}) v->setZero(system.space->size());
@@ -24,19 +25,28 @@ class StrangExact : public BaseStep {
   StepDissipation::Kind dissipation_kind() const override { return kind_; }
 
   // By the values of Q at both ends, which is all that is known.
-  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double) override {
+  StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double H) override {
     StepDissipation::Sum sum;
-    const auto add_end = [&](double at, const Vector& end, const Vector& gradient) {
-      sum.add(h / 2, system_.dissipation(at, end, gradient, scratch_, rest_));
-    };
-    add_end(t, s.z, end_.at_start(s));
-    add_end(t + h, z, gradient_at(z));
+    if (energies_tell_) {
+      const auto add_end = [&](double at, const Vector& end, double H_there) {
+        sum.add(h / 2, StepDissipation::of_energies(system_, at, StepDissipation::energies(system_, end, H_there)));
+      };
+      add_end(t, s.z, s.energy);
+      add_end(t + h, z, H);
+    } else {
+      const auto add_end = [&](double at, const Vector& end, const Vector& gradient) {
+        sum.add(h / 2, system_.dissipation(at, end, gradient, scratch_, rest_));
+      };
+      add_end(t, s.z, end_.at_start(s));
+      add_end(t + h, z, gradient_at(z));
+    }
     return {.fine = sum.taken, .work = sum.work, .negative = sum.negative, .gain = sum.gain};
   }
 
  protected:
   const System& system() const { return system_; }
   const Space& space() const { return *system_.space; }
+  bool asks_for_gradients() const { return kind_ == StepDissipation::Kind::general && !energies_tell_; }
   virtual const Vector& gradient_at(const Vector& z) = 0;  // ∇V(ẑ) of the step just computed
   const PhiMap& flow(double h) {                           // e^{hL}
     return flows_.at(h, [&] { return phi_.map({.rows = {PhiRow{}}, .outputs = PhiRows::Outputs::all}, h); });
@@ -49,6 +59,7 @@ class StrangExact : public BaseStep {
   const System& system_;
   const PhiEvaluator& phi_;
   StepDissipation::Kind kind_;
+  bool energies_tell_;
   EndGradient end_;
   StepCache<PhiMap> flows_;
   Vector rest_, middle_, scratch_;
@@ -120,7 +131,7 @@ class FlowForceFlow final : public StrangExact {
 
   // Where `dissipated` asks for the gradient anyway.
   const double* potential_energy(const Vector& z) override {
-    if (dissipation_kind() != StepDissipation::Kind::general) return nullptr;
+    if (!asks_for_gradients()) return nullptr;
     gradient_at(z);
     return &end().V();
   }

@@ -1,10 +1,12 @@
-// ∇V of a splitting taken from point to point, without a transform.
+// ∇V of a splitting taken from point to point, without a transform, and what damping takes in its steps.
 #include <test/support/cases.hpp>
 
 #include <gtest/gtest.h>
 #include <seiche/backend/backends.hpp>
 #include <seiche/core/generic_state.hpp>
 #include <seiche/damping/rates.hpp>
+#include <seiche/method/projection/step_dissipation.hpp>
+#include <seiche/method/splitting/strang_exact.hpp>
 #include <seiche/problem/gkdv.hpp>
 #include <seiche/problem/klein_gordon.hpp>
 #include <seiche/simulation/simulation.hpp>
@@ -61,6 +63,49 @@ TEST(NodalForce, LeavesTheSplittingAsItWas) {
   const Potential::Counts at_points = modal.system().potential->counts(),
                           by_matrices = dense.system().potential->counts();
   EXPECT_EQ(at_points.gradients, by_matrices.gradients);
+}
+
+// By energies where dissipation follows from them, and by gradients elsewhere: both are Q at the two ends.
+TEST(StrangExact, KnowsWhatIsTakenAtBothEnds) {
+  constexpr double h = 1.0 / 64;
+  int by_energies = 0, by_gradients = 0;
+  for (const auto& [name, problem] : all_cases()) {
+    for (const BackendEntry& backend : backends_for(problem)) {
+      SCOPED_TRACE(name + " " + std::string(backend.name));
+      const System system = backend.system(problem, {});
+      const auto phi = system.make_phi();
+      if (StepDissipation::kind_of(system, *phi) != StepDissipation::Kind::general) continue;
+      const std::unique_ptr<BaseStep> step = strang_exact(system, *phi, EnergyLaw::interval);
+      State s{.z = system.initial};
+      s.energy = system.energy(s.z);
+      step->remember_nothing(s);
+      Vector z(s.z);
+      ASSERT_TRUE(step->compute(s, 0, h, z));
+      step->potential_energy(z);
+      const std::int64_t gradients = system.potential->counts().gradients;
+      const StepDissipation::Amount amount = step->dissipated(s, 0, h, z, system.energy(z));
+      if (StepDissipation::energies_tell(system, *phi)) {
+        EXPECT_EQ(system.potential->counts().gradients, gradients);
+        ++by_energies;
+      } else {
+        ++by_gradients;
+      }
+      Vector gradient = Vector::Zero(z.size()), scratch(gradient), gradient_H(gradient);
+      StepDissipation::Sum expected;
+      double size = 0;
+      for (const auto& [t, end] : {std::pair<double, const Vector&>{0, s.z}, {h, z}}) {
+        system.potential->gradient(end, gradient);
+        const System::Dissipation q = system.dissipation(t, end, gradient, scratch, gradient_H);
+        expected.add(h / 2, q);
+        size += h * q.round_off / (100 * epsilon);
+      }
+      EXPECT_NEAR(amount.fine, expected.taken, 1e-13 * size);
+      EXPECT_NEAR(amount.work, expected.work, 1e-13 * size);
+      EXPECT_EQ(amount.negative, expected.negative);
+    }
+  }
+  EXPECT_GE(by_energies, 4);
+  EXPECT_GE(by_gradients, 4);
 }
 
 }  // namespace TEST_FILE
