@@ -9,7 +9,7 @@ namespace {
 
 using Kind = Equation::Kind;
 
-double dot(const double* a, const double* b, std::size_t n) { return std::inner_product(a, a + n, b, 0.0); }
+double dot(const double* a, const double* b, std::size_t n) { return std::transform_reduce(a, a + n, b, 0.0); }
 
 // u_{j+1} − u_j over all bonds, the ends at rest
 template <class Use>

@@ -11,6 +11,7 @@ PeerGroup hand_written_peers() {
   PeerGroup group{.library = {.name = "FFTW", .version = fftw_version, .note = "plans measured, in set-up"},
                   .peers = {{"ETDRK4", own, origin, sweep, any_equation, make_etdrk4},
                             {"Strang exact flow", own, origin, sweep, no_gradient_flow, make_strang},
+                            {"projected Strang exact flow", own, origin, sweep, wave_on_a_line, make_projected_strang},
                             {"semi-implicit BDF2", own, origin, sweep, gradient_flow, make_semi_implicit}}};
   for (const auto& more : {rkn_peers(), relaxation_peers()})
     for (const Peer& peer : more) group.peers.push_back(peer);

@@ -66,5 +66,6 @@ inline bool any_equation(const Equation&) { return true; }
 inline bool gradient_flow(const Equation& equation) { return equation.is_gradient_flow(); }
 inline bool no_gradient_flow(const Equation& equation) { return !equation.is_gradient_flow(); }
 inline bool second_order_in_time(const Equation& equation) { return equation.is_second_order(); }
+inline bool wave_on_a_line(const Equation& equation) { return equation.is_second_order() && equation.rows == 1; }
 
 }  // namespace seiche::bench

@@ -2,12 +2,14 @@
 // P. C. Moan, J. Comput. Appl. Math. 142, 2002). They suppose that the a-flow is linear and the b-flow a kick of v that
 // depends on u alone: then [B, [B, [B, A]]] = 0, damping in A included. Some a are negative: there damping runs
 // backwards.
+#include <bench/peers/energy_line.hpp>
 #include <bench/peers/hand_written.hpp>
 #include <bench/peers/modal_run.hpp>
 #include <bench/peers/right_hand_side.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace seiche::bench {
@@ -71,11 +73,14 @@ class ExactRkn : public ModalRun {
   std::vector<double> force_;
 };
 
-// A: u' = v, v' = −γv; B: everything else, by differences. No transform and no stiff part, hence a bound on h.
+// A: u' = v, v' = −γv; B: everything else, by differences. No transform and no stiff part, hence a bound on h. Where it
+// projects, each step ends on the ray through its result at the energy that the drifts of the step have left.
+template <bool projects>
 class KickRkn : public Run {
  public:
   KickRkn(const Equation& equation, double h, const Scheme& scheme)
-      : equation_(equation), h_(h), scheme_(scheme), z_(equation.initial) {
+      : equation_(equation), h_(h), scheme_(scheme), line_(equation), z_(equation.size()), origin_(equation.size()) {
+    restart();
     for (const double a : scheme.a) {
       const double t = h * a;
       decay_.push_back(std::exp(-equation.gamma * t));
@@ -85,6 +90,8 @@ class KickRkn : public Run {
 
   void restart() override {
     z_ = equation_.initial;
+    const EnergyLine::Coefficients c = line_.along(origin_.data(), z_.data());
+    energy_ = c[1] + c[2] + c[3];
     steps_ = evaluations_ = 0;
   }
 
@@ -92,13 +99,16 @@ class KickRkn : public Run {
     const std::int64_t count = std::llround(t / h_) - steps_;
     if (count <= 0) return "";
     const std::size_t last = scheme_.flows() - 1;
-    kick(scheme_.first_kick());
+    if (!projects) kick(scheme_.first_kick());
     for (std::int64_t step = 1; step <= count; ++step) {
+      if (projects) kick(scheme_.first_kick());
       for (std::size_t i = 0; i <= last; ++i) {
         drift(i);
-        // The last kick of a step and the first of the next are one.
-        kick(i < last || step == count ? scheme_.kick_after(i) : 2 * scheme_.first_kick());
+        // The last kick of a step and the first of the next are one where nothing lies between them.
+        const bool is_whole = !projects && i == last && step < count;
+        kick(is_whole ? 2 * scheme_.first_kick() : scheme_.kick_after(i));
       }
+      if (projects) project();
     }
     steps_ += count;
     return std::isfinite(z_[0]) ? "" : "not finite";
@@ -121,12 +131,26 @@ class KickRkn : public Run {
   }
 
  private:
+  //   H(xz) = c₁x² + c₂x³ + c₃x⁴, by Newton's method
+  void project() {
+    const EnergyLine::Coefficients c = line_.along(origin_.data(), z_.data());
+    double x = 1;
+    for (int i = 0; i < 20; ++i) {
+      const double value = x * x * (c[1] + x * (c[2] + x * c[3])) - energy_;
+      const double change = value / (x * (2 * c[1] + x * (3 * c[2] + x * 4 * c[3])));
+      x -= change;
+      if (!(std::abs(change) > 1e-15)) break;
+    }
+    for (double& number : z_) number *= x;
+  }
+
   void drift(std::size_t i) {
     const std::size_t n = equation_.unknowns();
     double* u = z_.data();
     double* v = u + n;
     const double d = drift_[i];
     const double e = decay_[i];
+    if (projects) energy_ -= (1 - e * e) / 2 * std::transform_reduce(v, v + n, v, 0.0);
     for (std::size_t j = 0; j < n; ++j) {
       u[j] += d * v[j];
       v[j] *= e;
@@ -158,7 +182,9 @@ class KickRkn : public Run {
   const Equation equation_;
   const double h_;
   const Scheme& scheme_;
-  std::vector<double> z_, decay_, drift_;
+  EnergyLine line_;
+  std::vector<double> z_, origin_, decay_, drift_;  // origin_: zeros
+  double energy_ = 0;
   std::int64_t steps_ = 0;
   std::int64_t evaluations_ = 0;
 };
@@ -184,7 +210,10 @@ Peer peer(const std::string& name, bool (*applies)(const Equation&),
 }  // namespace
 
 std::vector<Peer> rkn_peers() {
-  return {peer("RKN4 kicks", kicks_apply, make<KickRkn, 4>), peer("RKN6 kicks", kicks_apply, make<KickRkn, 6>),
+  return {peer("RKN4 kicks", kicks_apply, make<KickRkn<false>, 4>),
+          peer("RKN6 kicks", kicks_apply, make<KickRkn<false>, 6>),
+          peer("projected RKN4 kicks", kicks_apply, make<KickRkn<true>, 4>),
+          peer("projected RKN6 kicks", kicks_apply, make<KickRkn<true>, 6>),
           peer("RKN4 exact flow", second_order_in_time, make<ExactRkn, 4>),
           peer("RKN6 exact flow", second_order_in_time, make<ExactRkn, 6>)};
 }

@@ -50,13 +50,13 @@ constexpr const char* explanation =
 void write_page(const std::vector<ProblemResult>& results, const Manifest& manifest,
                 const std::filesystem::path& directory, const std::string& no_figures_because) {
   AtomicFile file(directory / "index.html");
-  file.write(
-      fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                  "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                  "<title>Seiche: work and precision</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n"
-                  "<h1>Work and precision</h1>\n<p class=\"of\">Seiche’s methods, which keep an energy law, beside "
-                  "packaged integrators and hand-written codes, which promise none</p>\n",
-                  report_style));
+  file.write(fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>Seiche: work and precision</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n"
+      "<h1>Work and precision</h1>\n<p class=\"of\">Seiche’s methods, which keep an energy law, beside "
+      "packaged integrators and hand-written codes, which promise none but where they project or relax</p>\n",
+      report_style));
   if (!no_figures_because.empty())
     file.write("<p class=\"notice\"><strong>Without figures.</strong> " + html_escaped(no_figures_because) + "</p>\n");
   file.write("<nav aria-label=\"Sections\"><a href=\"#summary\">Summary</a>");
