@@ -47,6 +47,7 @@ if(CMAKE_HOST_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
 endif()
 cmake_path(GET pc_folder PARENT_PATH library_folder)
 set(ENV{LD_LIBRARY_PATH} "${library_folder}:$ENV{LD_LIBRARY_PATH}")  # of a shared library
+set(ENV{ASAN_OPTIONS} detect_leaks=0)  # what other libraries keep until the end is not asked here
 
 find_program(consumer consumer PATHS "${work}/consumer" "${work}/consumer/${config}" NO_DEFAULT_PATH REQUIRED)
 find_program(program seiche PATHS "${prefix}/bin" NO_DEFAULT_PATH REQUIRED)
