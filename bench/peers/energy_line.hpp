@@ -4,6 +4,8 @@
 #include <bench/peers/equation.hpp>
 
 #include <array>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace seiche::bench {
@@ -22,5 +24,18 @@ class EnergyLine {
   const Equation equation_;
   std::vector<double> laplacian_;
 };
+
+// The root near 1 of a function, by Newton's method. f(x): value and slope.
+template <class F>
+double root_near_one(const F& f) {
+  double x = 1;
+  for (int i = 0; i < 20; ++i) {
+    const std::pair<double, double> here = f(x);
+    const double change = here.first / here.second;
+    x -= change;
+    if (!(std::abs(change) > 1e-15)) break;
+  }
+  return x;
+}
 
 }  // namespace seiche::bench

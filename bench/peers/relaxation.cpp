@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace seiche::bench {
 namespace {
@@ -128,19 +129,14 @@ class RelaxationRun : public Run {
     }
   }
 
-  // The root near 1 of H(z + γd) = H(z) + γ h Σb_i dH/dt, by Newton's method for (…)/γ.
+  // The root near 1 of H(z + γd) = H(z) + γ h Σb_i dH/dt, divided by γ.
   double relaxed_share(double h) {
     const EnergyLine::Coefficients c = line_.along(z_.data(), step_.data());
     const double first = c[0] - h * rate_;
-    double share = 1;
-    for (int i = 0; i < 20; ++i) {
-      const double value = first + share * (c[1] + share * (c[2] + share * c[3]));
-      const double slope = c[1] + share * (2 * c[2] + share * 3 * c[3]);
-      const double change = value / slope;
-      share -= change;
-      if (!(std::abs(change) > 1e-15)) break;
-    }
-    return share;
+    return root_near_one([&](double share) {
+      return std::pair(first + share * (c[1] + share * (c[2] + share * c[3])),
+                       c[1] + share * (2 * c[2] + share * 3 * c[3]));
+    });
   }
 
   void move(double share, double h) {

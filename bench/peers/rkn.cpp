@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace seiche::bench {
@@ -131,17 +132,14 @@ class KickRkn : public Run {
   }
 
  private:
-  //   H(xz) = c₁x² + c₂x³ + c₃x⁴, by Newton's method
+  //   H(xz) = c₁x² + c₂x³ + c₃x⁴
   void project() {
     const EnergyLine::Coefficients c = line_.along(origin_.data(), z_.data());
-    double x = 1;
-    for (int i = 0; i < 20; ++i) {
-      const double value = x * x * (c[1] + x * (c[2] + x * c[3])) - energy_;
-      const double change = value / (x * (2 * c[1] + x * (3 * c[2] + x * 4 * c[3])));
-      x -= change;
-      if (!(std::abs(change) > 1e-15)) break;
-    }
-    for (double& number : z_) number *= x;
+    const double factor = root_near_one([&](double x) {
+      return std::pair(x * x * (c[1] + x * (c[2] + x * c[3])) - energy_,
+                       x * (2 * c[1] + x * (3 * c[2] + x * 4 * c[3])));
+    });
+    for (double& number : z_) number *= factor;
   }
 
   void drift(std::size_t i) {

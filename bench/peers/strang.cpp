@@ -1,6 +1,7 @@
 // Strang splitting, e^{hA/2} Φ_N(h) e^{hA/2}, with the exact flow of the damped linear part; neighbouring halves are
 // merged between outputs, which leaves two transforms per step. Φ_N is a kick for second-order equations, and one
 // classical Runge–Kutta step for gkdv, where u' = ∂(−σu²) has no exact flow.
+#include <bench/peers/energy_line.hpp>
 #include <bench/peers/hand_written.hpp>
 #include <bench/peers/modal_run.hpp>
 #include <bench/peers/right_hand_side.hpp>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace seiche::bench {
@@ -104,17 +106,13 @@ class ProjectedStrang : public ModalRun {
     return equation_.strength / (6 * equation_.dx * equation_.dx * equation_.dx) * V;
   }
 
-  // The root near one of Kx² + Vxᵈ = energy, by Newton's method.
+  //   Kx² + Vxᵈ = energy
   double towards(double energy, double K, double V) const {
     const bool cubic = equation_.kind == Equation::Kind::alpha_fpu;
-    double x = 1;
-    for (int i = 0; i < 20; ++i) {
-      const double of_V = V * x * x * (cubic ? x : x * x);
-      const double change = (K * x * x + of_V - energy) * x / (2 * K * x * x + (cubic ? 3 : 4) * of_V);
-      x -= change;
-      if (!(std::abs(change) > 1e-15)) break;
-    }
-    return x;
+    return root_near_one([&](double x) {
+      const double of_K = K * x * x, of_V = V * x * x * (cubic ? x : x * x);
+      return std::pair(of_K + of_V - energy, (2 * of_K + (cubic ? 3 : 4) * of_V) / x);
+    });
   }
 
   WaveFlow flow_;

@@ -176,12 +176,10 @@ template <ModeLayout layout, class V>
 
 template <ModeLayout layout, class V>
 [[gnu::always_inline]] inline void multiply_modes_of(const double* M, const double* z, Index slots, double* out) {
-  using LastV = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
-  Index slot = 0;
-  for (; slot + lane_count <= slots; slot += lane_count)
-    store<V>(out + slot, times<layout, V>(M, slot, load<V>(z + slot)));
-  for (; slot < slots; slot += slots_per_mode(layout))
-    store<LastV>(out + slot, times<layout, LastV>(M, slot, load<LastV>(z + slot)));
+  for_slots<layout, V>(
+      slots, [=]<class X>(Index slot, const X&) __attribute__((always_inline)) {
+        store<X>(out + slot, times<layout, X>(M, slot, load<X>(z + slot)));
+      });
 }
 
 }  // namespace

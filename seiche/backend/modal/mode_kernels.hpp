@@ -6,6 +6,7 @@
 
 #include <array>
 #include <span>
+#include <type_traits>
 
 namespace seiche::mode_kernels {
 
@@ -43,6 +44,15 @@ template <ModeLayout layout, class V>
     const V c = load<V>(factors + slot);
     return of_pairs<0>(c) * x + with_first_negated(of_pairs<1>(c)) * with_pairs_turned(x);
   }
+}
+
+// body(slot, V{}) for eight slots at a time, and for the slots of one mode where fewer are left.
+template <ModeLayout layout, class V, class Body>
+[[gnu::always_inline]] inline void for_slots(Index slots, const Body& body) {
+  using OneMode = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
+  Index slot = 0;
+  for (; slot + lane_count <= slots; slot += lane_count) body(slot, V{});
+  for (; slot < slots; slot += slots_per_mode(layout)) body(slot, OneMode{});
 }
 
 // z⁻, and M z⁻ with the real factors of a Hermitian diagonal.

@@ -1,21 +1,16 @@
 #include <seiche/backend/modal/mode_kernels.hpp>
 #include <seiche/backend/modal/mode_map.hpp>
 
-#include <type_traits>
-
 namespace seiche {
 namespace {
 
 // y += cx
 template <ModeLayout layout, class V>
 [[gnu::always_inline]] inline void add_slots(const double* c, const double* x, Index slots, double* y) {
-  using LastV = std::conditional_t<layout == ModeLayout::singles, double, Pair>;
-  const auto add = [=]<class X>(Index i, const X&) __attribute__((always_inline)) {
-    store<X>(y + i, load<X>(y + i) + mode_kernels::times<layout, X>(c, i, load<X>(x + i)));
-  };
-  Index i = 0;
-  for (; i + lane_count <= slots; i += lane_count) add(i, V{});
-  for (; i < slots; i += slots_per_mode(layout)) add(i, LastV{});
+  mode_kernels::for_slots<layout, V>(
+      slots, [=]<class X>(Index i, const X&) __attribute__((always_inline)) {
+        store<X>(y + i, load<X>(y + i) + mode_kernels::times<layout, X>(c, i, load<X>(x + i)));
+      });
 }
 
 }  // namespace

@@ -28,17 +28,11 @@ class StrangExact : public BaseStep {
   StepDissipation::Amount dissipated(const State& s, double t, double h, const Vector& z, double H) override {
     StepDissipation::Sum sum;
     if (energies_tell_) {
-      const auto add_end = [&](double at, const Vector& end, double H_there) {
-        sum.add(h / 2, StepDissipation::of_energies(system_, at, StepDissipation::energies(system_, end, H_there)));
-      };
-      add_end(t, s.z, s.energy);
-      add_end(t + h, z, H);
+      sum.add(h / 2, StepDissipation::of_energies(system_, t, StepDissipation::energies(system_, s.z, s.energy)));
+      sum.add(h / 2, StepDissipation::of_energies(system_, t + h, StepDissipation::energies(system_, z, H)));
     } else {
-      const auto add_end = [&](double at, const Vector& end, const Vector& gradient) {
-        sum.add(h / 2, system_.dissipation(at, end, gradient, scratch_, rest_));
-      };
-      add_end(t, s.z, end_.at_start(s));
-      add_end(t + h, z, gradient_at(z));
+      sum.add(h / 2, system_.dissipation(t, s.z, end_.at_start(s), scratch_, rest_));
+      sum.add(h / 2, system_.dissipation(t + h, z, gradient_at(z), scratch_, rest_));
     }
     return {.fine = sum.taken, .work = sum.work, .negative = sum.negative, .gain = sum.gain};
   }
