@@ -79,10 +79,10 @@ class PlainPropagator : public Propagator {
 // z ← Λz, field by field.
 void multiply_fields(Propagator::FieldFactors factors, Vector& z);
 
-// The propagators of all step sizes that a method asks for.
+// The propagators of the step sizes that a method asks for, the last `capacity` of them.
 class Propagators {
  public:
-  Propagators(const LinearPart& linear, PropagatorKind kind, std::size_t capacity = 16);
+  Propagators(const LinearPart& linear, PropagatorKind kind, std::size_t capacity);
   const Propagator& at(double h);
 
  private:

@@ -9,8 +9,8 @@
 
 namespace seiche {
 
-// For how many step sizes tables of φ-functions are kept, of states with so many components: sixteen, or as many as
-// take some hundreds of megabytes.
+// For how many step sizes propagators, flows and tables of φ-functions are kept, of states with so many components:
+// sixteen, or as many as take some hundreds of megabytes.
 inline std::size_t cached_step_sizes(std::ptrdiff_t size) {
   return static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>((std::ptrdiff_t{1} << 20) / std::max<std::ptrdiff_t>(size, 1), 3, 16));
@@ -20,7 +20,7 @@ inline std::size_t cached_step_sizes(std::ptrdiff_t size) {
 template <class T>
 class StepCache {
  public:
-  explicit StepCache(std::size_t capacity = 16) : capacity_(capacity) {}
+  explicit StepCache(std::size_t capacity) : capacity_(capacity) {}
 
   // make(): a std::unique_ptr<T>, asked for where h is new.
   template <class Make>

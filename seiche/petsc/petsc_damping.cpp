@@ -21,7 +21,7 @@ class PetscMap final : public LinearMap {
 class MatrixDamping final : public Damping {
  public:
   MatrixDamping(Mat D, const Space& space, Potential::Support support, const SolverOptions& options)
-      : space_(space), image_(space.size()) {
+      : space_(space), flows_(cached_step_sizes(space.size_of_all())), image_(space.size()) {
     if (D == nullptr) return;
     touches_potential_ = space.any(has_entries(D, support));
     D_ = petsc_map(D);

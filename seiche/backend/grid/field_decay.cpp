@@ -6,6 +6,7 @@ namespace seiche {
 FieldDecay::FieldDecay(FieldRatePointer rate, std::shared_ptr<const FieldTransform> transform)
     : rate_(std::move(rate)),
       transform_(std::move(transform)),
+      constant_(cached_step_sizes(transform_->unknowns())),
       current_(transform_->unknowns()),
       physical_(transform_->unknowns()) {}
 

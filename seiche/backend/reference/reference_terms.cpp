@@ -202,7 +202,7 @@ class ReferenceDamping final : public Damping {
   std::unique_ptr<Damping> estimates_;
   mutable Vector points_, gamma_, v_, r_;
   mutable LongMatrix long_z_, long_image_;
-  mutable StepCache<LongMatrix> flows_;
+  mutable StepCache<LongMatrix> flows_{16};
 };
 
 }  // namespace

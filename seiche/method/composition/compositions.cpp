@@ -12,7 +12,9 @@ namespace {
 class Composed : public Stepper {
  public:
   Composed(const System& system, PropagatorKind propagator, std::unique_ptr<Closure> closure)
-      : space_(*system.space), propagators_(*system.linear, propagator), closure_(std::move(closure)) {}
+      : space_(*system.space),
+        propagators_(*system.linear, propagator, cached_step_sizes(system.space->size_of_all())),
+        closure_(std::move(closure)) {}
 
   void begin(State& s) override {
     const double H = closure_->energy(s).H;
