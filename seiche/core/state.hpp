@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace seiche {
@@ -47,6 +48,20 @@ struct State {
   double history_h = 0.0;
 
   MidpointMemory midpoints = {};  // of closures
+
+  // Copies all but what is known of earlier steps. This state then knows of none, and keeps its own vectors for them;
+  // `from` is the same afterwards.
+  void start_from(State& from) {
+    std::vector<Vector> its_history = std::exchange(from.history, {}), own_history = std::exchange(history, {});
+    MidpointMemory its_midpoints = std::exchange(from.midpoints, {}), own_midpoints = std::exchange(midpoints, {});
+    *this = from;
+    history = std::move(own_history);
+    history_h = 0;
+    midpoints = std::move(own_midpoints);
+    midpoints.known = midpoints.resting = 0;
+    from.history = std::move(its_history);
+    from.midpoints = std::move(its_midpoints);
+  }
 
   // Read into a state of the same problem and method.
   void archive(Archive& a) {

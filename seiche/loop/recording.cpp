@@ -45,11 +45,12 @@ Recording::Recording(const System& system, const Stepper& stepper, State& state,
       observers_(observers),
       explanation_(explanation),
       book_(law, stepper.has_modified_energy()),
-      good_{.state = state},
       first_n_(state.n),
       counts_before_(system.potential->counts()),
       solver_before_(solver_share_of(system)),
-      begin_(std::chrono::steady_clock::now()) {}
+      begin_(std::chrono::steady_clock::now()) {
+  keep_good();
+}
 
 void Recording::count(const StepReport& step) {
   report_.scalar_iterations += step.scalar_iterations;
@@ -90,7 +91,7 @@ bool Recording::record(bool last) {
 }
 
 void Recording::keep_good() {
-  good_.state = state_;  // into the memory that it has
+  good_.state.start_from(state_);
   good_.ledger = ledger_;
   good_.replaced = report_.replaced;
   good_.widened = report_.widened;
@@ -99,7 +100,7 @@ void Recording::keep_good() {
 }
 
 void Recording::go_back() {
-  state_ = good_.state;
+  state_.start_from(good_.state);
   ledger_ = good_.ledger;
 }
 

@@ -96,7 +96,7 @@ class Recording {
   StepLedger ledger_;  // of all steps
   RunReport report_;
   struct Good {
-    State state;
+    State state;  // without what is known of earlier steps
     StepLedger ledger = {};
     ReplacedSteps replaced = {};
     std::int64_t widened = 0, halved = 0, unresolved = 0;

@@ -153,6 +153,41 @@ TEST_P(ResumptionOf, GoesOnToTheSameBitsWithVariableSteps) {
   }
 }
 
+// As a failed run goes back to the last record.
+TEST_P(ResumptionOf, GoesOnFromARecordWithoutWhatCameBeforeAndAfterIt) {
+  constexpr double h = 1.0 / 256;
+  for (const auto& [name, problem] : golden_cases()) {
+    if (!applies(GetParam(), problem)) continue;
+    Simulation simulation(problem, {.method = GetParam()});
+    State& state = simulation.state();
+    const auto take = [&](int steps) {
+      for (int i = 0; i < steps; ++i) EXPECT_TRUE(simulation.stepper().step(state, h).solved()) << state.t;
+    };
+    State record;
+    take(4);
+    const State before = state;
+    record.start_from(state);
+    EXPECT_EQ(record.z, state.z) << name;
+    EXPECT_EQ(state.history, before.history) << name;
+    EXPECT_EQ(state.history_h, before.history_h) << name;
+    EXPECT_EQ(state.midpoints.gradients, before.midpoints.gradients) << name;
+    EXPECT_EQ(state.midpoints.known, before.midpoints.known) << name;
+    EXPECT_TRUE(record.history.empty() && record.midpoints.gradients.empty()) << name;
+    take(4);
+    const Vector without_return = state.z;
+    state.start_from(record);
+    EXPECT_EQ(state.z, record.z) << name;
+    EXPECT_EQ(state.n, 4) << name;
+    EXPECT_EQ(state.t, before.t) << name;
+    EXPECT_EQ(state.history.size(), before.history.size()) << name;
+    EXPECT_EQ(state.midpoints.gradients.size(), before.midpoints.gradients.size()) << name;
+    EXPECT_TRUE(state.history_h == 0 && state.midpoints.known == 0) << name;
+    take(4);
+    EXPECT_LE((state.z - without_return).lpNorm<Eigen::Infinity>(), 1e-4 * without_return.lpNorm<Eigen::Infinity>())
+        << name;
+  }
+}
+
 // Every method on every backend, fixed steps and a tolerance, one thread and two, after five numbers of steps.
 class ResumptionOfSlow : public testing::TestWithParam<std::string> {};
 
