@@ -19,8 +19,9 @@ struct BackendEntry {
   bool has_modes = false;               // one small block per mode
   bool exponentials_by_krylov = false;  // or by factors, and not by tables: each costs many gradients
   bool takes_one_thread = false;        // of a program, and no other beside it
-  // Bytes of matrices and factors that it keeps beside vectors; null: nothing worth counting.
-  double (*bytes)(const Problem& problem, bool factorises) = nullptr;
+  // Bytes that a run on it keeps beside what its method does, with the factors of so many step sizes; null: nothing
+  // worth counting.
+  double (*bytes)(const Problem& problem, double factored) = nullptr;
 };
 
 std::span<const BackendEntry> backends();

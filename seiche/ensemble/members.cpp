@@ -85,14 +85,13 @@ double ensemble_bytes(const RunSpec& spec) {
   // Measured with seisav on grids of 20 to 120 points: what does not grow with the unknowns, and doubles for each of
   // them.
   constexpr double of_member = 1700, of_simulation = 13'000;
-  constexpr double doubles_of_member = 17, doubles_beside_run = 12;  // states and panels; the problem and its matrices
+  constexpr double doubles_of_member = 17;  // states and panels
   const Problem problem = make_problem(spec);
   const double unknowns = 8 * static_cast<double>(problem.size());  // bytes of one number for each
   const auto members = static_cast<double>(spec.ensemble->count());
   const double simulations = spec.ensemble->parameters.empty() ? 1.0 : members;
   return members * (of_member + doubles_of_member * unknowns) +
-         simulations * (of_simulation + doubles_beside_run * unknowns +
-                        run_bytes(find_method(spec.method), find_backend("modal"), problem));
+         simulations * (of_simulation + run_bytes(find_method(spec.method), find_backend("modal"), problem));
 }
 
 Members make_members(const RunSpec& spec) {

@@ -51,7 +51,7 @@ constexpr MethodKind avf{.closure = "avf",
                          .make_closure = make_avf_closure,
                          .takes_predictor = true,
                          .members = MembersTogether::avf,
-                         .doubles = 24};
+                         .doubles = 17};
 constexpr MethodKind sav{.closure = "sav",
                          .make = by_closure,
                          .make_adaptive = with_weights,
@@ -60,7 +60,7 @@ constexpr MethodKind sav{.closure = "sav",
                          .takes_auxiliary = true,
                          .takes_predictor = true,
                          .members = MembersTogether::sav,
-                         .doubles = 15};
+                         .doubles = 11};
 constexpr MethodKind lm{.closure = "lm",
                         .make = by_closure,
                         .make_adaptive = with_weights,
@@ -68,13 +68,13 @@ constexpr MethodKind lm{.closure = "lm",
                         .takes_auxiliary = true,
                         .takes_solver = true,
                         .takes_predictor = true,
-                        .doubles = 28};
+                        .doubles = 23};
 constexpr MethodKind dm{.closure = "dm",
                         .make = by_closure,
                         .make_adaptive = with_weights,
                         .make_closure = make_dm_closure,
                         .takes_predictor = true,
-                        .doubles = 23};
+                        .doubles = 18};
 
 constexpr MethodKind whole(MethodKind kind) {
   kind.composition = "whole";
@@ -131,7 +131,7 @@ constexpr MethodKind runge_kutta{
         },
     .takes_structure = true,
     .holds_rate_of_start = true,
-    .doubles_with_tables = doubles_of_one_step};
+    .doubles_with_tables = doubles_of_runge_kutta};
 constexpr MethodKind nystrom{.composition = "nystrom",
                              .make = by_projection,
                              .make_adaptive = with_doubling,
@@ -143,13 +143,13 @@ constexpr MethodKind nystrom{.composition = "nystrom",
                                  },
                              .takes_linear = true,
                              .takes_force = false,
-                             .doubles_with_tables = doubles_of_one_step};
+                             .doubles_with_tables = doubles_of_kicks};
 constexpr MethodKind strang_flow{.composition = "strang_exact",
                                  .make = by_projection,
                                  .make_adaptive = with_weights,
                                  .make_base = [](const MethodEntry& m, const System& s, const PhiEvaluator& phi,
                                                  const MethodOptions& o) { return strang_exact(s, phi, o.law_of(m)); },
-                                 .doubles_with_tables = doubles_of_one_step};
+                                 .doubles_with_tables = doubles_of_splitting};
 constexpr MethodKind chin{.composition = "chin",
                           .make = by_projection,
                           .make_adaptive = with_doubling,
@@ -157,7 +157,7 @@ constexpr MethodKind chin{.composition = "chin",
                                           const MethodOptions&) { return chin_splitting(s, phi); },
                           .takes_force = false,
                           .splits_damping = true,
-                          .doubles_with_tables = doubles_of_one_step};
+                          .doubles_with_tables = doubles_of_splitting};
 
 // ---- The list
 

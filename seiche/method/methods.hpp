@@ -45,10 +45,10 @@ struct MethodKind {
   bool holds_rate_of_start = false;  // what γ(t) − γ(0) does is a force for it
   MembersTogether members = MembersTogether::none;
 
-  // What it keeps, in doubles per unknown: so many, or as many as its tables of φ-functions ask for, with `slots` real
-  // numbers to a mode.
+  // What it keeps, in doubles per unknown: so many, or as many as its tables of φ-functions ask for, with `per_mode`
+  // unknowns to a mode.
   double doubles = 0;
-  double (*doubles_with_tables)(int order, Index size, bool variable_steps, double slots) = nullptr;
+  double (*doubles_with_tables)(int order, Index size, bool variable_steps, double per_mode) = nullptr;
 };
 
 struct MethodEntry {

@@ -1,14 +1,17 @@
+#include <seiche/core/step_cache.hpp>
 #include <seiche/method/method_memory.hpp>
 #include <seiche/simulation/run_memory.hpp>
+
+#include <algorithm>
 
 namespace seiche {
 namespace {
 
-// Real numbers to a mode: of grids that are periodic along every axis two, and else one (core/grid/modes).
-double slots_of(const Grid& grid) {
-  for (const GridAxis& axis : grid.axes)
-    if (axis.boundary != Boundary::periodic) return 1;
-  return 2;
+// Unknowns of a mode, two fields at most: a field has two where its grid is periodic along every axis, and else one
+// (core/grid/modes). Where there are no modes, maps by Krylov spaces keep vectors, about a quarter of that.
+double unknowns_per_mode(const Problem& problem, const BackendEntry& backend) {
+  return static_cast<double>(std::min<Index>(problem.field_count(), 2)) * (problem.grid.is_periodic() ? 2 : 1) *
+         (backend.exponentials_by_krylov ? 4 : 1);
 }
 
 // Gradient flows have a block on the diagonal of S that is not skew.
@@ -19,9 +22,10 @@ bool is_accelerated(const MethodEntry& method, const Problem& problem) {
   return false;
 }
 
-double doubles_per_unknown(const MethodEntry& method, Index size, bool variable_steps, double slots) {
+double doubles_per_unknown(const MethodEntry& method, Index size, bool variable_steps, double per_mode) {
   const MethodKind& kind = method.kind;
-  return kind.doubles_with_tables ? kind.doubles_with_tables(method.order, size, variable_steps, slots) : kind.doubles;
+  if (kind.doubles_with_tables) return kind.doubles_with_tables(method.order, size, variable_steps, per_mode);
+  return kind.doubles + (variable_steps ? doubles_of_estimate(size, per_mode) : 0);
 }
 
 // Friction, forces and what of S changes with z work on values at the points; and where such things stand, the forces
@@ -37,11 +41,14 @@ double doubles_of_drives(const MethodEntry& method, const Problem& problem, doub
 }  // namespace
 
 double run_bytes(const MethodEntry& method, const BackendEntry& backend, const Problem& problem, bool variable_steps) {
-  const double doubles = doubles_per_unknown(method, problem.size(), variable_steps, slots_of(problem.grid));
+  const double doubles =
+      doubles_per_unknown(method, problem.size(), variable_steps, unknowns_per_mode(problem, backend));
+  const double factored = !method.has_closure() ? 0
+                          : variable_steps      ? static_cast<double>(cached_step_sizes(problem.size()))
+                                                : 1;
   const double all = doubles + doubles_of_drives(method, problem, doubles) +
                      (is_accelerated(method, problem) ? doubles_of_acceleration(method.order) : 0);
-  return 8 * all * static_cast<double>(problem.size()) +
-         (backend.bytes ? backend.bytes(problem, method.has_closure()) : 0);
+  return 8 * all * static_cast<double>(problem.size()) + (backend.bytes ? backend.bytes(problem, factored) : 0);
 }
 
 }  // namespace seiche

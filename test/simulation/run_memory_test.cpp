@@ -5,6 +5,7 @@
 #include <seiche/config/case/case_file.hpp>
 #include <seiche/simulation/run_memory.hpp>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -19,6 +20,7 @@ struct MeasuredRun {
   const char* problem;  // the keys of [problem] and what follows it
   const char* method;
   const char* backend;
+  double tolerance = 0;  // 0: fixed steps
 };
 
 constexpr const char* plane =
@@ -27,13 +29,18 @@ constexpr const char* rubbed =
     "name = \"klein_gordon\"\npoints = [300, 300]\nlength = [4.0, 4.0]\nboundary = [\"periodic\", \"dirichlet\"]\n"
     "friction = { kind = \"quadratic\", coefficient = 0.3 }\n";
 constexpr const char* line = "name = \"klein_gordon\"\npoints = 50000\n";
+constexpr const char* torus = "name = \"klein_gordon\"\npoints = [300, 300]\nlength = [4.0, 4.0]\n";
+constexpr const char* shallow = "name = \"gkdv\"\npoints = 131072\n";
 constexpr const char* alloy = "name = \"cahn_hilliard\"\npoints = [300, 300]\n";
 constexpr const char* membrane =
     "name = \"wave\"\npoints = [150, 150]\nlength = [2.0, 2.0]\nboundary = \"dirichlet\"\nmedium = \"inclusion\"\n";
 
 std::string case_of(const MeasuredRun& run) {
-  return std::string("[problem]\n") + run.problem + "[method]\nname = \"" + run.method +
-         "\"\nh = 0.001\n[backend]\nname = \"" + run.backend + "\"\n[time]\nend = 0.002\n[output]\nreport = \"off\"\n";
+  const std::string step = run.tolerance > 0 ? fmt::format("tolerance = {}", run.tolerance) : "h = 0.001";
+  return fmt::format(
+      "[problem]\n{}[method]\nname = \"{}\"\n{}\n[backend]\nname = \"{}\"\n[time]\nend = 0.002\n[output]\nreport = "
+      "\"off\"\n",
+      run.problem, run.method, step, run.backend);
 }
 
 class RunMemorySlow : public InTemporaryDirectory {
@@ -58,18 +65,34 @@ TEST_F(RunMemorySlow, IsWithinAFactorOfWhatARunTakes) {
   GTEST_SKIP() << "the address sanitizer takes memory of its own";
 #endif
   const double program = measured(case_of({"name = \"oscillator\"\n", "seisav", "dense"}));
-  const std::vector<MeasuredRun> runs = {{plane, "seisav", "modal"},     {plane, "egc4", "modal"},
-                                         {rubbed, "seisav", "modal"},    {rubbed, "egc4", "modal"},
-                                         {line, "seisav", "sparse"},     {line, "egc8", "sparse"},
-                                         {membrane, "seisav", "sparse"}, {membrane, "egc4", "sparse"},
-                                         {alloy, "egc4", "modal"}};
+  const std::vector<MeasuredRun> runs = {{plane, "seisav", "modal"},
+                                         {plane, "egc4", "modal"},
+                                         {plane, "crkn6", "modal"},
+                                         {plane, "etdrk4", "modal"},
+                                         {torus, "seilm", "modal"},
+                                         {torus, "egc8", "modal"},
+                                         {rubbed, "seisav", "modal"},
+                                         {rubbed, "egc4", "modal"},
+                                         {shallow, "egc8", "modal"},
+                                         {alloy, "egc4", "modal"},
+                                         {line, "seisav", "sparse"},
+                                         {line, "egc8", "sparse"},
+                                         {membrane, "seavf", "sparse"},
+                                         {membrane, "egc4", "sparse"},
+                                         {plane, "seisav", "modal", 1e-6},
+                                         {plane, "egc4", "modal", 1e-6},
+                                         {torus, "seavf", "modal", 1e-6},
+                                         {torus, "crkn6", "modal", 1e-6},
+                                         {membrane, "seisav", "sparse", 1e-6},
+                                         {membrane, "egc4", "sparse", 1e-6}};
   for (const MeasuredRun& run : runs) {
     const std::string text = case_of(run);
     const Problem problem = make_problem(parse_case(text, "a.toml"));
-    const double estimate = run_bytes(find_method(run.method), find_backend(run.backend), problem) / 1e6;
+    const double estimate =
+        run_bytes(find_method(run.method), find_backend(run.backend), problem, run.tolerance > 0) / 1e6;
     const double taken = measured(text) - program;
-    EXPECT_GE(estimate, 0.5 * taken) << text;
-    EXPECT_LE(estimate, 2.5 * taken) << text;
+    EXPECT_GE(estimate, 0.7 * taken) << text;
+    EXPECT_LE(estimate, 1.5 * taken) << text;
   }
 }
 

@@ -93,8 +93,8 @@ System sparse_system(const Problem& problem, const BackendOptions& options) {
 
 // Measured with lines of 10⁵ points and planes of 300². Matrices are stored by rows and by columns, in pieces and with
 // what assembles them; a factor of the Padé propagators has complex entries, on planes some 8 log₂ n of them in a row.
-double sparse_bytes(const Problem& problem, bool factorises) {
-  constexpr double of_entry = 240, of_factor_entry = 20;
+double sparse_bytes(const Problem& problem, double factored) {
+  constexpr double of_entry = 240, of_factor_entry = 10;
   const auto points = static_cast<double>(problem.grid.unknowns());
   const auto axes = static_cast<double>(problem.grid.dimension());
   const double entries = problem.matrices
@@ -102,7 +102,7 @@ double sparse_bytes(const Problem& problem, bool factorises) {
                                                    problem.matrices->D.nonZeros())
                              : static_cast<double>(problem.size()) * (2 + axes);
   const double in_a_row = axes < 2 ? 25 : axes < 3 ? 8 * std::log2(points + 2) : 10 * std::cbrt(points);
-  return of_entry * entries + (factorises ? of_factor_entry * in_a_row * points : 0);
+  return of_entry * entries + factored * of_factor_entry * in_a_row * points;
 }
 
 }  // namespace seiche

@@ -17,6 +17,6 @@ double sparse_rate(const Problem& problem);
 bool has_grid_kicks(const Problem& problem);
 
 // Of matrices, and where propagators are factorised of their factors.
-double sparse_bytes(const Problem& problem, bool factorises);
+double sparse_bytes(const Problem& problem, double factored);
 
 }  // namespace seiche

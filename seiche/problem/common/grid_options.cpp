@@ -15,7 +15,7 @@ T of_axis(const std::vector<T>& list, std::size_t axis) {
   return list.size() == 1 ? list.front() : list[axis];
 }
 
-// Before anything is allocated: what the leanest method takes for two fields (docs/performance.md). Simulation asks
+// Before anything is allocated: less than the leanest method takes for one field (docs/performance.md). Simulation asks
 // again for the method at hand.
 void require_memory(const Grid& grid) {
   constexpr double bytes_per_point = 200;
