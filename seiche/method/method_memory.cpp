@@ -5,11 +5,6 @@
 namespace seiche {
 namespace {
 
-// For how many of them tables are kept.
-double step_sizes(Index size, bool variable_steps) {
-  return variable_steps ? static_cast<double>(cached_step_sizes(size)) : 1.0;
-}
-
 double one_step(int order, bool variable_steps, double tables) {
   const double s = order;
   const double blocks = 2 * (2 + 0.5 * s) * s + 2 * (2 + s) + (2 + s) * (3 + s) + 4;
@@ -17,6 +12,10 @@ double one_step(int order, bool variable_steps, double tables) {
 }
 
 }  // namespace
+
+double step_sizes(Index size, bool variable_steps) {
+  return variable_steps ? static_cast<double>(cached_step_sizes(size)) : 1.0;
+}
 
 double doubles_of_estimate(Index size, double per_mode) { return 19 + 43 * step_sizes(size, true) / per_mode; }
 

@@ -6,6 +6,9 @@
 
 namespace seiche {
 
+// For how many of them tables, propagators and factors are kept.
+double step_sizes(Index size, bool variable_steps);
+
 // Two forces a stage and some vectors, and for each step size that is kept the blocks of stages, end and forms; with
 // variable steps also those of the extension.
 double doubles_of_collocation(int order, Index size, bool variable_steps, double per_mode);

@@ -1,4 +1,3 @@
-#include <seiche/core/step_cache.hpp>
 #include <seiche/method/method_memory.hpp>
 #include <seiche/simulation/run_memory.hpp>
 
@@ -43,9 +42,7 @@ double doubles_of_drives(const MethodEntry& method, const Problem& problem, doub
 double run_bytes(const MethodEntry& method, const BackendEntry& backend, const Problem& problem, bool variable_steps) {
   const double doubles =
       doubles_per_unknown(method, problem.size(), variable_steps, unknowns_per_mode(problem, backend));
-  const double factored = !method.has_closure() ? 0
-                          : variable_steps      ? static_cast<double>(cached_step_sizes(problem.size()))
-                                                : 1;
+  const double factored = method.has_closure() ? step_sizes(problem.size(), variable_steps) : 0;
   const double all = doubles + doubles_of_drives(method, problem, doubles) +
                      (is_accelerated(method, problem) ? doubles_of_acceleration(method.order) : 0);
   return 8 * all * static_cast<double>(problem.size()) + (backend.bytes ? backend.bytes(problem, factored) : 0);

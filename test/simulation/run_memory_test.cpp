@@ -77,7 +77,7 @@ TEST_F(RunMemorySlow, IsWithinAFactorOfWhatARunTakes) {
                                          {alloy, "egc4", "modal"},
                                          {line, "seisav", "sparse"},
                                          {line, "egc8", "sparse"},
-                                         {membrane, "seavf", "sparse"},
+                                         {membrane, "seisav", "sparse"},
                                          {membrane, "egc4", "sparse"},
                                          {plane, "seisav", "modal", 1e-6},
                                          {plane, "egc4", "modal", 1e-6},

@@ -21,10 +21,7 @@ GridDamping::GridDamping(const Problem& problem, std::shared_ptr<const FieldTran
       touches_potential_(problem.damping_moves_potential()),
       rates_commute_(!problem.damping.field_rate && rate_commutes(problem)),
       flows_(cached_step_sizes(problem.size())),
-      scratch_((constant_                    ? problem.field_count()
-                : problem.damping.field_rate ? 1
-                                             : 0) *
-               slots_) {
+      scratch_(constant_ || problem.damping.field_rate ? problem.field_count() * slots_ : 0) {
   if (problem.damping.field_rate)
     field_rate_ = std::make_unique<FieldDecay>(problem.damping.field_rate, std::move(transform));
 }

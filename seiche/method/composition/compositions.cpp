@@ -68,7 +68,7 @@ class Composed : public Stepper {
   StepReport fused(State& s, double h, const Closure::HalfFlows& flows) {
     if (!keeps_ledger_) return closure_->advance_damped(s, propagators_, s.t, h, flows);
     const double H = closure_->energy(s).H;
-    save(s);
+    saved_.start_from(s);
     multiply_fields(flows.before, saved_.z);
     const EnergyReading before = closure_->energy(saved_);
     StepReport report = closure_->advance_damped(s, propagators_, s.t, h, {flows.before, flows.after, &saved_});
@@ -86,7 +86,7 @@ class Composed : public Stepper {
   // The same around parts that may fail with s anywhere between.
   template <class Parts>
   StepReport or_restore(State& s, double h, const Parts& parts) {
-    save(s);
+    saved_.start_from(s);
     StepReport report = parts();
     if (report.solved() && !space_.is_finite(s.z)) {
       report.status = StepReport::Status::failed;
@@ -94,7 +94,7 @@ class Composed : public Stepper {
           fmt::format("the solution is no longer finite in the step from t = {:.6g} with h = {:.6g}", s.t, h);
     }
     if (!report.solved()) {
-      std::swap(saved_.midpoints, s.midpoints);
+      std::swap(saved_.midpoints, s.midpoints);  // which no part of a step changes
       s = saved_;
     }
     return report;
@@ -104,14 +104,6 @@ class Composed : public Stepper {
   Propagators& propagators() { return propagators_; }
 
  private:
-  // All but the memory of midpoints, which no part of a step changes.
-  void save(State& s) {
-    MidpointMemory memory;
-    std::swap(memory, s.midpoints);
-    saved_ = s;
-    std::swap(memory, s.midpoints);
-  }
-
   // The substep, between these two readings.
   static void enter(const EnergyReading& before, const EnergyReading& after, StepLedger& ledger) {
     ledger.substep = (after.modified - before.modified) - ledger.scalar;
