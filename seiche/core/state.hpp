@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace seiche {
@@ -49,25 +49,26 @@ struct State {
 
   MidpointMemory midpoints = {};  // of closures
 
-  // Copies all but what is known of earlier steps. This state then knows of none, and keeps its own vectors for them;
-  // `from` is the same afterwards.
-  void start_from(State& from) {
-    std::vector<Vector> its_history = std::exchange(from.history, {}), own_history = std::exchange(history, {});
-    MidpointMemory its_midpoints = std::exchange(from.midpoints, {}), own_midpoints = std::exchange(midpoints, {});
-    *this = from;
-    history = std::move(own_history);
+  // All of the above but vectors and what is known of earlier steps.
+  static auto numbers_of(auto& s) {
+    return std::tie(s.t, s.n, s.stream, s.r_squared, s.shift, s.energy_scale, s.energy, s.energy_terms);
+  }
+
+  // Copies all but what is known of earlier steps. This state then knows of none, and keeps its own vectors for them.
+  void start_from(const State& from) {
+    z = from.z;
+    numbers_of(*this) = numbers_of(from);
     history_h = 0;
-    midpoints = std::move(own_midpoints);
     midpoints.known = midpoints.resting = 0;
-    from.history = std::move(its_history);
-    from.midpoints = std::move(its_midpoints);
   }
 
   // Read into a state of the same problem and method.
   void archive(Archive& a) {
     const Index size = z.size();
     const std::size_t nodes = history.size(), remembered = midpoints.gradients.size();
-    a(z, t, n, stream, r_squared, shift, energy_scale, energy, energy_terms, history, history_h, midpoints);
+    a(z);
+    std::apply(a, numbers_of(*this));
+    a(history, history_h, midpoints);
     if (!a.reads()) return;
     if (history.empty() && nodes > 0) {  // written before this method kept any
       history.assign(nodes, Vector::Zero(size));

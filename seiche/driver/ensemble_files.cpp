@@ -7,7 +7,7 @@ namespace seiche {
 namespace {
 
 std::string energy_columns(const EnergySummary& e) {
-  return fmt::format(",{:.17g},{:.17g},{:.17g}", e.initial, e.final, e.max_increase);
+  return fmt::format(",{},{},{}", e.initial, e.final, e.max_increase);
 }
 
 }  // namespace
@@ -62,8 +62,8 @@ void write_members(const Folder& folder, const Members& members, const EnsembleR
   for (std::size_t m = 0; m < result.members.size(); ++m) {
     const RunReport& report = result.members[m].report;
     std::string row = fmt::format("{}", m + 1);
-    for (const double value : members.values[m]) row += fmt::format(",{:.17g}", value);
-    row += fmt::format(",{},{},{:.17g}", to_string(report.status), report.steps, report.t);
+    for (const double value : members.values[m]) row += fmt::format(",{}", value);
+    row += fmt::format(",{},{},{}", to_string(report.status), report.steps, report.t);
     const bool started = result.members[m].final.size() > 0;
     row += started ? energy_columns(report.energy) : ",,,";
     if (has_modified) row += started ? energy_columns(report.modified) : ",,,";

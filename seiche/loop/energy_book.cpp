@@ -48,30 +48,34 @@ void EnergyBook::add(const EnergyReading& reading, double t, std::int64_t n) {
     has_increase_ = true;
 
     const double increase = has_modified_energy_ ? reading.modified - last_.modified : reading.H - last_.H;
-    const auto steps = static_cast<double>(n - last_n_);
-    // What starts near rest finds its size in the first step.
-    const bool first = records_ == 2;
-    const double growth = first ? std::numeric_limits<double>::infinity() : grossest_growth(steps);
-    const double allowed =
-        steps * (has_modified_energy_ ? round_off(last_.modified_round_off, reading.modified_round_off, growth)
-                                      : round_off(last_.round_off, reading.round_off, growth));
-    // The method's shift C may grow by more than any solution, and take the digits of a modified energy with it.
-    const double with_shift = steps * reading.modified_round_off;
-    if (increase > allowed && has_modified_energy_ && increase <= with_shift && with_shift > size_) {
-      if (!violation_.found && !lost_in_round_off_.found) lost_in_round_off_ = {t, with_shift, size_, true};
-    } else if (increase > allowed && !violation_.found) {
-      violation_ = {t, increase, allowed, true};
-    }
-    // Round-off explains it, and would explain more than all there was at the start: the law cannot be checked. But in
-    // the first step it is that rise itself which takes all there was.
-    if (increase > size_ && increase <= allowed) {
-      if (first && !violation_.found) violation_ = {t, increase, last_.round_off, true};
-      if (!first && !lost_in_round_off_.found) lost_in_round_off_ = {t, allowed, size_, true};
-    }
+    if (increase > 0) judge(increase, reading, t, static_cast<double>(n - last_n_));
   }
   reopened_ = false;
   last_ = reading;
   last_n_ = n;
+}
+
+// A rise since the last record, so many steps ago.
+void EnergyBook::judge(double increase, const EnergyReading& reading, double t, double steps) {
+  // What starts near rest finds its size in the first step.
+  const bool first = records_ == 2;
+  const double growth = first ? std::numeric_limits<double>::infinity() : grossest_growth(steps);
+  const double allowed =
+      steps * (has_modified_energy_ ? round_off(last_.modified_round_off, reading.modified_round_off, growth)
+                                    : round_off(last_.round_off, reading.round_off, growth));
+  // The method's shift C may grow by more than any solution, and take the digits of a modified energy with it.
+  const double with_shift = steps * reading.modified_round_off;
+  if (increase > allowed && has_modified_energy_ && increase <= with_shift && with_shift > size_) {
+    if (!violation_.found && !lost_in_round_off_.found) lost_in_round_off_ = {t, with_shift, size_, true};
+  } else if (increase > allowed && !violation_.found) {
+    violation_ = {t, increase, allowed, true};
+  }
+  // Round-off explains it, and would explain more than all there was at the start: the law cannot be checked. But in
+  // the first step it is that rise itself which takes all there was.
+  if (increase > size_ && increase <= allowed) {
+    if (first && !violation_.found) violation_ = {t, increase, last_.round_off, true};
+    if (!first && !lost_in_round_off_.found) lost_in_round_off_ = {t, allowed, size_, true};
+  }
 }
 
 void EnergyBook::archive(Archive& a) {

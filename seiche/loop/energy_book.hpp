@@ -27,6 +27,7 @@ class EnergyBook {
 
  private:
   void take_size(const EnergyReading& reading);
+  void judge(double increase, const EnergyReading& reading, double t, double steps);
   void follow(const EnergyReading& reading, double t);
   std::optional<EnergyDrift> drift() const;
 

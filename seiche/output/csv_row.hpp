@@ -1,9 +1,10 @@
-// One line of numbers with 17 significant digits, which a double survives exactly. Kept between rows, so that
-// recording allocates nothing once the first row was written.
+// One line of numbers with as few digits as tell each double from all others: reading gives the same one. Kept between
+// rows, so that recording allocates nothing once the first row was written.
 #pragma once
 
 #include <seiche/core/base/vector.hpp>
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -18,7 +19,8 @@ class CsvRow {
     if (text_.size() > 0) text_.push_back(',');
     const std::size_t begin = text_.size();
     text_.resize(begin + longest_number);  // writing in place is twice as fast as appending
-    text_.resize(static_cast<std::size_t>(fmt::format_to(text_.data() + begin, "{:.17g}", value) - text_.data()));
+    text_.resize(
+        static_cast<std::size_t>(fmt::format_to(text_.data() + begin, FMT_COMPILE("{}"), value) - text_.data()));
   }
   void add(const Vector& values) {
     for (const double value : values) add(value);

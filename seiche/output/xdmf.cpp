@@ -32,8 +32,7 @@ std::string points(const SolutionLayout& layout, const std::string& file) {
     return fmt::format(
         "<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"1 1 {}\"/>"
         "<Geometry GeometryType=\"ORIGIN_DXDYDZ\">{}{}</Geometry>",
-        count, numbers("3", fmt::format("0 0 {:.17g}", x.values.front())),
-        numbers("3", fmt::format("1 1 {:.17g}", x.spacing)));
+        count, numbers("3", fmt::format("0 0 {}", x.values.front())), numbers("3", fmt::format("1 1 {}", x.spacing)));
   }
   Hdf5Shape listed = shape;
   listed.push_back(3);
@@ -69,7 +68,7 @@ class Instants {
   }
 
   std::string at(std::uint64_t k, double t) const {
-    std::string text = fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\"><Time Value=\"{:.17g}\"/>&points;\n", k, t);
+    std::string text = fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\"><Time Value=\"{}\"/>&points;\n", k, t);
     for (std::size_t f = 0; f < layout_.fields.size(); ++f) text += field(f, k);
     for (const std::string& energy : energies_) text += global(energy, k);
     return text + "</Grid>\n";

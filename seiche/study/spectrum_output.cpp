@@ -185,10 +185,9 @@ std::string spectrum_csv(const Spectrum& spectrum) {
     std::string mode = row.mode;  // "(3, -1)" in one cell
     std::erase_if(mode, [](char c) { return c == '(' || c == ')' || c == ','; });
     const auto phase = row.phase_error();
-    fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g},{:.6g},{:.17g},{:.17g},{},{},{:.3g}\n", mode,
-                   row.exact_decay, row.numerical_decay, row.damping_error(), row.exact_frequency,
-                   row.numerical_frequency, phase ? fmt::format("{:.6g}", *phase) : "", row.aliased ? 1 : 0,
-                   row.round_off);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{:.6g},{},{},{},{},{:.3g}\n", mode, row.exact_decay,
+                   row.numerical_decay, row.damping_error(), row.exact_frequency, row.numerical_frequency,
+                   phase ? fmt::format("{:.6g}", *phase) : "", row.aliased ? 1 : 0, row.round_off);
   }
   return text;
 }
