@@ -42,9 +42,7 @@ SEICHE_MULTIVERSION void members_to_panel(const double* members, Index stride, I
 class MemberByMember final : public PanelPotential {
  public:
   MemberByMember(PanelMembers members, Index rows)
-      : members_(members.begin(), members.end()),
-        rows_(rows),
-        stride_((rows + lane_count - 1) / lane_count * lane_count) {
+      : members_(members.begin(), members.end()), rows_(rows), stride_(whole_lanes(rows)) {
     for (Vector* scratch : {&a_, &b_, &mean_}) scratch->setZero(panel_members * stride_);
   }
 

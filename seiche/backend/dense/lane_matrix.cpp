@@ -3,8 +3,7 @@
 
 namespace seiche {
 
-LaneMatrix::LaneMatrix(const Eigen::MatrixXd& a)
-    : columns_(a.cols()), padded_rows_((a.rows() + lane_count - 1) / lane_count * lane_count) {
+LaneMatrix::LaneMatrix(const Eigen::MatrixXd& a) : columns_(a.cols()), padded_rows_(whole_lanes(a.rows())) {
   entries_ = CacheLines(static_cast<std::size_t>(padded_rows_ * columns_));
   for (Index j = 0; j < columns_; ++j)
     for (Index i = 0; i < a.rows(); ++i) entries_.data()[j * padded_rows_ + i] = a(i, j);

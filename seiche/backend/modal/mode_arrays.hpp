@@ -27,7 +27,7 @@ class ModeArrays {
  public:
   ModeArrays(Index modes, Index rows, Index columns, ModeLayout layout)
       : columns_(columns),
-        stride_((modes * factors_per_mode(layout) + lane_count - 1) / lane_count * lane_count),
+        stride_(whole_lanes(modes * factors_per_mode(layout))),
         layout_(layout),
         factors_(static_cast<std::size_t>(rows * columns * stride_)) {}
 

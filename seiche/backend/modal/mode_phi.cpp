@@ -174,7 +174,7 @@ SEICHE_MULTIVERSION void fill_forms_of(const Arrays& arrays, std::span<const Phi
 }  // namespace
 
 ModeBlockArrays::ModeBlockArrays(Index modes, Index fields, bool are_real)
-    : fields_(fields), parts_(are_real ? 1 : 2), padded_((modes + lane_count - 1) / lane_count * lane_count) {
+    : fields_(fields), parts_(are_real ? 1 : 2), padded_(whole_lanes(modes)) {
   entries_.resize(static_cast<std::size_t>(4 * fields * fields * parts_ * padded_));
   sizes_.resize(static_cast<std::size_t>(padded_));
 }

@@ -218,7 +218,7 @@ void ModeForms::set(Index mode, Index form, Index i, Index j, std::complex<doubl
 void ModeForms::apply(std::span<const double* const> in, std::span<double> values, int threads) const {
   blocks_.add(space_, threads, values.first(static_cast<std::size_t>(forms_)),
               [&](Index begin, Index end, std::span<double> sums) {
-                const Index first = begin / lane_count, last = (end + lane_count - 1) / lane_count;
+                const Index first = begin / lane_count, last = groups_of_lanes(end);
                 with_layout(factors_.layout(), [&]<ModeLayout layout>() {
                   with_columns(columns_, [&]<int known>() {
                     with_lanes([&]<class V>() __attribute__((always_inline)) {

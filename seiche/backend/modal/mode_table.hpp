@@ -23,7 +23,7 @@ class ModeFactors {
 
   ModeLayout layout() const { return layout_; }
   Index slots() const { return slots_; }
-  Index chunks() const { return (slots_ + lane_count - 1) / lane_count; }
+  Index chunks() const { return groups_of_lanes(slots_); }
   Index stride() const { return lane_count / slots_per_mode(layout_) * factors_per_mode(layout_); }
   const double* of_chunk(Index chunk) const { return factors_.data() + chunk * per_mode_ * stride(); }
 

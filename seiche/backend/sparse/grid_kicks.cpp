@@ -25,7 +25,7 @@ class GridKicks final : public Kicks {
                                        : n()),
         ring_(n() <= longest_ring ? K_.ring() : nullptr),
         ghosts_(ring_ ? reach_of(*ring_) : 0),
-        memory_(fftw_buffer(static_cast<std::size_t>(padded(slope_length_) + 3 * part_length()))) {
+        memory_(fftw_buffer(static_cast<std::size_t>(whole_lanes(slope_length_) + 3 * part_length()))) {
     if (ring_) {
       whole_ = {0, n(), ring_};
       blocks_.push_back({0, n(), {&whole_, 1}});
@@ -78,10 +78,11 @@ class GridKicks final : public Kicks {
   Index n() const { return K_.size(); }
 
   // Slopes of V, and three arrays of a number per point, with room for the copies of a ring at both ends.
-  static Index padded(Index length) { return (length + lane_count - 1) / lane_count * lane_count; }
   double* slope() const { return memory_.get(); }
-  Index part_length() const { return padded(n()) + 2 * padded(ghosts_); }
-  double* part(Index i) const { return slope() + padded(slope_length_) + i * part_length() + padded(ghosts_); }
+  Index part_length() const { return whole_lanes(n()) + 2 * whole_lanes(ghosts_); }
+  double* part(Index i) const {
+    return slope() + whole_lanes(slope_length_) + i * part_length() + whole_lanes(ghosts_);
+  }
 
   static Index reach_of(const EqualRows::Kind& row) {
     return row.offsets.empty() ? 0 : std::max({Index{0}, -row.offsets.front(), row.offsets.back()});

@@ -12,7 +12,7 @@ namespace seiche {
 class CacheLines {
  public:
   CacheLines() = default;
-  explicit CacheLines(std::size_t numbers) : lines_((numbers + lane_count - 1) / lane_count) {}  // zeros
+  explicit CacheLines(std::size_t numbers) : lines_(groups_of_lanes(numbers)) {}  // zeros
 
   double* data() { return lines_.empty() ? nullptr : lines_.front().numbers.data(); }
   const double* data() const { return lines_.empty() ? nullptr : lines_.front().numbers.data(); }

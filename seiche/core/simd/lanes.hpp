@@ -18,6 +18,16 @@ using HalfLanes = double __attribute__((vector_size(32)));
 using Pair = double __attribute__((vector_size(16)));
 inline constexpr int lane_count = 8;
 
+// How many times eight numbers so many are, the last time perhaps not all of them, and how many that makes.
+template <class Integer>
+constexpr Integer groups_of_lanes(Integer count) {
+  return (count + lane_count - 1) / lane_count;
+}
+template <class Integer>
+constexpr Integer whole_lanes(Integer count) {
+  return groups_of_lanes(count) * lane_count;
+}
+
 // A vector that is wider than the registers there are is computed through the stack, by up to four times as many
 // instructions. Hence it is two of half its width, down to those that fit.
 template <class Half>
