@@ -91,7 +91,7 @@ double ensemble_bytes(const RunSpec& spec) {
   const auto members = static_cast<double>(spec.ensemble->count());
   const double simulations = spec.ensemble->parameters.empty() ? 1.0 : members;
   return members * (of_member + doubles_of_member * unknowns) +
-         simulations * (of_simulation + run_bytes(find_method(spec.method), find_backend("modal"), problem));
+         simulations * (of_simulation + simulation_bytes(find_method(spec.method), find_backend("modal"), problem));
 }
 
 Members make_members(const RunSpec& spec) {

@@ -13,7 +13,8 @@
 namespace seiche {
 namespace {
 
-SimulationOptions with_times(SimulationOptions options, const RunPlan& plan) {
+SimulationOptions of_run(SimulationOptions options, const RunPlan& plan) {
+  options.is_of_run = true;
   options.variable_steps = plan.tolerance.has_value();
   options.tolerance = plan.tolerance.value_or(0.0);
   options.duration = plan.t_end - plan.t_start;
@@ -25,7 +26,7 @@ SimulationOptions with_times(SimulationOptions options, const RunPlan& plan) {
 PreparedRun::PreparedRun(const Problem& problem, const RunPlan& plan)
     : plan_(plan),
       varies_(!has_constant_rates(problem.damping) || problem.friction != nullptr),
-      simulation_(std::make_shared<Simulation>(problem, with_times(plan.simulation, plan))),
+      simulation_(std::make_shared<Simulation>(problem, of_run(plan.simulation, plan))),
       adaptive_(plan.tolerance ? &simulation_->adaptive_stepper() : nullptr) {
   if (!plan.tolerance)
     notes_ = notes_on_step_size(*simulation_, plan.simulation.backend_options.sparse, plan.h,

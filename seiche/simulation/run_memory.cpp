@@ -48,4 +48,10 @@ double run_bytes(const MethodEntry& method, const BackendEntry& backend, const P
   return 8 * all * static_cast<double>(problem.size()) + (backend.bytes ? backend.bytes(problem, factored) : 0);
 }
 
+double simulation_bytes(const MethodEntry& method, const BackendEntry& backend, const Problem& problem,
+                        bool variable_steps) {
+  constexpr double beside = 5;  // doubles per unknown
+  return run_bytes(method, backend, problem, variable_steps) - 8 * beside * static_cast<double>(problem.size());
+}
+
 }  // namespace seiche

@@ -11,4 +11,9 @@ namespace seiche {
 double run_bytes(const MethodEntry& method, const BackendEntry& backend, const Problem& problem,
                  bool variable_steps = false);
 
+// Of these, those of its Simulation: without the last good state, the problem of the case, and values at points on
+// their way to files.
+double simulation_bytes(const MethodEntry& method, const BackendEntry& backend, const Problem& problem,
+                        bool variable_steps = false);
+
 }  // namespace seiche

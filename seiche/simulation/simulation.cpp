@@ -85,9 +85,10 @@ bool may_choose_kicks(const SimulationOptions& options, const Problem& problem, 
          problem.size() <= most_unknowns && &automatic_backend(problem, true) != &backend;
 }
 
-void require_memory(const MethodEntry& method, const Problem& problem, bool variable_steps,
+void require_memory(const MethodEntry& method, const Problem& problem, const SimulationOptions& options,
                     const BackendEntry& backend) {
-  const double bytes = run_bytes(method, backend, problem, variable_steps);
+  const double bytes =
+      (options.is_of_run ? run_bytes : simulation_bytes)(method, backend, problem, options.variable_steps);
   if (bytes > memory_limit())
     throw Error("{} on {} unknowns needs about {:.3g} bytes, but only {:.3g} are available; choose fewer points{}",
                 method.name, problem.size(), bytes, memory_limit(),
@@ -116,7 +117,7 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
   if (!options.backend_options.sparse.solver.empty() && backend_->name != "petsc")
     throw Error("solver = \"{}\" is for the backend petsc, and this is {}", options.backend_options.sparse.solver,
                 backend_->name);
-  if (method_ != nullptr) require_memory(*method_, problem_, options.variable_steps, *backend_);
+  if (method_ != nullptr) require_memory(*method_, problem_, options, *backend_);
   if (noise_.is_on()) require_noise_to_fit(options, *method_, problem_, *backend_);
   if (problem_.structure && problem_.initial.size() == problem_.size())
     if (const std::string complaint = problem_.structure->complaint_about(
@@ -140,7 +141,7 @@ Simulation::Simulation(const Problem& problem, const SimulationOptions& options)
       system_ = System{};  // before the other takes its memory
       system_ = better.system(problem_, options.backend_options);
     }
-    require_memory(*method_, problem_, options.variable_steps, *backend_);
+    require_memory(*method_, problem_, options, *backend_);
   }
   if (options.variable_steps && problem_.friction && problem_.friction->smoothness() == Friction::Smoothness::jump)
     throw Error(

@@ -20,6 +20,7 @@ struct SimulationOptions {
   double tolerance = 0.0;       // for method "auto": of values at the end; 0: not known
   double duration = 0.0;        // likewise
   Noise noise = {};             // for steps of one size
+  bool is_of_run = false;       // which keeps states and values beside it: memory is to hold those too
 };
 
 // Throws Error where the method does not apply to the problem, with the reason, and where the gradient of an own
