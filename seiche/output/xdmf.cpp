@@ -122,14 +122,14 @@ std::uint64_t every_that_fits(const Instants& instants, std::uint64_t rows) {
 
 }  // namespace
 
-std::uint64_t write_xdmf(const Folder& folder, const std::string& name, const SolutionLayout& layout,
+std::uint64_t write_xdmf(const Folder& folder, const std::string& solution, const SolutionLayout& layout,
                          const XdmfOptions& options) {
-  const Hdf5File file = Hdf5File::open(folder, name);
+  const Hdf5File file = Hdf5File::open(folder, solution);
   const Hdf5Dataset t = file.dataset("t");
   const std::uint64_t rows = t.rows();
-  const Instants instants(layout, name, rows, file.has("H_modified"));
+  const Instants instants(layout, solution, rows, file.has("H_modified"));
   const std::uint64_t every = options.all_times ? 1 : every_that_fits(instants, rows);
-  AtomicFile xdmf(folder, std::filesystem::path(name).stem().string() + ".xdmf");
+  AtomicFile xdmf(folder, std::filesystem::path(solution).stem().string() + ".xdmf");
   xdmf.write(
       fmt::format("<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" [\n{}]>\n", instants.entities()));
   xdmf.write(
