@@ -131,6 +131,8 @@ class AdaptiveLoop {
     const bool is_left =
         std::abs(h_ - left) <= 8 * epsilon * std::max(std::abs(options_.t_end), left);  // but for round-off in t
     const double h = is_last && !is_left ? left : is_cut ? left / 2 : h_;
+    keeps_left_ = stepper_.has_modified_energy() && recording_.next_time() <= state_.t + h;
+    if (keeps_left_) left_ = state_;
     StepReport step = stepper_.attempt(state_, h);
     recording_.count(step);
     if (!step.solved()) return reject(StepController::rounded(h / 4), step.message);
@@ -264,11 +266,23 @@ class AdaptiveLoop {
 
   void show_until(double t) {
     for (double next = recording_.next_time(); next <= t; next = recording_.next_time()) {
-      State between = state_;
-      between.t = next;
-      if (next != state_.t) stepper_.interpolate(state_, next, between.z);
-      recording_.show(between);
+      recording_.show(next == state_.t ? state_ : inside(next));
     }
+  }
+
+  // In the last step. A modified energy is not of z alone: a shorter step tells what else belongs to it.
+  State inside(double t) {
+    if (keeps_left_) {
+      State shorter = left_;
+      if (stepper_.step(shorter, t - left_.t).solved()) {
+        shorter.t = t;
+        return shorter;
+      }
+    }
+    State between = state_;
+    between.t = t;
+    stepper_.interpolate(state_, t, between.z);
+    return between;
   }
 
   // t by compensated summation (Kahan): steps are short and many.
@@ -303,6 +317,8 @@ class AdaptiveLoop {
   int rejections_ = 0;       // since the last accepted step
   bool unproven_ = false;    // is there a first step whose error is not known yet?
   State backup_, first_;     // before it, and after
+  bool keeps_left_ = false;  // does the last step hold times that are asked for, and is there a modified energy?
+  State left_;               // then before it
   double first_h_ = 0;
   double last_event_ = -std::numeric_limits<double>::infinity();
   int crowd_ = 0;  // of events, each soon after the one before

@@ -57,6 +57,29 @@ class Judge final : public Observer {
   EnergyReading last_;
 };
 
+// How far H and the modified energy part, where steps end and at times that are asked for.
+class Parting final : public Observer {
+ public:
+  bool is_due(const State&, bool) const override { return true; }
+  double next_time() const override { return 0.0625 * asked_; }
+  void observe(const State& state, const EnergyReading& energy) override {
+    const bool is_asked = state.t == next_time();
+    double& most = is_asked ? between : at_steps;
+    most = std::max(most, std::abs(energy.modified - energy.H));
+    if (is_asked) ++asked_;
+    rises += energy.modified > last_.modified + last_.modified_round_off ? 1 : 0;
+    if (!is_asked) last_ = energy;
+  }
+  void finish(const RunReport&) override {}
+
+  double between = 0, at_steps = 0;
+  int rises = 0;
+
+ private:
+  int asked_ = 1;
+  EnergyReading last_{.modified = std::numeric_limits<double>::infinity()};
+};
+
 struct Outcome {
   double error = 0;
   RunReport report;
@@ -90,6 +113,20 @@ const std::vector<NamedProblem>& four_problems() {
                                                  {"FPU", fpu_conservative_case()},
                                                  {"gKdV", gkdv_case(0.5, 1.0)}};
   return list;
+}
+
+TEST(Adaptive, TheModifiedEnergyBetweenStepsBelongsToTheStateThere) {
+  for (const std::string method : {"seisav", "ssav", "eisav"}) {
+    Simulation simulation(klein_gordon_case(), {.method = method, .variable_steps = true});
+    Parting parting;
+    const std::vector<Observer*> observers = {&parting};
+    const RunReport report = integrate_adaptive(simulation.system(), simulation.adaptive_stepper(), simulation.state(),
+                                                {.tolerance = 1e-2, .t_end = 20}, observers);
+    ASSERT_EQ(report.status, RunReport::Status::success) << report.message;
+    EXPECT_GT(parting.between, 0.1 * parting.at_steps) << method;
+    EXPECT_LE(parting.between, 1.5 * parting.at_steps) << method;
+    EXPECT_EQ(parting.rises, 0) << method;
+  }
 }
 
 TEST(AdaptiveSlow, TheToleranceOfCollocationIsTheErrorOverSixDecades) {
