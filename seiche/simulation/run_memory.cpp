@@ -50,7 +50,7 @@ double run_bytes(const MethodEntry& method, const BackendEntry& backend, const P
 
 double simulation_bytes(const MethodEntry& method, const BackendEntry& backend, const Problem& problem,
                         bool variable_steps) {
-  constexpr double beside = 5;  // doubles per unknown
+  constexpr double beside = 5;  // doubles per unknown, of the 2 to 10 by which runs of six methods take more
   return run_bytes(method, backend, problem, variable_steps) - 8 * beside * static_cast<double>(problem.size());
 }
 

@@ -3,6 +3,10 @@
 #include <test/support/temporary_directory.hpp>
 
 #include <seiche/config/case/case_file.hpp>
+#include <seiche/core/base/error.hpp>
+#include <seiche/core/base/memory_limit.hpp>
+#include <seiche/problem/klein_gordon.hpp>
+#include <seiche/simulation/prepared_run.hpp>
 #include <seiche/simulation/run_memory.hpp>
 
 #include <fmt/format.h>
@@ -41,6 +45,37 @@ std::string case_of(const MeasuredRun& run) {
       "[problem]\n{}[method]\nname = \"{}\"\n{}\n[backend]\nname = \"{}\"\n[time]\nend = 0.002\n[output]\nreport = "
       "\"off\"\n",
       run.problem, run.method, step, run.backend);
+}
+
+// As if there were so many bytes.
+class Memory {
+ public:
+  explicit Memory(double bytes) : before_(processes_on_machine()) {
+    processes_on_machine() = static_cast<int>(memory_limit() * before_ / bytes);
+  }
+  ~Memory() { processes_on_machine() = before_; }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+ private:
+  int before_;
+};
+
+TEST(RunMemory, OfARunIsAskedForWhereThereIsOne) {
+  const Problem problem = klein_gordon({.grid = {.points = {64, 64}, .length = {4.0, 4.0}}});
+  const SimulationOptions options{.method = "seisav", .backend = "modal"};
+  const MethodEntry& method = find_method(options.method);
+  const BackendEntry& backend = find_backend(options.backend);
+  const Memory between(0.5 * (simulation_bytes(method, backend, problem) + run_bytes(method, backend, problem)));
+  EXPECT_NO_THROW(Simulation(problem, options));
+  EXPECT_THROW(PreparedRun(problem, {.simulation = options, .h = 0.01, .t_end = 1}), Error);
+  EXPECT_THROW(
+      Simulation(problem,
+                 simulation_options(parse_case(
+                     "[problem]\nname = \"klein_gordon\"\npoints = [64, 64]\nlength = [4.0, 4.0]\n[method]\nname "
+                     "= \"seisav\"\nh = 0.01\n[time]\nend = 1\n",
+                     "a.toml"))),
+      Error);
 }
 
 class RunMemorySlow : public InTemporaryDirectory {

@@ -145,7 +145,8 @@ SimulationOptions simulation_options(const RunSpec& spec) {
           .variable_steps = spec.tolerance.has_value(),
           .tolerance = spec.tolerance.value_or(0.0),
           .duration = spec.duration(),
-          .noise = spec.noise};
+          .noise = spec.noise,
+          .is_of_run = true};
 }
 
 std::string objection_of(const RunSpec& spec) {
