@@ -28,11 +28,10 @@ std::string errors_as_csv(const ExampleResult& example) {
       "method,h,error,energy_error,max_energy_increase,max_modified_increase,order,steps,scalar_iterations,"
       "fallbacks,unresolved,cpu_seconds,energy_law_held,failure\n";
   for (const StudyRow& row : example.rows) {
-    fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{},{},{},{:.6g},{},{}\n",
-                   csv_field(row.method), row.h, row.error, row.energy_error, row.max_energy_increase,
-                   row.max_modified_increase, row.order ? fmt::format("{:.6g}", *row.order) : "", row.steps,
-                   row.scalar_iterations, row.fallbacks, row.unresolved, row.cpu_seconds, row.energy_law_held,
-                   csv_field(row.failure));
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{:.6g},{},{}\n", csv_field(row.method),
+                   row.h, row.error, row.energy_error, row.max_energy_increase, row.max_modified_increase,
+                   row.order ? fmt::format("{:.6g}", *row.order) : "", row.steps, row.scalar_iterations, row.fallbacks,
+                   row.unresolved, row.cpu_seconds, row.energy_law_held, csv_field(row.failure));
   }
   return text;
 }
@@ -42,8 +41,7 @@ std::string curve_table(const std::vector<Curve>& curves, const char* x, const c
   std::string text = fmt::format("curve,{},{}\n", x, y);
   for (const Curve& curve : curves) {
     for (std::size_t i = 0; i < curve.t.size(); ++i) {
-      fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g}\n", csv_field(curve.name), curve.t[i],
-                     curve.value[i]);
+      fmt::format_to(std::back_inserter(text), "{},{},{}\n", csv_field(curve.name), curve.t[i], curve.value[i]);
     }
   }
   return text;

@@ -49,7 +49,7 @@ struct State {
 
   MidpointMemory midpoints = {};  // of closures
 
-  // All of the above but vectors and what is known of earlier steps.
+  // All of the above but vectors and what is known of earlier steps: a new number has its place here too.
   static auto numbers_of(auto& s) {
     return std::tie(s.t, s.n, s.stream, s.r_squared, s.shift, s.energy_scale, s.energy, s.energy_terms);
   }
