@@ -103,8 +103,9 @@ class AdaptiveStepper : public Stepper {
   // Of the same attempt: the part of that error by what D(t) and f(t) do between the times at which the method looks at
   // them, known without one more step. 0 for methods that take their integrals.
   virtual double quadrature_error(const State& /*state*/) { return 0; }
-  virtual void undo(State& state) = 0;                                    // takes that attempt back, once
-  virtual void interpolate(const State& state, double t, Vector& z) = 0;  // the solution at a time inside it
+  virtual void undo(State& state) = 0;  // takes that attempt back, once
+  // The solution at a time inside it, with all that `energy` asks of a state.
+  virtual void interpolate(const State& state, double t, State& between) = 0;
   virtual void forget(State& state) = 0;  // what it remembers of the steps before; all else stays
   // Of a checkpoint, between two attempts: what it knows of the state beside the state, so that a run that goes on does
   // the same work. Reading may evaluate that again.

@@ -131,8 +131,6 @@ class AdaptiveLoop {
     const bool is_left =
         std::abs(h_ - left) <= 8 * epsilon * std::max(std::abs(options_.t_end), left);  // but for round-off in t
     const double h = is_last && !is_left ? left : is_cut ? left / 2 : h_;
-    keeps_left_ = stepper_.has_modified_energy() && recording_.next_time() <= state_.t + h;
-    if (keeps_left_) left_ = state_;
     StepReport step = stepper_.attempt(state_, h);
     recording_.count(step);
     if (!step.solved()) return reject(StepController::rounded(h / 4), step.message);
@@ -167,8 +165,7 @@ class AdaptiveLoop {
   // The first step of a method with history: the next one tells its error. It must not hold an event, since what
   // follows one would have to be taken back too.
   bool hold_back(double h, const StepReport& step) {
-    const auto inside = [this](double t, Vector& z) { stepper_.interpolate(state_, t, z); };
-    if (h > least_step() * 1e3 && events_.any_crossing(state_, inside)) {
+    if (h > least_step() * 1e3 && events_.any_crossing(state_, [this](double t, Vector& z) { look_inside(t, z); })) {
       stepper_.undo(state_);
       return reject(StepController::rounded(h / 4), "an event lies in the first step");
     }
@@ -227,14 +224,12 @@ class AdaptiveLoop {
   }
 
   bool accept() {
-    const EventFinder::Found found =
-        events_.find(state_, [this](double t, Vector& z) { stepper_.interpolate(state_, t, z); });
+    const EventFinder::Found found = events_.find(state_, [this](double t, Vector& z) { look_inside(t, z); });
     show_until(found.empty() ? state_.t : found.t);
     if (found.empty()) return recording_.record(state_.t >= options_.t_end);
 
     State at = state_;
-    at.t = found.t;
-    if (found.t != state_.t) stepper_.interpolate(state_, found.t, at.z);
+    if (found.t != state_.t) stepper_.interpolate(state_, found.t, at);
     std::swap(state_, at);
     return !crowds(found.t) && happen(found);
   }
@@ -266,23 +261,14 @@ class AdaptiveLoop {
 
   void show_until(double t) {
     for (double next = recording_.next_time(); next <= t; next = recording_.next_time()) {
-      recording_.show(next == state_.t ? state_ : inside(next));
+      if (next != state_.t) stepper_.interpolate(state_, next, between_);
+      recording_.show(next == state_.t ? state_ : between_);
     }
   }
 
-  // In the last step. A modified energy is not of z alone: a shorter step tells what else belongs to it.
-  State inside(double t) {
-    if (keeps_left_) {
-      State shorter = left_;
-      if (stepper_.step(shorter, t - left_.t).solved()) {
-        shorter.t = t;
-        return shorter;
-      }
-    }
-    State between = state_;
-    between.t = t;
-    stepper_.interpolate(state_, t, between.z);
-    return between;
+  void look_inside(double t, Vector& z) {
+    stepper_.interpolate(state_, t, between_);
+    z = between_.z;
   }
 
   // t by compensated summation (Kahan): steps are short and many.
@@ -317,8 +303,7 @@ class AdaptiveLoop {
   int rejections_ = 0;       // since the last accepted step
   bool unproven_ = false;    // is there a first step whose error is not known yet?
   State backup_, first_;     // before it, and after
-  bool keeps_left_ = false;  // does the last step hold times that are asked for, and is there a modified energy?
-  State left_;               // then before it
+  State between_;            // inside the last step
   double first_h_ = 0;
   double last_event_ = -std::numeric_limits<double>::infinity();
   int crowd_ = 0;  // of events, each soon after the one before

@@ -195,13 +195,13 @@ void TsRun::undo(Vec u) {
 
 void TsRun::interpolate(double t, Vec u) {
   const State& state = this->state();
-  Vector z = state.z;
+  State between = state;
   AdaptiveStepper* adaptive = options_.simulation.variable_steps ? &adaptive_stepper() : nullptr;
   if (adaptive != nullptr && !looked_ahead_)
-    adaptive->interpolate(state, t, z);
+    adaptive->interpolate(state, t, between);
   else if (t < state.t)
-    z = StepReplay(stepper(), adaptive).at({before_, state.t - before_.t}, t).z;
-  equation_->to_solution(z, u);
+    between = StepReplay(stepper(), adaptive).at({before_, state.t - before_.t}, t);
+  equation_->to_solution(between.z, u);
 }
 
 }  // namespace seiche

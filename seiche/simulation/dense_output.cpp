@@ -23,7 +23,7 @@ State StepReplay::at(const TakenStep& step, double t) {
   const StepReport report = shorter ? stepper_.step(state, t - step.left.t) : take_again(step);
   if (!report.solved())
     throw Error("the solution at t = {:.9g} is not known, since a step to it failed: {}", t, report.message);
-  if (!shorter) adaptive_->interpolate(right_, t, state.z);
+  if (!shorter) adaptive_->interpolate(right_, t, state);
   state.t = t;
   return state;
 }

@@ -39,7 +39,7 @@ class RememberingStepper final : public AdaptiveStepper {
   std::optional<double> error(const State& state) override { return adaptive_->error(state); }
   double quadrature_error(const State& state) override { return adaptive_->quadrature_error(state); }
   void undo(State& state) override;
-  void interpolate(const State& state, double t, Vector& z) override { adaptive_->interpolate(state, t, z); }
+  void interpolate(const State& state, double t, State& between) override { adaptive_->interpolate(state, t, between); }
   void forget(State& state) override { adaptive_->forget(state); }
   void restart(State& state) override { adaptive_->restart(state); }
   void archive_memory(Archive& a, const State& state) override { adaptive_->archive_memory(a, state); }

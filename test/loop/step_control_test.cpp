@@ -21,9 +21,9 @@ TEST(Adaptive, TheSolutionBetweenStepsEndsWhereTheStepDoes) {
     Simulation simulation(p, {.method = method, .variable_steps = true});
     AdaptiveStepper& stepper = simulation.adaptive_stepper();
     for (int n = 0; n < 5; ++n) ASSERT_TRUE(stepper.attempt(simulation.state(), 0.25).solved());
-    Vector z = Vector::Zero(simulation.state().z.size());
-    stepper.interpolate(simulation.state(), simulation.state().t, z);
-    EXPECT_LE((z - simulation.state().z).lpNorm<Eigen::Infinity>(), 1e-14) << method;
+    State between;
+    stepper.interpolate(simulation.state(), simulation.state().t, between);
+    EXPECT_LE((between.z - simulation.state().z).lpNorm<Eigen::Infinity>(), 1e-14) << method;
   }
 }
 
@@ -122,7 +122,7 @@ TEST(Adaptive, AReplacedStepIsNotCountedWhereItIsTakenBackOrItsErrorIsAccepted) 
     bool has_modified_energy() const override { return false; }
     void keep_ledger() override {}
     void undo(State&) override {}
-    void interpolate(const State&, double, Vector&) override {}
+    void interpolate(const State&, double, State&) override {}
     void forget(State&) override {}
     void restart(State&) override {}
     int attempts = 0;

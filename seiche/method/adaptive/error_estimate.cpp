@@ -15,6 +15,21 @@
 namespace seiche {
 namespace {
 
+struct LastStep {
+  const State& left;
+  const State& right;
+};
+// A shorter step from `between`, which lies in the last one, to t; where it fails, a point between two states that are
+// good.
+void step_within(Stepper& stepper, LastStep last, double t, State& between) {
+  if (t != between.t && !stepper.step(between, t - between.t).solved()) {
+    between = last.right;
+    between.z = last.left.z + ((t - last.left.t) / (last.right.t - last.left.t)) * (last.right.z - last.left.z);
+  }
+  between.t = t;
+  between.n = last.right.n;
+}
+
 class Estimated final : public AdaptiveStepper {
  public:
   Estimated(const System& system, std::unique_ptr<Stepper> stepper)
@@ -68,12 +83,9 @@ class Estimated final : public AdaptiveStepper {
     if (end_force_is_known_) forces_[0].swap(forces_[2]);  // that of the left end, which is the end again
   }
 
-  void interpolate(const State& s, double t, Vector& z) override {
-    between_ = before_;
-    if (stepper_->step(between_, t - before_.t).solved())
-      z = between_.z;
-    else  // between two states that are good
-      z = before_.z + ((t - before_.t) / h_) * (s.z - before_.z);
+  void interpolate(const State& s, double t, State& between) override {
+    between = before_;
+    step_within(*stepper_, {.left = before_, .right = s}, t, between);
   }
 
   void forget(State&) override { end_force_is_known_ = false; }
@@ -103,7 +115,7 @@ class Estimated final : public AdaptiveStepper {
   NonlinearForce force_;
   ErrorMeasure measure_;
   StepCache<Maps> cache_;
-  State before_, between_;
+  State before_;
   double h_ = 0;
   bool end_force_is_known_ = false;  // forces_[2] is N at the state
   std::vector<Vector> forces_, out_;
@@ -166,13 +178,9 @@ class Doubled final : public AdaptiveStepper {
 
   void undo(State& s) override { s = before_; }
 
-  void interpolate(const State& s, double t, Vector& z) override {
-    const State& left = t <= middle_.t ? before_ : middle_;
-    between_ = left;
-    if (t == left.t || stepper_->step(between_, t - left.t).solved())
-      z = between_.z;
-    else  // between two states that are good
-      z = before_.z + ((t - before_.t) / h_) * (s.z - before_.z);
+  void interpolate(const State& s, double t, State& between) override {
+    between = t <= middle_.t ? before_ : middle_;
+    step_within(*stepper_, {.left = before_, .right = s}, t, between);
   }
 
   void forget(State&) override {}
@@ -186,7 +194,7 @@ class Doubled final : public AdaptiveStepper {
   const Space& space_;
   std::unique_ptr<PhiEvaluator> phi_;  // of gradient flows
   ErrorMeasure measure_;
-  State before_, middle_, whole_, between_;
+  State before_, middle_, whole_;
   double h_ = 0, moved_ = 0;
   Vector difference_, physical_;
 };

@@ -111,7 +111,7 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
 
   // The extension is moved by θ^p times what it misses at the end, so that the solution is continuous from step to
   // step.
-  void interpolate(const State& s, double t, Vector& z) override {
+  void interpolate(const State& s, double t, State& between) override {
     const auto extended = [&](double theta, Vector& out) {
       extension_.evaluate(last_, theta, projected_.before(), forces(), s.history, out);
     };
@@ -121,9 +121,11 @@ class Collocation final : public AdaptiveStepper, private BaseStep {
       missing_is_known_ = true;
     }
     const double theta = (t - projected_.last().t) / last_.h;
-    extended(theta, z);
-    z += std::pow(theta, order()) * missing_;
-    projected_.keep_between(s, z);
+    between.start_from(s);
+    between.t = t;
+    extended(theta, between.z);
+    between.z += std::pow(theta, order()) * missing_;
+    projected_.keep_between(s, between.z);
   }
 
   void forget(State& s) override { s.history_h = 0; }
