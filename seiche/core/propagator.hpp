@@ -51,10 +51,12 @@ class Propagator {
     double of_force = 0.0;          // fᵀFf
     double quadratic_energy = 0.0;  // ½z⁻ᵀMz⁻
   };
+  // Behind `predict` or `recall`. Where the propagator fuses `recall`, the last of these was of the same z and Λ, and
+  // its z⁻ may be used again.
   virtual Powers powers(const Vector& z, const Vector& f, FieldFactors before = {}) const = 0;
 
-  // z ← Λ'(z⁻ + FMz⁻ + c Ff), with Λ' the half-flow after the substep. Call it after `powers` of the same z, f and Λ,
-  // whose FMz⁻ and Ff it may use again; as often as wanted.
+  // z ← Λ'(z⁻ + FMz⁻ + c Ff), with Λ' the half-flow after the substep. Behind `powers` of the same z, f and Λ, whose
+  // FMz⁻ and Ff it may use again; as often as wanted.
   virtual void update(Vector& z, const Vector& f, double c, FieldFactors before = {},
                       FieldFactors after = {}) const = 0;
 };

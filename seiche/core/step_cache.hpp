@@ -26,6 +26,12 @@ class StepCache {
   template <class Make>
   T& at(double h, const Make& make) {
     if (!entries_.empty() && entries_.front().first == h) return *entries_.front().second;
+    return find_or_make(h, make);
+  }
+
+ private:
+  template <class Make>
+  [[gnu::noinline]] T& find_or_make(double h, const Make& make) {  // apart, so that `at` saves no registers
     const auto found = std::find_if(entries_.begin(), entries_.end(), [h](const auto& e) { return e.first == h; });
     if (found == entries_.end()) {
       auto made = make();
@@ -37,7 +43,6 @@ class StepCache {
     return *entries_.front().second;
   }
 
- private:
   std::size_t capacity_;
   std::vector<std::pair<double, std::unique_ptr<T>>> entries_;
 };

@@ -46,7 +46,7 @@ class LaneSums {
  public:
   double& operator[](std::size_t lane) { return sums_[lane]; }
   double total() const {
-    return ((sums_[0] + sums_[1]) + (sums_[2] + sums_[3])) + ((sums_[4] + sums_[5]) + (sums_[6] + sums_[7]));
+    return ((sums_[0] + sums_[4]) + (sums_[2] + sums_[6])) + ((sums_[1] + sums_[5]) + (sums_[3] + sums_[7]));
   }
 
  private:

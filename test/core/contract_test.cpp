@@ -4,6 +4,7 @@
 #include <test/support/worst.hpp>
 
 #include <seiche/backend/backends.hpp>
+#include <seiche/core/generic_state.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -81,6 +82,37 @@ TEST(Contract, TheIncrementIsFM) {
     const Matrix M = matrix_of(system, [&](const Vector& x, Vector& y) { system.linear->apply_M(x, y); });
     const Matrix FM = matrix_of(system, [&](const Vector& x, Vector& y) { propagator.increment(x, y); });
     EXPECT_LE(largest(FM - F * M), 1e-13 * (F.cwiseAbs() * M.cwiseAbs()).maxCoeff());
+  });
+}
+
+// Behind a prediction of another state too, and as often as wanted.
+TEST(Contract, PowersAndUpdatesAreThoseOfIncrementAndForce) {
+  for_every_propagator([](const Setting&, const System& system, const Propagator& propagator, double) {
+    const auto fields = static_cast<std::size_t>(system.fields);
+    const std::vector<double> before(fields, 0.75), after(fields, 0.5);
+    const Space& space = *system.space;
+    const Vector z = generic_state(space);
+    Vector f = Vector::Zero(z.size());
+    system.potential->gradient(z, f);
+    Vector scratch = f, damped = 0.75 * z, dz = f, q = f;
+    propagator.predict(2 * z, f, scratch, before);
+    scratch = f;
+    propagator.predict(z, f, scratch, before);
+    const Propagator::Powers powers = propagator.powers(z, f, before);
+    propagator.increment(damped, dz);
+    propagator.force(f, q);
+    constexpr double tolerance = 1e-12;
+    const double of_f = space.norm(f);
+    EXPECT_NEAR(powers.of_increment, space.dot(f, dz), tolerance * of_f * space.norm(dz));
+    EXPECT_NEAR(powers.of_force, space.dot(f, q), tolerance * of_f * space.norm(q));
+    EXPECT_NEAR(powers.quadratic_energy, system.linear->quadratic_energy(damped),
+                tolerance * system.linear->quadratic(damped).magnitude);
+    for (const double c : {0.5, -2.0}) {
+      Vector found = z;
+      propagator.update(found, f, c, before, after);
+      const Vector expected = 0.5 * (damped + dz + c * q);
+      EXPECT_LE(space.norm(found - expected), tolerance * (space.norm(damped) + space.norm(dz) + 2 * space.norm(q)));
+    }
   });
 }
 

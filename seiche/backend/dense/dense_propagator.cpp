@@ -75,41 +75,6 @@ template <class V>
       });
 }
 
-// The two maps of a substep into the coordinates that a state has; T = 1 where the others lead there themselves.
-struct Substep {
-  LaneMatrix::View FM, F, T;
-  double *dz, *q, *in_energy;
-  Index size;
-
-  template <class V>
-  [[gnu::always_inline]] inline void apply(const double* z, const double* f) const {
-    FM.apply<V>(z, dz);
-    F.apply<V>(f, q);
-    for (double* v : {dz, q}) to_state<V>(v);
-  }
-  template <class V>
-  [[gnu::always_inline]] inline void to_state(double* v) const {
-    if (T.rows == 0) return;
-    T.apply<V>(v, in_energy);
-    std::copy_n(in_energy, size, v);
-  }
-};
-
-// ẑ = z⁻ + Q(Mz⁻ + ∇V) on the support, as one matrix times (z⁻, ∇V).
-struct Midpoint {
-  LaneMatrix::View map;
-  double *z, *gradient, *move;  // the gradient behind z⁻
-  Index size;
-  Potential::Support support;
-
-  // |ẑ − z⁻|²
-  template <class V>
-  [[gnu::always_inline]] inline double apply(double* z_mid) const {
-    map.apply<V>(z, move);
-    return add_and_measure<V>(z + support.begin, move, support.size, z_mid);
-  }
-};
-
 class DensePropagator final : public Propagator {
  public:
   DensePropagator(const DenseForce& maps, const DenseMetric& metric, Potential::Support support)
@@ -129,30 +94,28 @@ class DensePropagator final : public Propagator {
     mid_ = LaneMatrix(mid);
     gradient_share_ = squared_norm_bound(mid.rightCols(support.size));
     if (in_energy_) T_ = LaneMatrix(maps.T);
-    z_and_gradient_.resize(size_ + support.size);
+    z_.resize(size_ + support.size);
     y_.resize(T_.padded_rows());
     for (Vector* v : {&dz_, &q_}) v->resize(std::max(FM_.padded_rows(), mid_.padded_rows()));
   }
 
   void predict(const Vector& z, const Vector& gradient, Vector& z_mid, FieldFactors before) const override {
-    with_lanes([ =, mid = midpoint(), from = z.data(), g = of_support(gradient),
-                 out = z_mid.data() + support_.begin ]<class V>() __attribute__((always_inline)) {
-      damp_fields<V>(before, from, mid.size, mid.z);
-      std::copy_n(g, mid.support.size, mid.gradient);
-      mid.template apply<V>(out);
-    });
+    with_lanes([ =, this, z = z.data(), g = of_support(gradient), out = of_support(z_mid) ]<class V>()
+                   __attribute__((always_inline)) {
+                     damp_fields<V>(before, z, size_, z_.data());
+                     std::copy_n(g, support_.size, z_.data() + size_);
+                     to_middle<V>(out);
+                   });
   }
   bool recall(const Vector& z, const Gradients& g, Vector& z_mid, FieldFactors before,
               Recalled& recalled) const override {
-    with_lanes([
-      =, mid = midpoint(), from = z.data(), g0 = of_support(g.g0), g1 = of_support(g.g1), g2 = of_support(g.g2), g = &g,
-      out = z_mid.data() + support_.begin, to = &recalled
-    ]<class V>() __attribute__((always_inline)) {
-      damp_fields<V>(before, from, mid.size, mid.z);
-      to->missed = extrapolate<V>(g0, g1, g2, g->weight, g->ratio, mid.support.size, mid.gradient);
-      to->moved = mid.template apply<V>(out);
+    with_lanes([ =, this, z = z.data(), g = &g, out = of_support(z_mid), to = &
+                 recalled ]<class V>() __attribute__((always_inline)) {
+      damp_fields<V>(before, z, size_, z_.data());
+      to->missed = gradient_share_ * extrapolate<V>(of_support(g->g0), of_support(g->g1), of_support(g->g2), g->weight,
+                                                    g->ratio, support_.size, z_.data() + size_);
+      to->moved = to_middle<V>(out);
     });
-    recalled.missed *= gradient_share_;
     recalled.missed_is_rough = true;
     return true;
   }
@@ -171,35 +134,44 @@ class DensePropagator final : public Propagator {
     q = q_.head(size_);
   }
 
-  Powers powers(const Vector& z, const Vector& f, FieldFactors before) const override {
-    return with_lanes([
-      =, n = support_.size, begin = support_.begin, from = z.data(), g = of_support(f), x = z_and_gradient_.data(),
-      metric = metric_.view(), substep = substep()
-    ]<class V>() __attribute__((always_inline)) {
-      damp_fields<V>(before, from, substep.size, x);
-      substep.template apply<V>(x, g);
-      return Powers{product_of<V>(g, substep.dz + begin, n), product_of<V>(g, substep.q + begin, n),
-                    metric.template energy<V>(x)};
+  Powers powers(const Vector& /*z*/, const Vector& f, FieldFactors /*before*/) const override {
+    return with_lanes([ this, f = of_support(f) ]<class V>() __attribute__((always_inline)) {
+      const Index n = support_.size, begin = support_.begin;
+      double *const damped = z_.data(), *const dz = dz_.data(), *const q = q_.data();
+      FM_.view().template apply<V>(damped, dz);
+      F_.view().template apply<V>(f, q);
+      to_state<V>(dz);
+      to_state<V>(q);
+      return Powers{product_of<V>(f, dz + begin, n), product_of<V>(f, q + begin, n),
+                    metric_.view().template energy<V>(damped)};
     });
   }
   void update(Vector& z, const Vector& /*f*/, double c, FieldFactors /*before*/, FieldFactors after) const override {
-    with_lanes(
-        [ =, size = size_, x = z_and_gradient_.data(), dz = dz_.data(), q = q_.data(), out = z.data() ]<class V>()
-            __attribute__((always_inline)) { add_and_damp<V>(x, dz, c, q, after, size, out); });
+    with_lanes([ =, this, z = z.data() ]<class V>() __attribute__((always_inline)) {
+      add_and_damp<V>(z_.data(), dz_.data(), c, q_.data(), after, size_, z);
+    });
   }
 
  private:
   const double* of_support(const Vector& v) const { return v.data() + support_.begin; }
-  Midpoint midpoint() const {
-    double* const z = z_and_gradient_.data();
-    return {mid_.view(), z, z + size_, q_.data(), size_, support_};
+  double* of_support(Vector& v) const { return v.data() + support_.begin; }
+
+  // ẑ = z⁻ + Q(Mz⁻ + ∇V) on the support, as one matrix times (z⁻, ∇V) in z_. Returns |ẑ − z⁻|².
+  template <class V>
+  [[gnu::always_inline]] inline double to_middle(double* z_mid) const {
+    mid_.view().template apply<V>(z_.data(), q_.data());
+    return add_and_measure<V>(of_support(z_), q_.data(), support_.size, z_mid);
   }
-  Substep substep() const { return {FM_.view(), F_.view(), T_.view(), dz_.data(), q_.data(), y_.data(), size_}; }
 
   // From the coordinates of energy, if F and FM lead there.
+  template <class V>
+  [[gnu::always_inline]] inline void to_state(double* v) const {
+    if (!in_energy_) return;
+    T_.view().template apply<V>(v, y_.data());
+    std::copy_n(y_.data(), size_, v);
+  }
   void to_state(Vector& v) const {
-    with_lanes([ substep = substep(), v = v.data() ]<class V>()
-                   __attribute__((always_inline)) { substep.template to_state<V>(v); });
+    with_lanes([ this, v = v.data() ]<class V>() __attribute__((always_inline)) { to_state<V>(v); });
   }
 
   Index size_;
@@ -209,7 +181,7 @@ class DensePropagator final : public Propagator {
   LaneMatrix F_, FM_, mid_, T_;  // F_: the columns of forces
   double gradient_share_;        // ≥ |Qg|²/|g|² of what ẑ takes from a gradient g
   bool in_energy_;
-  mutable Vector z_and_gradient_, dz_, q_, y_;
+  mutable Vector z_, dz_, q_, y_;  // z⁻ with a gradient behind it, FMz⁻, Ff
 };
 
 bool is_unit(const Matrix& M, Index i) {

@@ -7,7 +7,6 @@
 
 #include <Eigen/Dense>
 
-#include <algorithm>
 #include <array>
 
 namespace seiche {
@@ -16,6 +15,8 @@ class LaneMatrix {
  public:
   LaneMatrix() = default;
   explicit LaneMatrix(const Eigen::MatrixXd& a);
+
+  static constexpr Index block_rows = 5 * lane_count;  // whose sums any processor has registers for
 
   Index columns() const { return columns_; }
   Index padded_rows() const { return padded_rows_; }
@@ -33,25 +34,34 @@ class LaneMatrix {
 
  private:
   Index columns_ = 0, padded_rows_ = 0;
-  CacheLines entries_;  // column after column, each filled up with zeros to a multiple of the lanes
+  CacheLines entries_;  // block after block, each column after column, filled up with zeros to a multiple of the lanes
 };
 
 namespace lane_matrix {
 
-// 8 · count rows from `a` on; columns lie `stride` apart. Few rows have several sums each, so that additions need not
-// wait for one another.
+// A block of 8 · count rows. Few rows have several sums each, so that additions need not wait for one another; how
+// many does not depend on the registers, and so neither does the order of additions. Loops over sums are unrolled by
+// order: the compiler does so too late to keep them all in registers.
 template <class V, int count>
-[[gnu::always_inline]] inline void apply_rows(const double* a, Index stride, Index columns, const double* x,
-                                              double* y) {
-  constexpr int parts = count <= 2 ? 4 : count == 3 ? 2 : 1;
+[[gnu::always_inline]] inline void apply_block(const double* a, Index columns, const double* x, double* y) {
+  constexpr int parts = count == 1 ? 4 : count <= 3 ? 2 : 1;
+  constexpr int stride = lane_count * count;
   std::array<std::array<V, count>, parts> sums{};
-  Index j = 0;
-  for (; j + parts <= columns; j += parts)
+  const double* const end = x + columns;
+  for (; end - x >= parts; x += parts, a += parts * stride) {
+#pragma GCC unroll 4
     for (int part = 0; part < parts; ++part)
-      for (int i = 0; i < count; ++i) sums[part][i] += x[j + part] * load<V>(a + (j + part) * stride + lane_count * i);
-  for (; j < columns; ++j)
-    for (int i = 0; i < count; ++i) sums[0][i] += x[j] * load<V>(a + j * stride + lane_count * i);
+#pragma GCC unroll 5
+      for (int i = 0; i < count; ++i) sums[part][i] += x[part] * load<V>(a + part * stride + lane_count * i);
+  }
+  if constexpr (parts > 1) {
+    for (; x < end; ++x, a += stride)
+#pragma GCC unroll 5
+      for (int i = 0; i < count; ++i) sums[0][i] += *x * load<V>(a + lane_count * i);
+  }
+#pragma GCC unroll 5
   for (int i = 0; i < count; ++i) {
+#pragma GCC unroll 4
     for (int part = 1; part < parts; ++part) sums[0][i] += sums[part][i];
     store<V>(y + lane_count * i, sums[0][i]);
   }
@@ -61,20 +71,16 @@ template <class V, int count>
 
 template <class V>
 [[gnu::always_inline]] inline void LaneMatrix::View::apply(const double* x, double* y) const {
-  constexpr Index most = 5 * lane_count;  // of the rows whose sums the registers hold
-  if (columns == 0) {
-    std::fill_n(y, rows, 0.0);
-    return;
-  }
-  for (Index row = 0; row < rows; row += most) {
-    const double* const a = entries + row;
-    switch (std::min(most, rows - row) / lane_count) {
-      case 5: lane_matrix::apply_rows<V, 5>(a, rows, columns, x, y + row); break;
-      case 4: lane_matrix::apply_rows<V, 4>(a, rows, columns, x, y + row); break;
-      case 3: lane_matrix::apply_rows<V, 3>(a, rows, columns, x, y + row); break;
-      case 2: lane_matrix::apply_rows<V, 2>(a, rows, columns, x, y + row); break;
-      default: lane_matrix::apply_rows<V, 1>(a, rows, columns, x, y + row); break;
-    }
+  const double* a = entries;
+  Index left = rows;
+  for (; left >= block_rows; left -= block_rows, a += block_rows * columns, y += block_rows)
+    lane_matrix::apply_block<V, 5>(a, columns, x, y);
+  switch (left) {
+    case 4 * lane_count: lane_matrix::apply_block<V, 4>(a, columns, x, y); break;
+    case 3 * lane_count: lane_matrix::apply_block<V, 3>(a, columns, x, y); break;
+    case 2 * lane_count: lane_matrix::apply_block<V, 2>(a, columns, x, y); break;
+    case lane_count: lane_matrix::apply_block<V, 1>(a, columns, x, y); break;
+    default: break;
   }
 }
 

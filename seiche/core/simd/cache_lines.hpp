@@ -14,8 +14,8 @@ class CacheLines {
   CacheLines() = default;
   explicit CacheLines(std::size_t numbers) : lines_(groups_of_lanes(numbers)) {}  // zeros
 
-  double* data() { return lines_.empty() ? nullptr : lines_.front().numbers.data(); }
-  const double* data() const { return lines_.empty() ? nullptr : lines_.front().numbers.data(); }
+  double* data() { return reinterpret_cast<double*>(lines_.data()); }
+  const double* data() const { return reinterpret_cast<const double*>(lines_.data()); }
 
  private:
   struct alignas(64) Line {

@@ -76,17 +76,22 @@ struct HalfOf<HalfLanes> {
   using type = Pair;
 };
 
-// body(j, V{}) for eight numbers from j on at a time, then the same with HalfOf<V> for four, and with 0.0 for one.
+// body(j, V{}) for eight numbers from j on at a time, then the same with HalfOf<V> for four, with its half for two, and
+// with 0.0 for one.
 template <class V, class Body>
 [[gnu::always_inline]] inline void for_lanes(std::ptrdiff_t begin, std::ptrdiff_t end, const Body& body) {
   using Half = typename HalfOf<V>::type;
   std::ptrdiff_t j = begin;
   for (; j + lane_count <= end; j += lane_count) body(j, V{});
-  if (j + lane_count / 2 <= end) {
+  if (j + 4 <= end) {
     body(j, Half{});
-    j += lane_count / 2;
+    j += 4;
   }
-  for (; j < end; ++j) body(j, 0.0);
+  if (j + 2 <= end) {
+    body(j, typename HalfOf<Half>::type{});
+    j += 2;
+  }
+  if (j < end) body(j, 0.0);
 }
 
 // Always inlined, so that they are compiled for the instruction set of the loop around them. Part by part: what is
@@ -230,33 +235,35 @@ template <class V>
 }
 
 // In one fixed order, whatever the instruction set.
-[[gnu::always_inline]] inline double sum(const Lanes& v) {
-  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
-}
-[[gnu::always_inline]] inline double sum(const HalfLanes& v) { return (v[0] + v[1]) + (v[2] + v[3]); }
-[[gnu::always_inline]] inline double sum(const Pair& v) { return v[0] + v[1]; }
 [[gnu::always_inline]] inline double sum(double v) { return v; }
-template <class Half>
-[[gnu::always_inline]] inline double sum(const TwoOf<Half>& v) {
-  return sum(v.low) + sum(v.high);
+[[gnu::always_inline]] inline double sum(const Pair& v) { return v[0] + v[1]; }
+template <class V>
+[[gnu::always_inline]] inline double sum(const V& v) {
+  return sum(low_half(v) + high_half(v));
 }
 
 // Σ_j f(j) over [begin, end), with f as the body of for_lanes.
 template <class V, class F>
 [[gnu::always_inline]] inline double sum_lanes(std::ptrdiff_t begin, std::ptrdiff_t end, const F& f) {
+  using Half = typename HalfOf<V>::type;
   V sums{};
-  typename HalfOf<V>::type half{};
+  Half half{};
+  typename HalfOf<Half>::type pair{};
   double rest = 0;
   for_lanes<V>(
       begin, end, [&]<class X>(std::ptrdiff_t j, const X& lanes) __attribute__((always_inline)) {
         if constexpr (std::is_same_v<X, V>)
           sums += f(j, lanes);
-        else if constexpr (std::is_same_v<X, double>)
-          rest += f(j, lanes);
-        else
+        else if constexpr (std::is_same_v<X, Half>)
           half = f(j, lanes);
+        else if constexpr (std::is_same_v<X, double>)
+          rest = f(j, lanes);
+        else
+          pair = f(j, lanes);
       });
-  return sum(sums) + sum(half) + rest;
+  half += low_half(sums) + high_half(sums);
+  pair += low_half(half) + high_half(half);
+  return sum(pair) + rest;
 }
 
 }  // namespace seiche

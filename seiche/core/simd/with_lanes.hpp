@@ -24,7 +24,7 @@ template <class Body>
 }  // namespace lanes_detail
 
 template <class Body>
-auto with_lanes(const Body& body) {
+[[gnu::always_inline]] inline auto with_lanes(const Body& body) {
   switch (register_bits) {
     case 512: return lanes_detail::in_512_bits(body);
     case 256: return lanes_detail::in_256_bits(body);

@@ -4,24 +4,6 @@
 #include <cmath>
 
 namespace seiche {
-namespace midpoint_memory {
-
-double weight(std::span<const double> lengths, double h) { return (h / 2 + lengths[0]) / (lengths[0] + lengths[1]); }
-
-double ratio(std::span<const double> lengths) { return (lengths[0] + lengths[1]) / (lengths[1] + lengths[2]); }
-
-bool reaches(double weight) { return weight > 0 && weight <= 4; }
-
-bool predicts_well(double missed, double moved) {
-  constexpr double share = 0.75, most_missed = 0.05;
-  return square(share) * missed <= square(most_missed) * moved;
-}
-
-double resting(double before, bool has_missed) {
-  return has_missed ? 1 : std::max(before - 1, 0.0);  // the step that missed took the gradient already
-}
-
-}  // namespace midpoint_memory
 
 void MidpointPredictor::begin(State& s) const {
   s.midpoints = {};
@@ -47,11 +29,13 @@ bool MidpointPredictor::recall(const State& s, const Propagator& propagator, dou
   const Propagator::Gradients gradients{memory.gradients[0], memory.gradients[1], memory.gradients[2], weight,
                                         midpoint_memory::ratio(memory.lengths)};
   Propagator::Recalled recalled;
-  if (!propagator.recall(s.z, gradients, z_mid, before, recalled))
-    recalled = recall_unfused(s, propagator, gradients, h, z_mid, before);
-  if (recalled.missed_is_rough && !midpoint_memory::predicts_well(recalled.missed, recalled.moved))
-    recalled.missed = missed(propagator, gradients);
+  const bool is_fused = propagator.recall(s.z, gradients, z_mid, before, recalled);
+  if (!is_fused) recalled = recall_unfused(s, propagator, gradients, h, z_mid, before);
   has_missed_ = !midpoint_memory::predicts_well(recalled.missed, recalled.moved);
+  if (has_missed_ && recalled.missed_is_rough) {
+    has_missed_ = !midpoint_memory::predicts_well(missed(propagator, gradients), recalled.moved);
+    if (!has_missed_ && is_fused) propagator.recall(s.z, gradients, z_mid, before, recalled);  // for `powers`
+  }
   return !has_missed_;
 }
 

@@ -1,11 +1,13 @@
 // ẑ, the second-order approximation at the midpoint where every closure takes ĝ = ∇V(ẑ). No energy law depends on it.
 #pragma once
 
+#include <seiche/core/base/vector.hpp>
 #include <seiche/core/propagator.hpp>
 #include <seiche/core/state.hpp>
 #include <seiche/core/system.hpp>
 #include <seiche/method/common/method_options.hpp>
 
+#include <algorithm>
 #include <span>
 
 namespace seiche {
@@ -14,12 +16,21 @@ namespace seiche {
 // members of a panel.
 namespace midpoint_memory {
 
-double weight(std::span<const double> lengths, double h);  // w
-double ratio(std::span<const double> lengths);  // of the second difference d = g₀ − g₁ − ratio·(g₁ − g₂)
-bool reaches(double weight);                    // true if the step is not much longer than those before
+inline double weight(std::span<const double> lengths, double h) {  // w
+  return (h / 2 + lengths[0]) / (lengths[0] + lengths[1]);
+}
+// Of the second difference d = g₀ − g₁ − ratio·(g₁ − g₂).
+inline double ratio(std::span<const double> lengths) { return (lengths[0] + lengths[1]) / (lengths[1] + lengths[2]); }
+inline bool reaches(double weight) { return weight > 0 && weight <= 4; }  // a step not much longer than those before
+
 // True if the last extrapolation missed little of what a step moves, from |F_{h/2}d|² and |ẑ − z⁻|² in V's components.
-bool predicts_well(double missed, double moved);
-double resting(double before, bool has_missed);  // steps that are to take the gradient yet, behind one more
+inline bool predicts_well(double missed, double moved) {
+  constexpr double share = 0.75, most_missed = 0.05;
+  return square(share) * missed <= square(most_missed) * moved;
+}
+
+// Steps that are to take the gradient yet, behind one more. One that missed took it already.
+inline double resting(double before, bool has_missed) { return has_missed ? 1 : std::max(before - 1, 0.0); }
 
 }  // namespace midpoint_memory
 
