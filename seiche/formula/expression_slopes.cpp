@@ -50,15 +50,22 @@ void add_up(const ExpressionGraph& graph, const double* a, const double* b, cons
   // out ← f·(slopes of x) + g·(slopes of y), where x and y are nodes and f and g functions of the point
   const auto combine = [&](std::size_t i, int x, int y, const auto& f, const auto& g) {
     double* const out = slopes + i * width;
-    const double* const of_x = slopes + static_cast<std::size_t>(x) * width;
-    const double* const of_y = y < 0 ? nullptr : slopes + static_cast<std::size_t>(y) * width;
-    for (std::size_t j = 0; j < points; ++j) of_f[j] = sized(f(j));
-    for (std::size_t j = 0; y >= 0 && j < points; ++j) of_g[j] = sized(g(j));
+    const auto changes = [&](int node) {
+      return node >= 0 && nodes[static_cast<std::size_t>(node)].kind != Kind::number;
+    };
+    const double* const of_x = changes(x) ? slopes + static_cast<std::size_t>(x) * width : nullptr;
+    const double* const of_y = changes(y) ? slopes + static_cast<std::size_t>(y) * width : nullptr;
+    for (std::size_t j = 0; of_x != nullptr && j < points; ++j) of_f[j] = sized(f(j));
+    for (std::size_t j = 0; of_y != nullptr && j < points; ++j) of_g[j] = sized(g(j));
     for (std::size_t d = 0; d < width; d += block) {
-      if (y < 0)
-        take_term(of_f.data(), of_x + d, out + d, points);
-      else
+      if (of_x != nullptr && of_y != nullptr)
         add_terms(of_f.data(), of_x + d, of_g.data(), of_y + d, out + d, points);
+      else if (of_x != nullptr)
+        take_term(of_f.data(), of_x + d, out + d, points);
+      else if (of_y != nullptr)
+        take_term(of_g.data(), of_y + d, out + d, points);
+      else
+        std::fill_n(out + d, points, 0.0);
     }
   };
   std::array<double, block> of_call;  // NOLINT(cppcoreguidelines-pro-type-member-init): written before it is read

@@ -1,4 +1,5 @@
 #include <seiche/core/base/vector.hpp>
+#include <seiche/core/simd/multiversion.hpp>
 #include <seiche/formula/formula_function.hpp>
 
 #include <algorithm>
@@ -104,7 +105,7 @@ double slope_of_atanh(double a, double b) {
 
 // f'((a + b)/2) · s(d)/d with d = (b − a)/2, where s is sin or sinh, and s(d)/d = 1 + sign·d²/6 near 0.
 template <VectorFunctions::One VectorFunctions::*derivative, VectorFunctions::One VectorFunctions::*s, int sign>
-void slopes_by_addition(const double* a, const double* b, double* slopes, std::size_t n) {
+SEICHE_MULTIVERSION void slopes_by_addition(const double* a, const double* b, double* slopes, std::size_t n) {
   constexpr std::size_t block = 64;
   std::array<double, block> d{}, of_d{};
   for (std::size_t begin = 0; begin < n; begin += block) {
@@ -116,8 +117,10 @@ void slopes_by_addition(const double* a, const double* b, double* slopes, std::s
     }
     (vector_functions().*s)(d.data(), of_d.data(), count);
     (vector_functions().*derivative)(out, out, count);
-    for (std::size_t j = 0; j < count; ++j)
-      out[j] *= std::abs(d[j]) < 1e-4 ? 1 + sign * d[j] * d[j] / 6 : of_d[j] / d[j];
+    for (std::size_t j = 0; j < count; ++j) {
+      const double ratio = of_d[j] / d[j];  // not a number at 0, where it is not taken
+      out[j] *= std::abs(d[j]) < 1e-4 ? 1 + sign * d[j] * d[j] / 6 : ratio;
+    }
   }
 }
 constexpr auto slopes_of_sin = slopes_by_addition<&VectorFunctions::cos, &VectorFunctions::sin, -1>;
