@@ -11,6 +11,7 @@
 #include "floor.hpp"
 #include "step_beside.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ namespace {
 
 using seiche::Index;
 using seiche::Problem;
-using Points = std::vector<Index>;  // along each axis
+using Points = std::vector<Index>;      // along each axis
+using Make = std::function<Problem()>;  // when it is measured: a million points each are many
 
 constexpr double h = 1.0 / 256;
 
@@ -41,7 +43,8 @@ Problem gkdv(Index points) {
 
 // A method that solves an equation makes as many transforms as that takes. A backend without transforms has the triad
 // alone beside it.
-void step_cost(benchmark::State& state, const Problem& problem, const std::string& method, const std::string& backend) {
+void step_cost(benchmark::State& state, const Make& make, const std::string& method, const std::string& backend) {
+  const Problem problem = make();
   const double per_point = 1e9 / static_cast<double>(problem.grid.unknowns());
   seiche::bench::StepBeside cost{};
   for (auto _ : state) {
@@ -59,7 +62,8 @@ void step_cost(benchmark::State& state, const Problem& problem, const std::strin
 
 // A step of seisav by both predictors, four transforms and a triad in turns, on a grid that is periodic along every
 // axis: nanoseconds per point, and the ratios to the transforms that a step takes, and to four.
-void floor_cost(benchmark::State& state, const Problem& problem, int threads) {
+void floor_cost(benchmark::State& state, const Points& points, int threads) {
+  const Problem problem = klein_gordon(points);
   const double per_point = 1e9 / static_cast<double>(problem.grid.unknowns());
   seiche::bench::Floor floor;
   for (auto _ : state) {
@@ -86,9 +90,7 @@ std::string joined(const Points& points, const char* separator) {
 void add_floor(const Points& points, int threads) {
   std::string label = "floor/seisav/" + joined(points, "/");
   if (threads > 1) label += "/threads:" + std::to_string(threads);
-  benchmark::RegisterBenchmark(label.c_str(), floor_cost, klein_gordon(points), threads)
-      ->UseManualTime()
-      ->Iterations(1);
+  benchmark::RegisterBenchmark(label.c_str(), floor_cost, points, threads)->UseManualTime()->Iterations(1);
 }
 
 bool applies(const Problem& problem, const std::string& method, const std::string& backend) {
@@ -100,11 +102,11 @@ bool applies(const Problem& problem, const std::string& method, const std::strin
   }
 }
 
-void add(const std::string& name, const Problem& problem, const Points& points, const std::string& backend,
+void add(const std::string& name, const Make& make, const Points& points, const std::string& backend,
          const std::vector<std::string>& methods) {
   for (const std::string& method : methods) {
     const std::string label = name + "/" + method + "/" + backend + "/N=" + joined(points, "x");
-    benchmark::RegisterBenchmark(label.c_str(), step_cost, problem, method, backend)->UseManualTime()->Iterations(1);
+    benchmark::RegisterBenchmark(label.c_str(), step_cost, make, method, backend)->UseManualTime()->Iterations(1);
   }
 }
 
@@ -119,7 +121,9 @@ void add_everything() {
   const std::vector<std::string> few = {"seisav", "seavf", "seilm"};  // one of each closure of the paper
   const auto add_grids = [](const std::string& backend, const std::vector<Points>& grids,
                             const std::vector<std::string>& methods) {
-    for (const Points& points : grids) add("klein_gordon", klein_gordon(points), points, backend, methods);
+    for (const Points& points : grids)
+      add(
+          "klein_gordon", [points] { return klein_gordon(points); }, points, backend, methods);
   };
   const auto all = [](const std::string& backend) { return methods_for(klein_gordon({20}), backend); };
   add_grids("dense", {{8}, {20}, {64}}, all("dense"));
@@ -128,8 +132,10 @@ void add_everything() {
   add_grids("sparse", {{20}, {512}, {4096}}, all("sparse"));
   add_grids("sparse", {{64, 64}}, few);
   for (const std::string backend : {"dense", "modal", "sparse"}) {
-    add("alpha_fpu", alpha_fpu(20), {20}, backend, methods_for(alpha_fpu(20), backend));
-    add("gkdv", gkdv(20), {20}, backend, methods_for(gkdv(20), backend));
+    add(
+        "alpha_fpu", [] { return alpha_fpu(20); }, {20}, backend, methods_for(alpha_fpu(20), backend));
+    add(
+        "gkdv", [] { return gkdv(20); }, {20}, backend, methods_for(gkdv(20), backend));
   }
   for (const Index points : {20, 64, 512, 4096, 65536, 1 << 20}) add_floor({points}, 1);
   for (const int threads : {1, 2})
